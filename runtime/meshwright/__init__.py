@@ -1,0 +1,1 @@
+"""meshwright: tooth contact analysis on generated gear meshing equations."""
