@@ -1,1 +1,1 @@
-
+"""Symbolic side of meshwright: from kinematic chains to generated code."""

@@ -1,1 +1,1 @@
-
+"""Generating tools: one file each."""

@@ -1,0 +1,52 @@
+"""The compiler: six stages from the definition of a drive to generated files.
+
+define    ``derive.drives``            → :class:`~derive.drive.Drive`: chains, symbols, parameters, limits
+derive    ``derive.surface, envelope`` → locus, normal, equation of meshing
+reduce    ``derive.envelope``          → explicit surfaces, fewer unknowns
+prove     ``derive.prove``             → certificates for the identities behind them
+schedule  ``derive.schedule``          → one tape with derivatives, binding times and pivot order
+emit      ``derive.emit``              → C99, CasADi, JSON
+
+Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
+a paper. The stages after that are common to all drives.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+
+from derive.emit import c99, casadi, metadata
+from derive.schedule import schedule
+
+ROOT = Path(__file__).resolve().parent.parent
+MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
+
+
+def compile_drive(drive, log):
+    """All generated files of one drive: relative path → text."""
+    with log("schedule", drive.name):
+        plan = schedule(drive)
+    with log("emit", drive.name):
+        description = metadata.describe(plan)
+        return {
+            f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
+            f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",
+            f"casadi/{drive.name}.casadi": casadi.text(plan) + "\n",
+        }
+
+
+def manifest(files):
+    """The list of all generated files with their hashes."""
+    hashes = {path: hashlib.sha256(text.encode()).hexdigest() for path, text in sorted(files.items())}
+    return json.dumps({"schema": "meshwright.manifest/1", "files": hashes}, indent=1) + "\n"
+
+
+def table_of_models(names):
+    """C source that lists the model of every drive, for the shared library."""
+    includes = "".join(f'#include "{name}.h"\n' for name in names)
+    rows = "".join(f"    &{name}_model,\n" for name in names)
+    return (
+        "/* Every generated drive, for runtime/c. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
+        f"{includes}\n"
+        f"static const mw_model *const mw_models[] = {{\n{rows}    NULL\n}};\n"
+    )

@@ -1,0 +1,71 @@
+"""Named intermediate results: an ordered list ``symbol = expression`` with total derivatives by the chain rule.
+
+Long formulae stay readable (and short) because a part that has a meaning gets a name. Definitions may use
+earlier definitions; differentiation follows them.
+"""
+
+import sympy as sp
+
+from derive.symbols import Quantity
+
+
+class Definitions:
+    """An ordered, append-only table of named expressions."""
+
+    def __init__(self):
+        self._values = {}
+        self._derivatives = {}
+
+    def __getitem__(self, symbol):
+        return self._values[symbol]
+
+    def __contains__(self, symbol):
+        return symbol in self._values
+
+    def items(self):
+        return self._values.items()
+
+    def let(self, name, value, meaning="", unit="", frame=""):
+        """Name a value; numbers and single symbols need no name and are returned as they are."""
+        value = sp.sympify(value)
+        if value.is_Number or value.is_Symbol:
+            return value
+        symbol = Quantity(name, unit, meaning, frame)
+        known = self._values.setdefault(symbol, value)
+        if known != value:
+            raise ValueError(f"the name {name!r} is already used for another expression")
+        return symbol
+
+    def let_vector(self, name, value, meaning="", unit="", frame=""):
+        """Name the three components of a vector ``name_x``, ``name_y``, ``name_z``."""
+        return tuple(
+            self.let(f"{name}_{axis}", component, meaning, unit, frame)
+            for axis, component in zip("xyz", value, strict=True)
+        )
+
+    def derivative(self, expression, variable):
+        """Total derivative by ``variable``, following definitions."""
+        expression = sp.sympify(expression)
+        total = sp.diff(expression, variable)
+        for symbol in sorted(expression.free_symbols & self._values.keys(), key=str):
+            inner = self._derivative_of(symbol, variable)
+            if inner != 0:
+                total += sp.diff(expression, symbol) * inner
+        return total
+
+    def derivative_vector(self, vector, variable):
+        return tuple(self.derivative(c, variable) for c in vector)
+
+    def depends(self, expression, variable):
+        """Whether the expression contains the variable, directly or through definitions."""
+        symbols = sp.sympify(expression).free_symbols
+        return variable in symbols or any(
+            self.depends(self._values[s], variable) for s in symbols & self._values.keys()
+        )
+
+    def _derivative_of(self, symbol, variable):
+        key = symbol, variable
+        if key not in self._derivatives:
+            value = self.derivative(self._values[symbol], variable)
+            self._derivatives[key] = self.let(f"{symbol}_{variable}", value)
+        return self._derivatives[key]

@@ -1,0 +1,105 @@
+"""What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive.chain import Motion
+from derive.definitions import Definitions
+from derive.symbols import Guard, Parameter, Quantity, Rule, Unknown
+from derive.surface import Surface
+
+
+@dataclass(frozen=True)
+class Margin:
+    """A limit of validity: where ``positive`` < 0 the point carries ``flag``.
+
+    ``positive`` is formed from body coordinates, surface parameters and design parameters. A limit whose design
+    key is not given is "not a number" and never raises its flag. ``event`` is the word by which a contact window
+    that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
+    reference point, for functions whose sign has no meaning of its own.
+    """
+
+    flag: str
+    event: str
+    positive: sp.Expr
+    relative: bool = False
+
+
+@dataclass(frozen=True)
+class Body:
+    """A member of the drive: its flank in its own frame, its motion in mesh, its limits.
+
+    ``point`` and ``normal`` are symbols for the body-frame coordinates, used by ``margins``. ``reference`` gives
+    the surface parameters of a regular point, where the singular function has its good sign. ``recovered`` are
+    parameters that the reduce stage removed and a user still wants to read.
+    """
+
+    name: str
+    surface: Surface
+    motion: Motion
+    reference: dict
+    point: tuple = ()
+    margins: tuple[Margin, ...] = ()
+    recovered: tuple = ()
+
+    @property
+    def placed(self):
+        return self.surface.placed(self.motion)
+
+
+def body_point(name):
+    """Symbols for the body-frame coordinates of a contact point, for use in margins."""
+    return tuple(Quantity(f"{axis}_{name}", "mm", f"{axis} of the point, {name} frame", name) for axis in "xyz")
+
+
+@dataclass(frozen=True)
+class System:
+    """Equations ``residual`` = 0 for ``unknowns`` at given parameters and, if there is one, instant.
+
+    ``outputs`` are what the solution is wanted for, ``fixed`` replaces symbols by constants throughout.
+    """
+
+    name: str
+    definitions: Definitions
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    outputs: dict = field(default_factory=dict)
+    fixed: dict = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A gear drive, complete: the input of the schedule and emit stages.
+
+    ``variant`` are the words of the design file that choose this drive within its family. Of each group in
+    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made.
+    """
+
+    name: str
+    family: str
+    title: str
+    parameters: tuple[Parameter, ...]
+    rules: tuple[Rule, ...]
+    guards: tuple[Guard, ...]
+    sizes: tuple[tuple[str, sp.Expr, str], ...]
+    instant: Quantity
+    error: Quantity
+    ratio: sp.Expr
+    wheel_angle: sp.Expr
+    pinion: Body
+    wheel: Body
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    definitions: Definitions
+    start: System
+    guess: dict
+    sample: dict
+    sample_angle: float
+    variant: dict = field(default_factory=dict)
+    exclusive: tuple[tuple[str, ...], ...] = ()
+    required: tuple[str, ...] = ()
+
+    @property
+    def bodies(self):
+        return self.pinion, self.wheel

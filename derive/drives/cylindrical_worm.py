@@ -1,0 +1,344 @@
+"""Cylindrical worm drives: a worm of any ISO flank form and a wheel cut by a hob of any ISO flank form.
+
+Frames: ``f`` fixed, z along the worm axis, x from worm to wheel; the wheel axis is (0, sin Σ, cos Σ) through
+(A, 0, 0). The worm turns by +φ1 about z, the wheel by +φ2 about minus its axis. Right hand; the left-hand drive is
+the mirror image y → −y. Sources: 000_e4dc51872e8570c2.txt (recess action), the conference paper at the end of
+003_1b02f86c27c1e1b1.txt (ZK worm, ZN hob).
+"""
+
+from functools import partial
+
+import sympy as sp
+
+from derive import vectors as v
+from derive.chain import Rx, Ry, Rz, translation
+from derive.contact import contact
+from derive.definitions import Definitions
+from derive.drive import Body, Drive, Margin, System, body_point
+from derive.envelope import envelope, explicit, merge_sum
+from derive.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
+from derive.tools.straight_blade import straight_blade
+from derive.tools.worm_body import WormBody
+
+#: ISO 10828 letters and the tools that make them.
+TOOLS = {"ZN": straight_blade}
+
+POSITIVE = (0, sp.oo)
+
+flank = parameter("flank", "s", "groove flank", table=Table.FLANK, choices=(("right", 1), ("left", -1)), default=1)
+normal_module = parameter("normal_module_mm", "m_n", "normal module", domain=POSITIVE)
+axial_module = parameter("axial_module_mm", "m_x", "axial module", domain=POSITIVE)
+threads = parameter("worm_threads", "T_1", "threads of the worm", domain=POSITIVE, integer=True, required=True)
+teeth = parameter("wheel_teeth", "T_2", "teeth of the wheel", domain=POSITIVE, integer=True, required=True)
+lead_angle = parameter("worm_lead_angle_deg", "lambda_worm", "lead angle of the worm", domain=(0, sp.pi / 2))
+pitch_radius = parameter("worm_pitch_radius_mm", "r_worm", "reference radius of the worm", domain=POSITIVE)
+pressure_angle = parameter(
+    "pressure_angle_deg", "alpha", "pressure angle of the generating profile", domain=(0, sp.pi / 2), required=True
+)
+shaft_angle = parameter("shaft_angle_deg", "Sigma", "shaft angle", domain=(0, sp.pi), default=sp.pi / 2)
+shift = parameter("pitch_line_shift_mm", "dx", "pitch line below the middle of the blade height", default=0)
+hob_radius = parameter("hob_pitch_radius_mm", "r_hob", "reference radius of the hob", domain=POSITIVE)
+hob_threads = parameter("hob_threads", "T_hob", "threads of the hob", domain=POSITIVE, integer=True)
+wheel_radius = parameter(
+    "grinding_wheel_radius_mm", "r_c_worm", "grinding wheel radius of the worm", domain=POSITIVE
+)
+arc_radius = parameter("profile_arc_radius_mm", "rho_c_worm", "profile arc radius of the worm", domain=POSITIVE)
+hob_pressure_angle = parameter(
+    "hob_pressure_angle_deg", "alpha_hob", "pressure angle of the hob's profile", domain=(0, sp.pi / 2)
+)
+hob_wheel_radius = parameter(
+    "hob_grinding_wheel_radius_mm", "r_c_hob", "grinding wheel radius of the hob", domain=POSITIVE
+)
+hob_arc_radius = parameter(
+    "hob_profile_arc_radius_mm", "rho_c_hob", "profile arc radius of the hob", domain=POSITIVE
+)
+hob_lead_angle = parameter("hob_lead_angle_deg", "lambda_hob", "lead angle of the hob", domain=(0, sp.pi / 2))
+center_distance = parameter("center_distance_mm", "A", "centre distance", domain=POSITIVE)
+cutting_distance = parameter("cutting_center_distance_mm", "A_gen", "cutting centre distance", domain=POSITIVE)
+cutting_angle = parameter("cutting_shaft_angle_deg", "Sigma_gen", "cutting shaft angle", domain=(0, sp.pi))
+
+error_distance = parameter(
+    "center_distance_mm", "dA", "centre distance error, wheel away from the worm", table=Table.MISALIGNMENT, default=0
+)
+error_horizontal = parameter(
+    "horizontal_deg", "dh", "shaft angle error, about x", table=Table.MISALIGNMENT, default=0
+)
+error_vertical = parameter(
+    "vertical_deg", "dv", "tilt about y of the already tilted wheel frame", table=Table.MISALIGNMENT, default=0
+)
+error_axial = parameter(
+    "axial_mm", "da", "shift of the wheel along its own axis", table=Table.MISALIGNMENT, default=0
+)
+
+wheel_tip = parameter(
+    "wheel_tip_radius_mm", "R_tip", "outside cylinder of the wheel", table=Table.BLANK, domain=POSITIVE
+)
+wheel_throat = parameter(
+    "wheel_throat_radius_mm", "R_throat", "throat circle of the wheel", table=Table.BLANK, domain=POSITIVE
+)
+face_width = parameter(
+    "wheel_face_width_mm", "b_wheel", "face width of the wheel", table=Table.BLANK, domain=POSITIVE
+)
+worm_tip = parameter("worm_tip_radius_mm", "rho_tip", "tip radius of the worm", table=Table.BLANK, domain=POSITIVE)
+worm_root = parameter("worm_root_radius_mm", "rho_root", "root radius of the worm", table=Table.BLANK, domain=POSITIVE)
+hob_tip = parameter(
+    "hob_tip_addendum_mm", "h_hob", "end of the blade beyond the pitch line", table=Table.BLANK, domain=POSITIVE
+)
+separation = parameter(
+    "separation_mm",
+    "delta",
+    "separation for contact ellipses",
+    table=Table.CONTACT,
+    domain=POSITIVE,
+    default=sp.Rational(632, 100000),
+)
+allowance = parameter(
+    "elastic_allowance_mm", "delta_e", "separation below which a pair counts as touching", table=Table.CONTACT, default=0
+)
+
+PARAMETERS = (
+    flank, normal_module, axial_module, threads, teeth, lead_angle, pitch_radius, pressure_angle, shaft_angle, shift,
+    hob_radius, hob_threads, wheel_radius, arc_radius, hob_pressure_angle, hob_wheel_radius, hob_arc_radius,
+    hob_lead_angle, center_distance, cutting_distance, cutting_angle,
+    error_distance, error_horizontal, error_vertical, error_axial,
+    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, separation, allowance,
+)  # fmt: skip
+
+s, m_n, m_x, T_1, T_2 = (q.symbol for q in (flank, normal_module, axial_module, threads, teeth))
+lam, r_1, alpha, Sigma = (q.symbol for q in (lead_angle, pitch_radius, pressure_angle, shaft_angle))
+r_h, T_h, lam_h, alpha_h = (q.symbol for q in (hob_radius, hob_threads, hob_lead_angle, hob_pressure_angle))
+A, A_gen, Sigma_gen = (q.symbol for q in (center_distance, cutting_distance, cutting_angle))
+
+#: Derived sizes that every formula shares.
+p_1 = r_1 * sp.tan(lam)
+p_h = r_h * sp.tan(lam_h)
+r_2 = m_n * T_2 / (2 * sp.sin(Sigma + lam))
+groove_width = sp.pi * m_n / 2 - 2 * shift.symbol * sp.tan(alpha)
+
+RULES = (
+    Rule(lam, sp.atan2(m_x * T_1 / 2, r_1)),
+    Rule(lam, sp.asin(m_n * T_1 / (2 * r_1))),
+    Rule(m_n, m_x * sp.cos(lam)),
+    Rule(m_x, m_n / sp.cos(lam)),
+    Rule(r_1, m_n * T_1 / (2 * sp.sin(lam))),
+    Rule(r_h, r_1),
+    Rule(T_h, T_1),
+    Rule(lam_h, sp.asin(m_n * T_h / (2 * r_h))),
+    Rule(alpha_h, alpha),
+    Rule(hob_wheel_radius.symbol, wheel_radius.symbol),
+    Rule(hob_arc_radius.symbol, arc_radius.symbol),
+    Rule(A, r_1 + r_2),
+    Rule(A_gen, A + r_h - r_1),
+    Rule(Sigma_gen, Sigma + lam - lam_h),
+)
+
+GUARDS = (
+    Guard(
+        1 - m_n * T_1 / (2 * r_1),
+        "the worm is too thin for its module and threads: m_n·T1/(2·r1) must be below 1",
+        (normal_module.key, threads.key, pitch_radius.key),
+    ),
+    Guard(
+        1 - m_n * T_h / (2 * r_h),
+        "the hob is too thin for its module and threads: m_n·T_h/(2·r_h) must be below 1",
+        (normal_module.key, hob_threads.key, hob_radius.key),
+    ),
+    Guard(
+        sp.pi - Sigma - lam,
+        "shaft angle plus lead angle must stay below 180°",
+        (shaft_angle.key, lead_angle.key),
+    ),
+    Guard(Sigma_gen, "the cutting shaft angle must be above 0°", (cutting_angle.key, shaft_angle.key)),
+    Guard(sp.pi - Sigma_gen, "the cutting shaft angle must be below 180°", (cutting_angle.key, shaft_angle.key)),
+    Guard(
+        groove_width,
+        "no groove is left on the pitch cylinder: π·m_n/2 − 2·shift·tan(pressure angle) must be positive",
+        (normal_module.key, shift.key, pressure_angle.key),
+    ),
+)
+
+SIZES = (
+    ("screw_parameter_worm_mm_per_rad", p_1, "screw parameter of the worm"),
+    ("screw_parameter_hob_mm_per_rad", p_h, "screw parameter of the hob"),
+    ("lead_worm_mm", 2 * sp.pi * p_1, "lead of the worm"),
+    ("wheel_pitch_radius_mm", r_2, "reference radius of the wheel"),
+    ("wheel_helix_angle_deg", sp.pi / 2 - lam - Sigma, "helix angle of the wheel; positive: hand opposite to the worm"),
+    ("groove_width_mm", groove_width, "normal width of the groove on the pitch cylinder"),
+    ("ratio", T_1 / T_2, "transmission ratio T1/T2"),
+)  # fmt: skip
+
+
+def _threaded_body(name, radius, lead, angle, disc, arc):
+    return WormBody(
+        name=name,
+        turn=Quantity(f"psi_{name}", "rad", f"screw angle of the {name} flank", name),
+        pitch_radius=radius,
+        lead_angle=lead,
+        screw_parameter=radius * sp.tan(lead),
+        pressure_angle=angle,
+        groove_width=groove_width,
+        flank=s,
+        grinding_wheel_radius=disc.symbol,
+        profile_arc_radius=arc.symbol,
+        tip_addendum=hob_tip.symbol,
+    )
+
+
+def cylindrical_worm(worm_profile, hob_profile):
+    """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC")."""
+    definitions = Definitions()
+    phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
+    error = Quantity("transmission_error", "rad", "wheel angle less ratio times worm angle", "f")
+    ratio = definitions.let("ratio", T_1 / T_2, "T1/T2")
+    phi_2 = ratio * phi_1 + error
+
+    # The worm and the hob are helicoids of the same kind.
+    worm = TOOLS[worm_profile](_threaded_body("worm", r_1, lam, alpha, wheel_radius, arc_radius), definitions)
+    hob = TOOLS[hob_profile](_threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius), definitions)
+
+    # The hob turns by φ_h, the blank by T_h/T2·φ_h about minus its axis.
+    phi_h = Quantity("phi_hob", "rad", "angle of the hob in cutting", "gen")
+    cutting = Rz(T_h / T_2 * phi_h) @ Rx(Sigma_gen) @ translation(x=-A_gen) @ Rz(phi_h)
+    wheel = envelope(hob.flank, cutting, phi_h)
+    psi_h = hob.flank.parameters[1]
+    wheel, psi = merge_sum(wheel, psi_h, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
+    wheel, _ = explicit(wheel)
+    phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen")
+
+    t_w, psi_w = worm.flank.parameters
+    t_h = hob.parameter
+    pinion = Body(
+        "pinion",
+        worm.flank,
+        Rz(phi_1),
+        reference={t_w: worm.pitch_point, psi_w: sp.Integer(0)},
+        point=body_point("pinion"),
+        margins=_worm_margins(body_point("pinion"), worm),
+    )
+    mounting = (
+        translation(x=A + error_distance.symbol)
+        @ Rx(-(Sigma + error_horizontal.symbol))
+        @ Ry(error_vertical.symbol)
+        @ translation(z=error_axial.symbol)
+        @ Rz(-phi_2)
+    )
+    wheel_body = Body(
+        "wheel",
+        wheel,
+        mounting,
+        reference={t_h: hob.pitch_point, psi: sp.Integer(0)},
+        point=body_point("wheel"),
+        margins=_wheel_margins(body_point("wheel"), hob, psi, definitions),
+        recovered=(psi_h, phi_h),
+    )
+    unknowns = tuple(
+        Unknown(symbol, m_n if symbol.unit == "mm" else sp.Integer(1)) for symbol in (t_w, psi_w, t_h, psi, error)
+    )
+    return Drive(
+        name=_name(worm_profile, hob_profile),
+        family="cylindrical-worm",
+        title=f"{worm_profile} worm with a wheel cut by a {hob_profile} hob",
+        parameters=PARAMETERS,
+        rules=RULES,
+        guards=GUARDS + _profile_guards(worm, hob),
+        sizes=SIZES,
+        instant=phi_1,
+        error=error,
+        ratio=ratio,
+        wheel_angle=phi_2,
+        pinion=pinion,
+        wheel=wheel_body,
+        unknowns=unknowns,
+        residual=contact(pinion.placed, wheel_body.placed),
+        definitions=definitions,
+        start=_start(worm, hob, psi, phi_1, phi_h, error, definitions),
+        guess={t_w: worm.pitch_point, t_h: hob.pitch_point},
+        sample=SAMPLE,
+        sample_angle=7.0,
+        variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
+        exclusive=(
+            (normal_module.key, axial_module.key),
+            (lead_angle.key, pitch_radius.key),
+        ),
+    )
+
+
+def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
+    """A point close to contact: on the hob's mid plane Ψ = 0 at the right cutting angle, and below it on the worm."""
+    t_w, psi_w = worm.flank.parameters
+    t_h = hob.parameter
+    at_middle = {psi: sp.Integer(0)}
+    worm_x, worm_y, _ = worm.flank.point
+    hob_x, hob_y, _ = hob.flank.point
+    worm_radius = sp.sqrt(worm_x**2 + worm_y**2)
+    hob_radius_here = sp.sqrt(hob_x**2 + hob_y**2)
+    return System(
+        name="start",
+        definitions=definitions,
+        unknowns=(Unknown(t_w, m_n), Unknown(t_h, m_n)),
+        residual=(worm_radius - r_1 - (hob_radius_here - r_h), phi_h - phi_1 * T_1 / T_h),
+        outputs={
+            t_w: t_w,
+            psi_w: sp.atan2(hob_y, hob_x) - phi_1 - sp.atan2(worm_y, worm_x),
+            t_h: t_h,
+            psi: sp.Integer(0),
+            error: sp.Integer(0),
+        },
+        fixed=at_middle,
+    )
+
+
+def _worm_margins(point, worm):
+    x, y, _ = point
+    radius = sp.sqrt(x**2 + y**2)
+    return (
+        Margin("off_tip", "tip", worm_tip.symbol - radius),
+        Margin("off_root", "root", radius - worm_root.symbol),
+        *_regression(worm),
+    )
+
+
+def _wheel_margins(point, hob, psi, definitions):
+    x, y, z = point
+    radius = sp.sqrt(x**2 + y**2)
+    height, throat = A - radius, A - wheel_throat.symbol
+    n_x = Rz(psi).direction(hob.flank.normal)[0]
+    return (
+        Margin("off_tip", "tip", wheel_tip.symbol - radius),
+        Margin("off_tip", "throat", sp.sqrt(height**2 + z**2) - throat),
+        Margin("off_face", "face", face_width.symbol / 2 - sp.Abs(z)),
+        Margin("off_tool", "tool_end", hob.tip_margin),
+        Margin("spurious_sheet", "spurious_sheet", n_x, relative=True),
+        *_regression(hob),
+    )
+
+
+def _regression(tool):
+    return () if tool.regular is None else (Margin("beyond_regression", "regression", tool.regular),)
+
+
+def _profile_guards(worm, hob):
+    return tuple(
+        Guard(value, f"{body}: {reason}", (normal_module.key, lead_angle.key, pressure_angle.key, radius.key))
+        for body, tool, radius in (("worm", worm, pitch_radius), ("hob", hob, hob_radius))
+        for reason, value in tool.radicands
+    )
+
+
+def catalogue():
+    """Every combination of a worm and a hob: name → builder."""
+    return {
+        _name(worm, hob): partial(cylindrical_worm, worm, hob) for worm in TOOLS for hob in TOOLS
+    }
+
+
+def _name(worm_profile, hob_profile):
+    return f"cylindrical_worm_{worm_profile}_{hob_profile}".lower()
+
+
+#: A regular design (the fully recess-action drive) and angles: here pivots are chosen and self-tests are made.
+SAMPLE = {
+    "flank": 1, "normal_module_mm": 2, "worm_threads": 1, "wheel_teeth": 277, "worm_lead_angle_deg": 3,
+    "pressure_angle_deg": 10, "pitch_line_shift_mm": 4, "hob_pitch_radius_mm": 20,
+    "grinding_wheel_radius_mm": 60, "profile_arc_radius_mm": 40,
+}  # fmt: skip

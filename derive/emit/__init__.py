@@ -1,0 +1,1 @@
+"""Printers: one tape, several languages."""

@@ -1,0 +1,169 @@
+"""Print a schedule as one self-contained C99 header.
+
+The header needs only ``sqrt``, has no heap, no writable data and no input or output, compiles as C99 and C++11, and
+gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction).
+"""
+
+from dataclasses import dataclass
+
+from derive.emit import approximation
+from derive.emit.render import render
+from derive.schedule import Schedule
+from derive.tape import Lowering, Stage, Tape
+
+_INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+
+
+def number(value):
+    """A C literal that reads back as exactly the double nearest to ``value``."""
+    text = repr(float(value))
+    return text if any(c in text for c in ".en") else text + ".0"
+
+
+@dataclass(frozen=True)
+class Body:
+    """Statements of one C function and the operand of each of its results."""
+
+    statements: tuple[str, ...]
+    results: tuple[str, ...]
+    operations: int
+
+
+class Printer:
+    """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read."""
+
+    def __init__(self, tape, prefix, leaves):
+        self.tape = tape
+        self.prefix = prefix
+        self.leaves = leaves
+
+    def body(self, outputs, known=None):
+        """C that computes ``outputs``; ``known`` maps nodes to operands of earlier statements of the function.
+
+        Returns the body and ``known`` extended by what it computed.
+        """
+        operands = dict(known or {})
+        order = self.tape.needed(outputs, operands.keys() | self.leaves.keys())
+        statements = []
+        for i in order:
+            statements += self._statement(i, operands)
+        results = tuple(self._operand(i, operands) for i in outputs)
+        return Body(tuple(statements), results, len(order)), operands
+
+    def _operand(self, i, operands):
+        value = self.tape.const_value(i)
+        if value is not None:
+            return number(value) if value >= 0 else f"({number(value)})"
+        return operands[i] if i in operands else self.leaves[i]
+
+    def _statement(self, i, operands):
+        if i in operands:
+            return []
+        node, serial = self.tape.nodes[i], len(operands)
+        args = [self._operand(a, operands) for a in node.args]
+        if node.op in ("sin", "cos"):
+            return self._sincos(node.args[0], args[0], serial, operands)
+        operands[i] = f"t{serial}"
+        match node.op:
+            case "neg":
+                value = f"-{args[0]}"
+            case "sqrt":
+                value = f"sqrt({args[0]})"
+            case "atan2":
+                value = f"{self.prefix}_atan2({args[0]}, {args[1]})"
+            case op:
+                value = f"{args[0]} {_INFIX[op]} {args[1]}"
+        return [f"const double t{serial} = {value};"]
+
+    def _sincos(self, argument, operand, serial, operands):
+        for op, letter in (("sin", "s"), ("cos", "c")):
+            if (node := self.tape.find(op, argument)) is not None:
+                operands[node] = f"{letter}{serial}"
+        return [
+            f"double s{serial}, c{serial};",
+            f"{self.prefix}_sincos({operand}, &s{serial}, &c{serial});",
+        ]
+
+
+@dataclass(frozen=True)
+class Leaves:
+    """What each stage's functions can read: node → C operand."""
+
+    design: dict
+    instant: dict
+    iterate: dict
+    state: dict
+
+    @classmethod
+    def of(cls, plan: Schedule):
+        tape, lower = plan.tape, plan.lower
+        state = {node: f"s[{slot}]" for node, slot in plan.state.items()}
+        before = {n: text for n, text in state.items() if tape.stages[n] == Stage.DESIGN}
+        return cls(
+            design={lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)},
+            instant=before | {lower(plan.drive.instant): "phi"},
+            iterate=state | {lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)},
+            state=state,
+        )
+
+
+def header(plan: Schedule, description: dict, model_source: str):
+    """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`)."""
+    drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
+    leaves = Leaves.of(plan)
+    design = Printer(tape, prefix, leaves.design)
+    instant = Printer(tape, prefix, leaves.instant)
+    iterate = Printer(tape, prefix, leaves.iterate)
+    start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
+    start = Printer(tape, prefix, leaves.iterate | start_unknowns)
+    slots = list(plan.state)
+    residual, known = iterate.body(plan.residual)
+    start_residual, start_known = start.body(plan.start_residual)
+    return render(
+        "drive.h.jinja",
+        plan=plan,
+        drive=drive,
+        X=prefix,
+        description=description,
+        model_source=model_source,
+        rules=list(_rules(drive, prefix)),
+        sizes=_from_parameters(drive, prefix, [value for _, value, _ in drive.sizes]),
+        guards=design.body(plan.guards)[0],
+        setup=design.body(slots[: plan.design_slots])[0],
+        set_phi=instant.body(slots[plan.design_slots :])[0],
+        residual=residual,
+        jacobian=iterate.body([e for row in plan.jacobian for e in row], known)[0],
+        step=iterate.body([*plan.step, *plan.step_size])[0],
+        scale=iterate.body(plan.scales)[0],
+        guess=iterate.body(plan.start_guess)[0],
+        start_residual=start_residual,
+        start_jacobian=start.body([e for row in plan.start_jacobian for e in row], start_known)[0],
+        start_solution=start.body(plan.start_solution)[0],
+        observed=iterate.body([i for o in plan.observed for i in o.nodes])[0],
+        flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
+        literal=number,
+        approximation=approximation,
+    )
+
+
+def _flank(plan, flank, state):
+    own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
+    printer = Printer(plan.tape, plan.drive.name, state | own)
+    return {"flank": flank, "body": printer.body([i for o in flank.outputs for i in o.nodes])[0]}
+
+
+def _rules(drive, prefix):
+    """Each default and rule of the drive: parameter index, statements, value, name."""
+    index = {p.symbol: k for k, p in enumerate(drive.parameters)}
+    defaults = [(p.symbol, p.default) for p in drive.parameters if p.default is not None]
+    for target, value in [*defaults, *((r.target, r.value) for r in drive.rules)]:
+        body = _from_parameters(drive, prefix, [value])
+        yield {"index": index[target], "statements": body.statements, "value": body.results[0], "name": target.name}
+
+
+def _from_parameters(drive, prefix, expressions):
+    """Expressions of the parameter vector alone, on a tape of their own."""
+    tape = Tape()
+    lower = Lowering(tape, {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+    leaves = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
+    return Printer(tape, prefix, leaves).body([lower(e) for e in expressions])[0]

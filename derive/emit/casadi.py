@@ -1,0 +1,37 @@
+"""Print a schedule as a CasADi function: the same tape over CasADi's SX symbols."""
+
+import casadi
+
+
+
+def function(plan):
+    """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards.
+
+    The unknowns of the start system are read from their places in x. Derivatives are left to CasADi.
+    """
+    drive, tape = plan.drive, plan.tape
+    p = casadi.SX.sym("p", len(drive.parameters))
+    phi = casadi.SX.sym("phi")
+    x = casadi.SX.sym("x", len(drive.unknowns))
+    inputs = {q.symbol: p[k] for k, q in enumerate(drive.parameters)}
+    inputs[drive.instant] = phi
+    inputs |= {u: x[k] for k, u in enumerate(plan.unknowns)}
+
+    def vector(nodes):
+        return casadi.vertcat(*tape.evaluate(nodes, inputs, casadi))
+
+    results = {
+        "residual": vector(plan.residual),
+        "observation": vector([i for o in plan.observed for i in o.nodes]),
+        "start_residual": vector(plan.start_residual),
+        "start_solution": vector(plan.start_solution),
+        "start_guess": vector(plan.start_guess),
+        "scale": vector(plan.scales),
+        "guards": vector(plan.guards),
+    }
+    return casadi.Function(drive.name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))
+
+
+def text(plan):
+    """The function in CasADi's own serialisation."""
+    return function(plan).serialize()

@@ -1,0 +1,163 @@
+"""Describe a schedule as plain data: the JSON beside each header, and the tables inside it."""
+
+import hashlib
+import json
+import math
+
+import mpmath
+
+from derive import newton
+from derive.symbols import interface_unit
+from derive.tape import Stage
+
+GENERATOR = "0.1.0"
+
+
+def describe(plan, provenance=None):
+    """Names, units, shapes, operations per stage, hashes and a self-test of one drive.
+
+    ``provenance`` is what the prove stage says of the drive: ``root_hash`` and ``equations``.
+    """
+    drive = plan.drive
+    offsets = _offsets(plan)
+    return {
+        "schema": "meshwright.drive/1",
+        "generator": GENERATOR,
+        "name": drive.name,
+        "prefix": drive.name,
+        "family": drive.family,
+        "title": drive.title,
+        "variant": drive.variant,
+        "abi": 1,
+        "specification_hash": specification_hash(plan),
+        "root_hash": (provenance or {}).get("root_hash", ""),
+        "equations": (provenance or {}).get("equations", []),
+        "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
+        "unknowns": [_name(u.symbol) for u in drive.unknowns],
+        "parameters": [_parameter(p) for p in drive.parameters],
+        "exclusive": [list(group) for group in drive.exclusive],
+        "required": list(drive.required),
+        "sizes": [_size(*entry) for entry in drive.sizes],
+        "guards": [{"message": g.message, "keys": list(g.keys)} for g in drive.guards],
+        "outputs": [
+            {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
+        ],
+        "error": plan.unknowns.index(drive.error),
+        "wheel_angle": offsets["wheel_angle"],
+        "bodies": [_body(plan, body, offsets) for body in drive.bodies],
+        "shapes": {
+            "p": [len(drive.parameters)],
+            "s": [len(plan.state)],
+            "x": [len(drive.unknowns)],
+            "R": [len(drive.unknowns)],
+            "J": [len(drive.unknowns)] * 2,
+            "o": [sum(len(o.nodes) for o in plan.observed)],
+        },
+        "operations": operations(plan),
+        "self_test": self_test(plan),
+    }
+
+
+def specification_hash(plan):
+    """SHA-256 of the tape, its inputs and what is read from it: equal for equal generated arithmetic."""
+    nodes = [[n.op, list(n.args), str(n.value) if n.value is not None else ""] for n in plan.tape.nodes]
+    reads = [plan.residual, plan.jacobian, plan.step, plan.start_residual, plan.start_solution, plan.guards]
+    reads += [[o.name, list(o.nodes)] for o in plan.observed]
+    reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
+    rules = [[r.target.name, str(r.value)] for r in plan.drive.rules]
+    text = json.dumps([nodes, reads, rules], separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def operations(plan):
+    """Number of operations of each stage."""
+    tape = plan.tape
+
+    def count(outputs, reached):
+        known = {i for i, stage in enumerate(tape.stages) if stage <= reached}
+        return len(tape.needed(outputs, known))
+
+    flat = [e for row in plan.jacobian for e in row]
+    slots = list(plan.state)
+    return {
+        "setup": count(slots[: plan.design_slots], Stage.CONSTANT),
+        "set_phi": count(slots[plan.design_slots :], Stage.DESIGN),
+        "residual": count(plan.residual, Stage.INSTANT),
+        "residual_and_jacobian": count([*plan.residual, *flat], Stage.INSTANT),
+        "step": count([*plan.step, *plan.step_size], Stage.INSTANT),
+        "observe": count([i for o in plan.observed for i in o.nodes], Stage.INSTANT),
+    }
+
+
+def self_test(plan):
+    """A solved contact of the sample design, for any implementation to check itself against. Hex floats."""
+    inputs = newton.sample_solution(plan)
+    start = newton.start_values(plan)
+    return {
+        "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
+        "phi": float(plan.drive.sample_angle).hex(),
+        "x_start": [x.hex() for x in start],
+        "x": [inputs[u].hex() for u in plan.unknowns],
+    }
+
+
+def _plain(name, unit, frame=""):
+    return {"name": name, "unit": unit, "frame": frame, "meaning": "", "key": "", "table": "", "factor": 1.0}
+
+
+def _name(symbol):
+    return _plain(symbol.name, symbol.unit, symbol.frame) | {"meaning": symbol.meaning}
+
+
+def _float(expression):
+    return float(mpmath.mpf(expression.evalf(30)))
+
+
+def _parameter(p):
+    lower, upper = p.symbol.domain
+    return {
+        "name": p.symbol.name,
+        "unit": p.symbol.unit,
+        "meaning": p.symbol.meaning,
+        "key": p.key,
+        "table": p.table.value,
+        "factor": _float(p.factor),
+        "key_unit": interface_unit(p.key)[0],
+        "default": None if p.default is None else _float(p.default),
+        "lower": None if not lower.is_finite else _float(lower),
+        "upper": None if not upper.is_finite else _float(upper),
+        "integer": p.integer,
+        "required": p.required,
+        "choices": {word: value for word, value in p.choices},
+    }
+
+
+def _size(key, _value, meaning):
+    _, unit, factor = interface_unit(key)
+    return _plain(key, unit) | {"meaning": meaning, "key": key, "factor": _float(factor)}
+
+
+def _offsets(plan):
+    offsets, at = {}, 0
+    for output in plan.observed:
+        offsets[output.name] = at
+        at += len(output.nodes)
+    return offsets
+
+
+def _body(plan, body, offsets):
+    places = plan.bodies[body.name]
+    flank = next(f for f in plan.flanks if f.body == body.name)
+    return {
+        "name": body.name,
+        "parameters": [p.name for p in body.surface.parameters],
+        "unknowns": [plan.unknowns.index(p) for p in body.surface.parameters],
+        "conditions": places.conditions,
+        "point": offsets[f"point_{body.name}"],
+        "at": places.at,
+        "regular": places.singular,
+        "margin": places.singular + 1,
+        "margins": [{"flag": m.flag, "event": m.event} for m in body.margins],
+        "recovered": [s.name for s in body.recovered],
+        "outputs": sum(len(o.nodes) for o in flank.outputs),
+    }

@@ -1,0 +1,117 @@
+"""Envelopes: the surface a moving surface leaves behind, its equation of meshing, and its explicit form.
+
+``envelope`` derives the equation of meshing n·∂r/∂φ = 0 from the chain. ``explicit`` is the reduce stage: it
+merges angles that only occur as a sum and solves the equation for a parameter in which it is linear, so that
+the generated surface needs no root finding.
+"""
+
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from derive import vectors as v
+from derive.chain import Rotation
+from derive.symbols import Quantity
+
+
+def envelope(surface, motion, variable):
+    """The envelope of ``surface`` under ``motion(variable)``, in the frame that the motion leads to.
+
+    The new body lies on the other side of the surface, so the normal turns round. The equation of meshing
+    joins the conditions; ``variable`` joins the parameters.
+    """
+    moved = surface.placed(motion)
+    meshing = moved.motion.power(variable, surface.point, surface.normal)
+    parameters = surface.parameters + (() if variable in surface.parameters else (variable,))
+    return replace(
+        moved,
+        parameters=parameters,
+        normal=v.scale(-1, surface.normal),
+        conditions=(*surface.conditions, meshing),
+    )
+
+
+@dataclass(frozen=True)
+class Solved:
+    """How the reduce stage removed a parameter: ``symbol`` = ``value`` where ``denominator`` ≠ 0."""
+
+    symbol: sp.Symbol
+    value: sp.Expr
+    denominator: sp.Expr
+
+
+def merge_sum(surface, kept, removed, name, meaning):
+    """Replace ``removed`` by a new parameter ``name`` = kept + removed.
+
+    Legal for any surface; worth doing where a rotation angle is that sum.
+    """
+    total = Quantity(name, removed.unit, meaning, removed.frame)
+    value = total - kept
+    parameters = tuple(total if p == removed else p for p in surface.parameters)
+    return substitute(replace(surface, parameters=parameters), {removed: value}), total
+
+
+def substitute(surface, replacement):
+    """The same surface with parameters replaced by expressions, everywhere but in definitions."""
+
+    def swap(expression):
+        return sp.sympify(expression).xreplace(replacement)
+
+    return replace(
+        surface,
+        point=tuple(map(swap, surface.point)),
+        tangents=tuple(tuple(map(swap, t)) for t in surface.tangents),
+        normal=tuple(map(swap, surface.normal)),
+        motion=surface.motion.substitute(replacement),
+        conditions=tuple(map(swap, surface.conditions)),
+    )
+
+
+def explicit(surface):
+    """Solve the last condition for a parameter in which it is linear; ``(surface, Solved)``.
+
+    Raises ``ValueError`` if there is none: the surface then has to stay implicit.
+    """
+    *others, condition = surface.conditions
+    for parameter in reversed(surface.parameters):
+        slope = surface.definitions.derivative(condition, parameter)
+        if slope == 0 or surface.definitions.depends(slope, parameter):
+            continue
+        if any(surface.definitions.depends(s, parameter) for s in _defined(surface, condition)):
+            continue
+        solution = -condition.xreplace({parameter: sp.Integer(0)}) / slope
+        named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit)
+        remaining = tuple(p for p in surface.parameters if p != parameter)
+        done = replace(surface, parameters=remaining, conditions=tuple(others))
+        return substitute(done, {parameter: named}), Solved(named, solution, slope)
+    raise ValueError("the equation of meshing is linear in none of its parameters")
+
+
+def shared_angles(surface):
+    """Pairs of parameters that occur as a sum in one rotation of the surface's motion."""
+    pairs = []
+    for factor in surface.motion.factors:
+        if isinstance(factor, Rotation):
+            present = [p for p in surface.parameters if sp.diff(factor.angle, p) == 1]
+            if len(present) == 2:
+                pairs.append(tuple(present))
+    return pairs
+
+
+def solve_direction(condition, angle):
+    """Solve a·cos + b·sin = 0 for the direction of ``angle``: what replaces its cosine and sine.
+
+    The result is (cos, sin) = (b, −a)/√(a² + b²). The opposite direction solves the equation too: negate the
+    condition to select it.
+    """
+    cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
+    form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
+    a, b = sp.diff(form, cosine), sp.diff(form, sine)
+    if {cosine, sine, angle} & (a.free_symbols | b.free_symbols) or form.xreplace({cosine: 0, sine: 0}) != 0:
+        raise ValueError("the equation is not homogeneous in the cosine and sine of one angle")
+    length = sp.sqrt(a**2 + b**2)
+    return {sp.cos(angle): b / length, sp.sin(angle): -a / length}
+
+
+def _defined(surface, expression):
+    return [s for s in expression.free_symbols if s in surface.definitions]

@@ -1,0 +1,81 @@
+"""A small Newton iteration on the tape itself, used at generation time only: sample solutions and self-tests."""
+
+import mpmath
+
+from derive.symbols import Table
+
+#: Digits of the arithmetic: enough that the result is exact to double precision.
+DIGITS = 40
+
+
+def sample_parameters(drive):
+    """The drive's sample design as parameter values by symbol, rules applied; parameters left open are NaN."""
+    values = {p.symbol: mpmath.nan for p in drive.parameters}
+    for p in drive.parameters:
+        if p.table in (Table.DESIGN, Table.FLANK) and p.key in drive.sample:
+            values[p.symbol] = _number(p.factor) * mpmath.mpf(drive.sample[p.key])
+        elif p.default is not None:
+            values[p.symbol] = _number(p.default)
+    for rule in drive.rules:
+        if mpmath.isnan(values[rule.target]):
+            known = {k: x for k, x in values.items() if k in rule.value.free_symbols}
+            values[rule.target] = _number(rule.value, known)
+    return values
+
+
+def _number(expression, values=None):
+    values = values or {}
+    if any(mpmath.isnan(x) for x in values.values()):
+        return mpmath.nan
+    return mpmath.mpf(expression.evalf(DIGITS, subs=values)) if values else mpmath.mpf(expression.evalf(DIGITS))
+
+
+def sample_solution(plan, angle=None):
+    """Inputs (symbol → float) at a solved contact of the sample design."""
+    with mpmath.workdps(DIGITS):
+        inputs = solve(plan, sample_parameters(plan.drive), angle if angle is not None else plan.drive.sample_angle)
+    return {k: float(x) for k, x in inputs.items()}
+
+
+def start_values(plan):
+    """Start values of the unknowns at the sample design, from the start system."""
+    with mpmath.workdps(DIGITS):
+        inputs = _start(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
+    return [float(inputs[u]) for u in plan.unknowns]
+
+
+def solve(plan, parameters, angle):
+    """Start system, then contact, by full Newton steps in the current mpmath precision."""
+    inputs = _start(plan, parameters, angle)
+    _iterate(plan.tape, plan.residual, plan.jacobian, plan.unknowns, inputs)
+    return inputs
+
+
+def _start(plan, parameters, angle):
+    drive = plan.drive
+    inputs = dict(parameters)
+    inputs[drive.instant] = mpmath.mpf(angle)
+    start = [u.symbol for u in drive.start.unknowns]
+    inputs.update(zip(start, plan.tape.evaluate(plan.start_guess, inputs, mpmath), strict=True))
+    _iterate(plan.tape, plan.start_residual, plan.start_jacobian, start, inputs)
+    solution = plan.tape.evaluate(plan.start_solution, inputs, mpmath)
+    inputs.update(zip(plan.unknowns, solution, strict=True))
+    return inputs
+
+
+def _iterate(tape, residual, jacobian, unknowns, inputs):
+    n = len(unknowns)
+    flat = [*residual, *(e for row in jacobian for e in row)]
+    tolerance = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
+    for _ in range(60):
+        numbers = tape.evaluate(flat, inputs, mpmath)
+        matrix = mpmath.matrix(n, n)
+        for i in range(n):
+            for j in range(n):
+                matrix[i, j] = numbers[n + i * n + j]
+        change = mpmath.lu_solve(matrix, mpmath.matrix(numbers[:n]))
+        for k, symbol in enumerate(unknowns):
+            inputs[symbol] -= change[k]
+        if max(map(abs, change)) < tolerance:
+            return
+    raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")

@@ -1,0 +1,89 @@
+"""One fused Newton step: x − J⁻¹R as straight-line operations with a pivot order chosen offline.
+
+The order is found at a sample solution: among the entries that are large enough to be stable, the one that costs
+least fill (Markowitz). The runtime checks the step and falls back on complete pivoting where the order fails.
+"""
+
+from derive import newton
+
+#: A pivot must reach this share of the largest scaled entry left in its row.
+STABLE_SHARE = 0.1
+
+
+def newton_step(plan):
+    """Nodes of the updated unknowns and of their changes."""
+    point = newton.sample_solution(plan)
+    order = _pivot_order(plan, point)
+    changes = _solve(plan.tape, plan.jacobian, plan.residual, order)
+    unknowns = [plan.lower(u) for u in plan.unknowns]
+    updated = [plan.tape.sub(x, d) for x, d in zip(unknowns, changes, strict=True)]
+    return updated, changes
+
+
+def _pivot_order(plan, inputs):
+    n = len(plan.jacobian)
+    flat = [e for row in plan.jacobian for e in row]
+    numbers = plan.tape.evaluate(flat + plan.scales, inputs)
+    size = numbers[n * n :]
+    values = [[numbers[i * n + j] * size[j] for j in range(n)] for i in range(n)]
+    present = [[plan.tape.const_value(e) != 0 for e in row] for row in plan.jacobian]
+    rows, columns, order = set(range(n)), set(range(n)), []
+    while rows:
+        pivot = _best(values, present, rows, columns)
+        order.append(pivot)
+        _eliminate(values, present, rows, columns, pivot)
+    return order
+
+
+def _best(values, present, rows, columns):
+    best = None
+    for i in sorted(rows):
+        largest = max(abs(values[i][j]) for j in columns)
+        for j in sorted(columns):
+            if not present[i][j] or abs(values[i][j]) < STABLE_SHARE * largest or largest == 0:
+                continue
+            in_row = sum(present[i][k] for k in columns) - 1
+            in_column = sum(present[k][j] for k in rows) - 1
+            cost = (in_row * in_column, -abs(values[i][j]) / largest, i, j)
+            if best is None or cost < best[0]:
+                best = cost, (i, j)
+    if best is None:
+        raise ArithmeticError("the sample solution has a singular Jacobian; choose another sample design")
+    return best[1]
+
+
+def _eliminate(values, present, rows, columns, pivot):
+    i, j = pivot
+    rows.discard(i)
+    columns.discard(j)
+    for k in rows:
+        if present[k][j]:
+            factor = values[k][j] / values[i][j]
+            for m in columns:
+                values[k][m] -= factor * values[i][m]
+                present[k][m] = present[k][m] or present[i][m]
+
+
+def _solve(tape, matrix, right, order):
+    """Gaussian elimination on nodes in the given pivot order; entries known to be zero cost nothing."""
+    a = [list(row) for row in matrix]
+    b = list(right)
+    one = tape.constant(1)
+    inverse = {}
+    for step, (i, j) in enumerate(order):
+        inverse[i] = tape.div(one, a[i][j])
+        for k, _ in order[step + 1 :]:
+            if tape.const_value(a[k][j]) == 0:
+                continue
+            factor = tape.mul(a[k][j], inverse[i])
+            for _, m in order[step + 1 :]:
+                a[k][m] = tape.sub(a[k][m], tape.mul(factor, a[i][m]))
+            b[k] = tape.sub(b[k], tape.mul(factor, b[i]))
+    solution = {}
+    for step in reversed(range(len(order))):
+        i, j = order[step]
+        total = b[i]
+        for _, m in order[step + 1 :]:
+            total = tape.sub(total, tape.mul(a[i][m], solution[m]))
+        solution[j] = tape.mul(total, inverse[i])
+    return [solution[j] for j in range(len(order))]

@@ -1,0 +1,297 @@
+"""Schedule: a drive → one tape and the functions that read it, each with its binding time.
+
+design   once per geometry and misalignment: ``setup`` fills the design part of the state
+instant  once per input angle: ``set_phi`` fills the instant part
+iterate  every Newton step: ``eval``, ``step``; at a solution: ``observe``; anywhere on a flank: ``surface_…``
+
+A value is computed at the earliest stage that knows its inputs, and stored in the state if a later one reads it.
+"""
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive import pivots
+from derive.drive import Body, Drive, System
+from derive.tape import Lowering, Stage, Tape
+
+
+@dataclass(frozen=True)
+class Output:
+    """A named result: ``width`` consecutive numbers with one unit and frame."""
+
+    name: str
+    nodes: tuple[int, ...]
+    unit: str = ""
+    frame: str = ""
+
+
+@dataclass(frozen=True)
+class Flank:
+    """A flank as a function of its own parameters, body frame."""
+
+    body: str
+    parameters: tuple
+    outputs: tuple[Output, ...]
+
+
+@dataclass(frozen=True)
+class BodyOutputs:
+    """Where the observation of one body is found: see :func:`_observe_body`."""
+
+    parameters: int
+    conditions: int
+    at: int
+    singular: int
+    margins: tuple[int, ...]
+
+
+@dataclass
+class Schedule:
+    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first."""
+
+    drive: Drive
+    tape: Tape
+    lower: Lowering
+    residual: list[int] = field(default_factory=list)
+    jacobian: list[list[int]] = field(default_factory=list)
+    scales: list[int] = field(default_factory=list)
+    step: list[int] = field(default_factory=list)
+    step_size: list[int] = field(default_factory=list)
+    start_residual: list[int] = field(default_factory=list)
+    start_jacobian: list[list[int]] = field(default_factory=list)
+    start_guess: list[int] = field(default_factory=list)
+    start_solution: list[int] = field(default_factory=list)
+    guards: list[int] = field(default_factory=list)
+    observed: list[Output] = field(default_factory=list)
+    bodies: dict = field(default_factory=dict)
+    flanks: list[Flank] = field(default_factory=list)
+    state: dict[int, int] = field(default_factory=dict)
+    design_slots: int = 0
+
+    @property
+    def unknowns(self):
+        return [u.symbol for u in self.drive.unknowns]
+
+
+def schedule(drive):
+    """All functions of a drive on one tape."""
+    inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
+    inputs[drive.instant] = Stage.INSTANT
+    inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
+    tape = Tape()
+    for symbol, stage in inputs.items():
+        tape.input(symbol, stage)
+    plan = Schedule(drive, tape, Lowering(tape, inputs, drive.definitions))
+
+    plan.guards = [plan.lower(g.positive) for g in drive.guards]
+    plan.residual, plan.jacobian = _system(plan, drive.residual, plan.unknowns)
+    plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
+    _start(plan, drive.start)
+    plan.step, changes = pivots.newton_step(plan)
+    plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]
+    _observe(plan)
+    for body in drive.bodies:
+        plan.flanks.append(_flank(plan, body))
+    _assign_state(plan)
+    return plan
+
+
+def _system(plan, residual, unknowns, fixed=None):
+    lower, tape = plan.lower, plan.tape
+    nodes = [lower(r) for r in residual]
+    if fixed:
+        nodes = [_fixed(plan, i, fixed) for i in nodes]
+    jacobian = [[tape.derivative(r, lower(u)) for u in unknowns] for r in nodes]
+    return nodes, jacobian
+
+
+def _fixed(plan, node, values):
+    return plan.tape.substitute(node, {plan.lower(k): plan.lower(value) for k, value in values.items()})
+
+
+def _start(plan, start: System):
+    unknowns = [u.symbol for u in start.unknowns]
+    plan.start_residual, plan.start_jacobian = _system(plan, start.residual, unknowns, start.fixed)
+    plan.start_guess = [plan.lower(plan.drive.guess[u]) for u in unknowns]
+    solution = (_fixed(plan, plan.lower(start.outputs[u]), start.fixed) for u in plan.unknowns)
+    plan.start_solution = list(solution)
+
+
+def _vector(plan, vector):
+    return [plan.lower(c) for c in vector]
+
+
+def _unit(plan, nodes):
+    """A node vector divided by its length, and the length."""
+    t = plan.tape
+    square = None
+    for i in nodes:
+        square = t.mul(i, i) if square is None else t.add(square, t.mul(i, i))
+    length = t.sqrt(square)
+    return [t.div(i, length) for i in nodes], length
+
+
+def _observe(plan):
+    drive = plan.drive
+    put = plan.observed.append
+    for body in drive.bodies:
+        placed = body.placed
+        normal, _ = _unit(plan, _vector(plan, placed.body_normal()))
+        put(Output(f"point_{body.name}_f", tuple(_vector(plan, placed.body_point())), "mm", "f"))
+        put(Output(f"normal_{body.name}_f", tuple(normal), "", "f"))
+    for body in drive.bodies:
+        local = tuple(_vector(plan, body.surface.body_point()))
+        put(Output(f"point_{body.name}", local, "mm", body.name))
+    put(Output("wheel_angle", (plan.lower(drive.wheel_angle),), "rad", "f"))
+    for body in drive.bodies:
+        for symbol in body.recovered:
+            put(Output(f"{symbol}", (plan.lower(symbol),), symbol.unit, symbol.frame))
+    for body in drive.bodies:
+        _observe_body(plan, body)
+
+
+def _observe_body(plan, body: Body):
+    """Derivatives of point and unit normal (tangential part) by the surface parameters, in the fixed frame."""
+    placed, tape = body.placed, plan.tape
+    parameters = [plan.lower(p) for p in body.surface.parameters]
+    point, raw = _vector(plan, placed.body_point()), _vector(plan, placed.body_normal())
+    _, length = _unit(plan, raw)
+    at = _count(plan.observed)
+    put = plan.observed.append
+    for symbol, parameter in zip(body.surface.parameters, parameters, strict=True):
+        tangent = [tape.derivative(i, parameter) for i in point]
+        turning = [tape.div(tape.derivative(i, parameter), length) for i in raw]
+        put(Output(f"tangent_{symbol}", tuple(tangent), f"mm/({symbol.unit})", "f"))
+        put(Output(f"turning_{symbol}", tuple(turning), f"1/({symbol.unit})", "f"))
+    for k, condition in enumerate(body.surface.conditions):
+        slopes = tuple(tape.derivative(plan.lower(condition), p) for p in parameters)
+        put(Output(f"condition_{body.name}_{k}", slopes))
+    singular = _count(plan.observed)
+    put(Output(f"regular_{body.name}", (_regular(plan, body),)))
+    margins = []
+    for margin in body.margins:
+        margins.append(_count(plan.observed))
+        put(Output(f"margin_{body.name}_{margin.event}", (_margin(plan, body, margin),)))
+    plan.bodies[body.name] = BodyOutputs(
+        len(parameters), len(body.surface.conditions), at, singular, tuple(margins)
+    )
+
+
+def _count(outputs):
+    return sum(len(o.nodes) for o in outputs)
+
+
+def singular_function(plan, body: Body):
+    """Node of the function that vanishes where the body's surface is singular.
+
+    Explicit surface: (∂r/∂a × ∂r/∂b)·n. Envelope with its condition f(a, b, c) = 0: the sum over cyclic (a, b, c)
+    of f_a n·(∂r/∂b × ∂r/∂c).
+    """
+    surface = body.surface
+    parameters = [plan.lower(p) for p in surface.parameters]
+    point = _vector(plan, surface.body_point())
+    normal = _vector(plan, surface.body_normal())
+    tangents = [[plan.tape.derivative(i, p) for i in point] for p in parameters]
+    if not surface.conditions:
+        return _triple(plan, normal, *tangents)
+    (condition,) = surface.conditions
+    a, b, c = tangents
+    slopes = [plan.tape.derivative(plan.lower(condition), p) for p in parameters]
+    total = plan.tape.constant(0)
+    for slope, pair in zip(slopes, ((b, c), (c, a), (a, b)), strict=True):
+        total = plan.tape.add(total, plan.tape.mul(slope, _triple(plan, normal, *pair)))
+    return total
+
+
+def _triple(plan, a, b, c):
+    t = plan.tape
+    cross = [t.sub(t.mul(b[i], c[j]), t.mul(b[j], c[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
+    total = t.mul(a[0], cross[0])
+    for i in (1, 2):
+        total = t.add(total, t.mul(a[i], cross[i]))
+    return total
+
+
+def _relative(plan, body, node):
+    return plan.tape.div(node, _fixed(plan, node, body.reference))
+
+
+def _regular(plan, body):
+    return _relative(plan, body, singular_function(plan, body))
+
+
+def _margin(plan, body, margin):
+    """A margin in terms of surface parameters; body coordinates are replaced by the surface's own."""
+    coordinates = dict(zip(body.point, body.surface.body_point(), strict=True))
+    node = plan.lower(sp.sympify(margin.positive).xreplace(coordinates))
+    return _relative(plan, body, node) if margin.relative else node
+
+
+def _flank(plan, body):
+    surface = body.surface
+    normal, _ = _unit(plan, _vector(plan, surface.body_normal()))
+    parameters = [plan.lower(p) for p in surface.parameters]
+    point = _vector(plan, surface.body_point())
+    outputs = [
+        Output("point", tuple(point), "mm", body.name),
+        Output("normal", tuple(normal), "", body.name),
+        *(
+            Output(f"tangent_{s}", tuple(plan.tape.derivative(i, p) for i in point), f"mm/({s.unit})", body.name)
+            for s, p in zip(surface.parameters, parameters, strict=True)
+        ),
+        Output("regular", (_regular(plan, body),)),
+        *(Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins),
+    ]
+    for k, condition in enumerate(surface.conditions):
+        node = plan.lower(condition)
+        slopes = tuple(plan.tape.derivative(node, p) for p in parameters)
+        outputs += [Output(f"condition_{k}", (node,)), Output(f"condition_{k}_slopes", slopes)]
+    return Flank(body.name, tuple(surface.parameters), tuple(outputs))
+
+
+def iterate_outputs(plan):
+    """All nodes that iterate-stage functions return."""
+    yield from plan.residual
+    for row in plan.jacobian:
+        yield from row
+    yield from plan.scales
+    yield from plan.step
+    yield from plan.step_size
+    yield from plan.start_residual
+    for row in plan.start_jacobian:
+        yield from row
+    yield from plan.start_guess
+    yield from plan.start_solution
+    for output in plan.observed:
+        yield from output.nodes
+    for flank in plan.flanks:
+        for output in flank.outputs:
+            yield from output.nodes
+
+
+def _assign_state(plan):
+    """Number the values that one stage leaves for a later one."""
+    tape = plan.tape
+    wanted = {Stage.DESIGN: {}, Stage.INSTANT: {}}
+
+    def leave(i, reader):
+        stage = tape.stages[i]
+        if stage in wanted and stage < reader:
+            wanted[stage].setdefault(i)
+
+    early = {i for i, stage in enumerate(tape.stages) if stage <= Stage.INSTANT}
+    outputs = list(iterate_outputs(plan))
+    for i in tape.needed(outputs, early):
+        for a in tape.nodes[i].args:
+            leave(a, Stage.ITERATE)
+    for i in outputs:
+        leave(i, Stage.ITERATE)
+    design = {i for i, stage in enumerate(tape.stages) if stage <= Stage.DESIGN}
+    for i in tape.needed(list(wanted[Stage.INSTANT]), design):
+        for a in tape.nodes[i].args:
+            leave(a, Stage.INSTANT)
+    slots = [*wanted[Stage.DESIGN], *wanted[Stage.INSTANT]]
+    plan.state = {node: slot for slot, node in enumerate(slots)}
+    plan.design_slots = len(wanted[Stage.DESIGN])
+

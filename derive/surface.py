@@ -1,0 +1,66 @@
+"""Surfaces: a curve carried by a motion, its tangents and its normal.
+
+A surface keeps its point, tangents and normal in the frame where they are simple (the tool's section) together
+with the motion into the body frame. Nothing is multiplied out.
+"""
+
+from dataclasses import dataclass, replace
+
+from derive import vectors as v
+from derive.chain import Motion, screw
+from derive.definitions import Definitions
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A surface in its body frame.
+
+    ``point``, the two ``tangents`` and ``normal`` are in the section frame and depend on ``parameters`` through
+    ``definitions``; ``motion`` takes the section frame into the body frame. ``conditions`` are equations (= 0)
+    left implicit: a surface with k conditions has k + 2 parameters. The normal points out of the body, has any
+    positive length, and the tangents span its plane. An envelope keeps the tangents of its generating surface,
+    which touch it; they are then not its derivatives.
+    """
+
+    definitions: Definitions
+    parameters: tuple
+    point: tuple
+    tangents: tuple
+    normal: tuple
+    motion: Motion = Motion()
+    conditions: tuple = ()
+
+    def placed(self, *motions):
+        """The surface moved by the product of these motions (leftmost acting last)."""
+        motion = self.motion
+        for outer in reversed(motions):
+            motion = outer @ motion
+        return replace(self, motion=motion)
+
+    def body_point(self):
+        return self.motion.point(self.point)
+
+    def body_normal(self):
+        return self.motion.direction(self.normal)
+
+    def body_tangents(self):
+        return tuple(self.motion.direction(t) for t in self.tangents)
+
+
+def swept(definitions, section, motion, *, along, sweep, outward):
+    """The surface of a curve ``section(along)`` carried by ``motion(sweep)``.
+
+    The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep); ``outward`` (±1, or the flank sign)
+    makes it point out of the body.
+    """
+    tangents = (
+        definitions.derivative_vector(section, along),
+        motion.local_velocity(sweep, section),
+    )
+    normal = v.scale(outward, v.cross(*tangents))
+    return Surface(definitions, (along, sweep), section, tangents, normal, motion)
+
+
+def helicoid(definitions, section, *, along, sweep, parameter, outward):
+    """The helicoid of a curve in screw motion: r = Rz(ψ) P(t) + p ψ k."""
+    return swept(definitions, section, screw(sweep, parameter), along=along, sweep=sweep, outward=outward)

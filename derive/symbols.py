@@ -1,0 +1,110 @@
+"""Symbols that carry their unit, frame, meaning and domain, and the keys by which a design names them."""
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+import sympy as sp
+from sympy.physics import units as si
+
+
+class Quantity(sp.Symbol):
+    """A real SymPy symbol with unit, frame, meaning and open domain.
+
+    Two quantities with one name are equal to SymPy; a drive therefore uses each name once.
+    """
+
+    __slots__ = ("unit", "meaning", "frame", "domain")
+
+    def __new__(cls, name, unit="", meaning="", frame="", domain=(-sp.oo, sp.oo)):
+        self = sp.Symbol.__xnew__(cls, name, real=True)
+        self.unit, self.meaning, self.frame = unit, meaning, frame
+        self.domain = tuple(map(sp.sympify, domain))
+        return self
+
+    def __getnewargs_ex__(self):
+        return (self.name, self.unit, self.meaning, self.frame, self.domain), {}
+
+
+class Table(Enum):
+    """The tables of a design file; the order is the order of the parameter vector."""
+
+    FLANK = "flank"
+    DESIGN = "design"
+    MISALIGNMENT = "misalignment"
+    BLANK = "blank"
+    CONTACT = "contact"
+
+
+#: Interface unit (key suffix) → the unit used inside and the exact factor between them.
+_INTERFACE_UNITS = {
+    "mm": ("mm", si.millimeter, si.millimeter),
+    "deg": ("rad", si.degree, si.radian),
+    "arcmin": ("rad", si.degree / 60, si.radian),
+    "arcsec": ("rad", si.degree / 3600, si.radian),
+    "um": ("mm", si.micrometer, si.millimeter),
+    "per_mm": ("1/mm", 1 / si.millimeter, 1 / si.millimeter),
+    "mm_per_rad2": ("mm/rad^2", si.millimeter / si.radian**2, si.millimeter / si.radian**2),
+}
+
+
+def interface_unit(key):
+    """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
+    suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")
+    if not suffix:
+        return "", "", sp.Integer(1)
+    inner, outside, inside = _INTERFACE_UNITS[suffix]
+    return suffix, inner, sp.nsimplify(si.convert_to(outside, inside) / inside)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One entry of a drive's parameter vector and the key that sets it in a design file.
+
+    ``default`` is in inner units. ``required`` parameters must be given. A parameter that is neither given nor
+    derived (see :class:`Rule`) stays "not a number": a limit that uses it is then not applied.
+    """
+
+    symbol: Quantity
+    key: str
+    table: Table = Table.DESIGN
+    default: sp.Expr | None = None
+    required: bool = False
+    integer: bool = False
+    choices: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def factor(self):
+        """Exact factor from the interface unit to the inner unit."""
+        return interface_unit(self.key)[2]
+
+
+def parameter(key, symbol, meaning, *, table=Table.DESIGN, domain=(-sp.oo, sp.oo), default=None, **kind):
+    """Declare a parameter by its design key; the inner unit follows from the key's suffix."""
+    _, unit, _ = interface_unit(key)
+    default = None if default is None else sp.sympify(default)
+    return Parameter(Quantity(symbol, unit, meaning, domain=domain), key, table, default, **kind)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """``target`` = ``value`` unless the design gives the target. Rules run in order."""
+
+    target: Quantity
+    value: sp.Expr
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A design is legal only where ``positive`` > 0; otherwise ``message`` names the keys that meet in it."""
+
+    positive: sp.Expr
+    message: str
+    keys: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """An unknown of a system with its bounds and the natural size of its steps (an expression of parameters)."""
+
+    symbol: Quantity
+    scale: sp.Expr = field(default_factory=lambda: sp.Integer(1))

@@ -1,0 +1,409 @@
+"""The intermediate form: a straight-line program with value numbering and a forward chain rule.
+
+Input: SymPy expressions and :class:`~derive.definitions.Definitions`. Output: a :class:`Tape`, a list of nodes in
+which each value occurs once. Every printer reads the same tape. Nodes are numbered in the order in which they are
+first needed, so that the same drive gives the same text on every machine.
+"""
+
+import math
+from dataclasses import dataclass
+from enum import IntEnum
+from fractions import Fraction
+
+import sympy as sp
+
+
+class Stage(IntEnum):
+    """Binding time of a value: when the earliest input it depends on is known."""
+
+    CONSTANT = 0
+    DESIGN = 1
+    INSTANT = 2
+    ITERATE = 3
+
+
+@dataclass(frozen=True)
+class Node:
+    """One operation. ``value`` is the constant or the symbol of a leaf."""
+
+    op: str
+    args: tuple[int, ...] = ()
+    value: object = None
+
+
+_COMMUTATIVE = {"add", "mul"}
+
+#: Operations by name: how many arguments each takes.
+OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin": 1, "cos": 1, "atan2": 2}
+
+
+class Tape:
+    """A growing straight-line program. Values are referred to by index."""
+
+    def __init__(self):
+        self.nodes = []
+        self.stages = []
+        self._index = {}
+        self._derivatives = {}
+
+    # -- building ---------------------------------------------------------------------------------------------
+
+    def _new(self, op, args=(), value=None, stage=None):
+        if op in _COMMUTATIVE and args[0] > args[1]:
+            args = args[1], args[0]
+        node = Node(op, args, value)
+        if node not in self._index:
+            self._index[node] = len(self.nodes)
+            self.nodes.append(node)
+            self.stages.append(max((self.stages[a] for a in args), default=stage or Stage.CONSTANT))
+        return self._index[node]
+
+    def constant(self, value):
+        """A constant: exact where rational, else a float."""
+        return self._new("const", value=Fraction(value) if isinstance(value, int) else value)
+
+    def input(self, symbol, stage):
+        """An input that becomes known at ``stage``."""
+        return self._new("input", value=symbol, stage=stage)
+
+    def const_value(self, i):
+        """The constant at a node, or None."""
+        return self.nodes[i].value if self.nodes[i].op == "const" else None
+
+    def find(self, op, *args):
+        """The node of this operation, or None if the tape does not have it."""
+        return self._index.get(Node(op, args))
+
+    def _negated(self, i):
+        """The argument if the node is a negation."""
+        return self.nodes[i].args[0] if self.nodes[i].op == "neg" else None
+
+    def neg(self, a):
+        if (value := self.const_value(a)) is not None:
+            return self.constant(-value)
+        if (inner := self._negated(a)) is not None:
+            return inner
+        if self.nodes[a].op == "sub":
+            return self.sub(*reversed(self.nodes[a].args))
+        return self._new("neg", (a,))
+
+    def add(self, a, b):
+        p, q = self.const_value(a), self.const_value(b)
+        if p is not None and q is not None:
+            return self.constant(p + q)
+        if p == 0:
+            return b
+        if q == 0:
+            return a
+        if (inner := self._negated(b)) is not None:
+            return self.sub(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.sub(b, inner)
+        return self._new("add", (a, b))
+
+    def sub(self, a, b):
+        p, q = self.const_value(a), self.const_value(b)
+        if p is not None and q is not None:
+            return self.constant(p - q)
+        if a == b:
+            return self.constant(0)
+        if q == 0:
+            return a
+        if p == 0:
+            return self.neg(b)
+        if (inner := self._negated(b)) is not None:
+            return self.add(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.neg(self.add(inner, b))
+        return self._new("sub", (a, b))
+
+    def mul(self, a, b):
+        p, q = self.const_value(a), self.const_value(b)
+        if p is not None and q is not None:
+            return self.constant(p * q)
+        if p is not None:
+            a, b, p, q = b, a, q, p
+        if q == 0:
+            return b
+        if q == 1:
+            return a
+        if q == -1:
+            return self.neg(a)
+        if (inner := self._negated(a)) is not None:
+            return self.neg(self.mul(inner, b))
+        if (inner := self._negated(b)) is not None:
+            return self.neg(self.mul(a, inner))
+        return self._new("mul", (a, b))
+
+    def div(self, a, b):
+        p, q = self.const_value(a), self.const_value(b)
+        if p is not None and q is not None and isinstance(p, Fraction) and isinstance(q, Fraction):
+            return self.constant(p / q)
+        if p == 0:
+            return a
+        if q is not None and abs(q) == 1:
+            return self.mul(a, b)
+        if a == b:
+            return self.constant(1)
+        if (inner := self._negated(a)) is not None:
+            return self.neg(self.div(inner, b))
+        if (inner := self._negated(b)) is not None:
+            return self.neg(self.div(a, inner))
+        return self._new("div", (a, b))
+
+    def sqrt(self, a):
+        if (value := self.const_value(a)) is not None:
+            return self.constant(math.sqrt(value) if math.isqrt(int(value)) ** 2 != value else math.isqrt(int(value)))
+        return self._new("sqrt", (a,))
+
+    def sin(self, a):
+        if self.const_value(a) == 0:
+            return a
+        if (inner := self._negated(a)) is not None:
+            return self.neg(self.sin(inner))
+        return self._new("sin", (a,))
+
+    def cos(self, a):
+        if self.const_value(a) == 0:
+            return self.constant(1)
+        if (inner := self._negated(a)) is not None:
+            return self.cos(inner)
+        return self._new("cos", (a,))
+
+    def atan2(self, y, x):
+        return self._new("atan2", (y, x))
+
+    def power(self, a, n):
+        """Integer power by repeated squaring; negative powers divide."""
+        if n < 0:
+            return self.div(self.constant(1), self.power(a, -n))
+        result, square = None, a
+        while n:
+            if n & 1:
+                result = square if result is None else self.mul(result, square)
+            n >>= 1
+            if n:
+                square = self.mul(square, square)
+        return self.constant(1) if result is None else result
+
+    # -- differentiation --------------------------------------------------------------------------------------
+
+    def derivative(self, i, variable):
+        """Node of ∂(node i)/∂(input node ``variable``), by the forward chain rule."""
+        stack = [i]
+        while stack:
+            top = stack[-1]
+            if (top, variable) in self._derivatives:
+                stack.pop()
+                continue
+            missing = [a for a in self.nodes[top].args if (a, variable) not in self._derivatives]
+            if missing:
+                stack.extend(missing)
+                continue
+            self._derivatives[top, variable] = self._rule(top, variable)
+            stack.pop()
+        return self._derivatives[i, variable]
+
+    def _rule(self, i, variable):
+        node = self.nodes[i]
+        if not node.args:
+            return self.constant(1 if i == variable else 0)
+        d = [self._derivatives[a, variable] for a in node.args]
+        if all(self.const_value(k) == 0 for k in d):
+            return self.constant(0)
+        a, b = node.args if len(node.args) == 2 else (node.args[0], None)
+        match node.op:
+            case "add":
+                return self.add(*d)
+            case "sub":
+                return self.sub(*d)
+            case "mul":
+                return self.add(self.mul(d[0], b), self.mul(a, d[1]))
+            case "div":
+                reciprocal = self.div(self.constant(1), b)
+                return self.mul(self.sub(d[0], self.mul(i, d[1])), reciprocal)
+            case "neg":
+                return self.neg(d[0])
+            case "sqrt":
+                return self.mul(self.div(self.constant(Fraction(1, 2)), i), d[0])
+            case "sin":
+                return self.mul(self.cos(a), d[0])
+            case "cos":
+                return self.neg(self.mul(self.sin(a), d[0]))
+            case "atan2":
+                square = self.add(self.mul(a, a), self.mul(b, b))
+                return self.div(self.sub(self.mul(b, d[0]), self.mul(a, d[1])), square)
+        raise AssertionError(node.op)
+
+    def substitute(self, i, replacement):
+        """The node with inputs replaced by other nodes (``replacement``: index → index)."""
+        done = dict(replacement)
+        for k in [*self.needed([i], done), i]:
+            node = self.nodes[k]
+            if k not in done:
+                args = [done.get(a, a) for a in node.args]
+                done[k] = getattr(self, node.op)(*args) if args else k
+        return done[i]
+
+    # -- reading ----------------------------------------------------------------------------------------------
+
+    def needed(self, outputs, known=frozenset()):
+        """Indices of the operations behind ``outputs`` in an order of evaluation, stopping at ``known``."""
+        order, seen = [], set(known)
+        for output in outputs:
+            stack = [(output, False)]
+            while stack:
+                i, ready = stack.pop()
+                if ready:
+                    order.append(i)
+                elif i not in seen:
+                    seen.add(i)
+                    if self.nodes[i].op not in ("const", "input"):
+                        stack.append((i, True))
+                        stack.extend((a, False) for a in reversed(self.nodes[i].args))
+        return order
+
+    def evaluate(self, outputs, inputs, arithmetic=math):
+        """Values of ``outputs`` for ``inputs`` (symbol → number) in any arithmetic that has the functions.
+
+        ``arithmetic`` is :mod:`math`, :mod:`mpmath`, :mod:`casadi` or alike: it supplies sqrt, sin, cos, atan2.
+        """
+        values = {}
+        make = getattr(arithmetic, "mpf", float)
+
+        def value(i):
+            node = self.nodes[i]
+            if node.op == "const":
+                exact = node.value
+                return make(exact.numerator) / exact.denominator if isinstance(exact, Fraction) else make(exact)
+            return inputs[node.value] if node.op == "input" else values[i]
+
+        for i in self.needed(outputs):
+            node = self.nodes[i]
+            values[i] = _APPLY[node.op](arithmetic, *map(value, node.args))
+        return [value(i) for i in outputs]
+
+
+_APPLY = {
+    "add": lambda m, a, b: a + b,
+    "sub": lambda m, a, b: a - b,
+    "mul": lambda m, a, b: a * b,
+    "div": lambda m, a, b: a / b,
+    "neg": lambda m, a: -a,
+    "sqrt": lambda m, a: m.sqrt(a),
+    "sin": lambda m, a: m.sin(a),
+    "cos": lambda m, a: m.cos(a),
+    "atan2": lambda m, a, b: m.atan2(a, b),
+}
+
+
+class Lowering:
+    """Writes SymPy expressions onto a tape, resolving definitions."""
+
+    def __init__(self, tape, inputs, definitions=None):
+        self.tape = tape
+        self.inputs = inputs
+        self.definitions = definitions if definitions is not None else {}
+        self._done = {}
+
+    def __call__(self, expression):
+        """Node of an expression; its symbols are inputs or definitions."""
+        expression = sp.sympify(expression)
+        if expression not in self._done:
+            self._done[expression] = self._lower(expression)
+        return self._done[expression]
+
+    def _lower(self, e):
+        t = self.tape
+        if e.is_Rational:
+            return t.constant(Fraction(int(e.p), int(e.q)))
+        if e.is_Symbol:
+            if e in self.inputs:
+                return t.input(e, self.inputs[e])
+            if e in self.definitions:
+                return self(self.definitions[e])
+            raise KeyError(f"{e} is neither an input nor defined")
+        if e.is_NumberSymbol or e.is_Float:
+            return t.constant(float(e))
+        if e.is_Add:
+            return self._sum(e.args)
+        if e.is_Mul:
+            return self._product(e)
+        if e.is_Pow:
+            return self._power(e)
+        function = self._FUNCTIONS.get(e.func)
+        if function is None:
+            raise TypeError(f"{e.func} has no operation on the tape")
+        return function(self, *map(self, e.args))
+
+    def _sum(self, args):
+        """Sum with the earliest-bound terms first, so that they fold into one."""
+        t = self.tape
+        ordered = sorted(map(self, args), key=lambda i: (t.stages[i], i))
+        total = ordered[0]
+        for node in ordered[1:]:
+            total = t.add(total, node)
+        return total
+
+    def _product(self, e):
+        t = self.tape
+        top, bottom = [], []
+        for factor in e.args:
+            if factor.is_Rational and not factor.is_Integer:
+                top.append(self(factor)) if factor.p != 1 and factor.p != -1 else bottom.append(t.constant(factor.q))
+                if factor.p == -1:
+                    top.append(t.constant(-1))
+            elif factor.is_Pow and factor.exp.is_Rational and factor.exp < 0:
+                bottom.append(self(factor.base**-factor.exp))
+            else:
+                top.append(self(factor))
+        value = self._multiply(top)
+        return t.div(value, self._multiply(bottom)) if bottom else value
+
+    def _multiply(self, nodes):
+        """Product with the earliest-bound factors first, so that they fold into one."""
+        t = self.tape
+        ordered = sorted(nodes, key=lambda i: (t.stages[i], i))
+        value = ordered[0] if ordered else t.constant(1)
+        for node in ordered[1:]:
+            value = t.mul(value, node)
+        return value
+
+    def _power(self, e):
+        base, exponent = e.base, e.exp
+        if exponent.is_Integer:
+            return self.tape.power(self(base), int(exponent))
+        if exponent.is_Rational and exponent.q == 2:
+            return self.tape.power(self.tape.sqrt(self(base)), int(exponent.p))
+        raise TypeError(f"power {exponent} has no operation on the tape")
+
+    def _tan(self, a):
+        return self.tape.div(self.tape.sin(a), self.tape.cos(a))
+
+    def _atan(self, a):
+        return self.tape.atan2(a, self.tape.constant(1))
+
+    def _complement(self, a):
+        """√(1 − a²) without loss near |a| = 1."""
+        t, one = self.tape, self.tape.constant(1)
+        return t.sqrt(t.mul(t.sub(one, a), t.add(one, a)))
+
+    def _asin(self, a):
+        return self.tape.atan2(a, self._complement(a))
+
+    def _acos(self, a):
+        return self.tape.atan2(self._complement(a), a)
+
+    def _abs(self, a):
+        return self.tape.sqrt(self.tape.mul(a, a))
+
+    _FUNCTIONS = {
+        sp.Abs: _abs,
+        sp.sin: lambda self, a: self.tape.sin(a),
+        sp.cos: lambda self, a: self.tape.cos(a),
+        sp.tan: _tan,
+        sp.atan: _atan,
+        sp.asin: _asin,
+        sp.acos: _acos,
+        sp.atan2: lambda self, y, x: self.tape.atan2(y, x),
+    }

@@ -1,0 +1,41 @@
+"""Three-vectors of SymPy expressions as plain tuples: nothing is expanded, simplified or evaluated."""
+
+import sympy as sp
+
+I, J, K = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+AXES = {"x": I, "y": J, "z": K}
+
+
+def vector(x, y, z):
+    """A vector from three SymPy-compatible numbers or expressions."""
+    return tuple(sp.sympify(c) for c in (x, y, z))
+
+
+def add(a, b):
+    return tuple(p + q for p, q in zip(a, b, strict=True))
+
+
+def sub(a, b):
+    return tuple(p - q for p, q in zip(a, b, strict=True))
+
+
+def scale(factor, a):
+    return tuple(factor * p for p in a)
+
+
+def dot(a, b):
+    return sp.Add(*(p * q for p, q in zip(a, b, strict=True)))
+
+
+def cross(a, b):
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def unit(a):
+    """The vector over its length."""
+    length = sp.sqrt(dot(a, a))
+    return tuple(p / length for p in a)

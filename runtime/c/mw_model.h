@@ -1,0 +1,55 @@
+/* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
+ * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_MODEL_ABI
+#define MW_MODEL_ABI 1
+
+/* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
+ * turns the key's unit into the inner unit, table is the design file's table. */
+typedef struct mw_name {
+    const char *name, *unit, *meaning, *key, *table;
+    double factor;
+} mw_name;
+
+/* A member. In the observation o of a solution: its point, body frame, at o[point]; at o[at], for each surface
+ * parameter, d(point)/d(parameter) and the tangential part of d(unit normal)/d(parameter), 3 numbers each, fixed
+ * frame; then the slopes of each implicit condition; o[regular] < 0 beyond a singular line; its margins, negative
+ * outside, NaN where the design sets no limit, at o[margin]. */
+typedef struct mw_body {
+    const char *name;
+    int parameters, conditions;
+    int point, at, regular, margin, margins;
+    const int *unknowns;         /* which unknowns are the surface parameters */
+    const char *const *flags;    /* flag of each margin */
+    const char *const *events;   /* event of each margin */
+    int outputs;                 /* length of what flank() writes */
+    /* q[parameters] -> point, unit outward normal, tangents (3 each), regular, margins, conditions with slopes */
+    void (*flank)(const double *s, const double *q, double *o);
+} mw_body;
+
+/* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
+ * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
+typedef struct mw_model {
+    int abi;
+    const char *drive, *family, *title, *hash;
+    int nx, np, ns, no, nd, nstart, nguards;
+    int error;                   /* index of the transmission error among the unknowns */
+    int wheel_angle;             /* index of the wheel angle in the observation */
+    const mw_name *unknowns, *parameters, *sizes, *outputs;
+    int noutputs;
+    const int *output_sizes;     /* how many numbers each named output of the observation has */
+    const char *const *guards;
+    const mw_body *bodies;       /* pinion, wheel */
+    void (*derive)(double *p);                                  /* fill in defaults and derived values */
+    void (*size)(const double *p, double *d);
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    void (*set_phi)(double *s, double phi);
+    void (*eval)(const double *s, const double *x, double *R, double *J);
+    double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    void (*guess)(const double *s, double *y);
+    void (*start_eval)(const double *s, const double *y, double *R, double *J);
+    void (*start_solution)(const double *s, const double *y, double *x);
+    void (*observe)(const double *s, const double *x, double *o);
+    void (*scale)(const double *s, double *x);                  /* natural size of each unknown */
+} mw_model;
+
+#endif
