@@ -1,0 +1,1 @@
+"""The audit record: what the sources print, what we derive, what was proved of it, and which generated files rest on it."""

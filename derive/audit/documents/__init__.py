@@ -1,0 +1,1 @@
+"""The four source documents, encoded as printed."""

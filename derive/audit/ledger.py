@@ -1,0 +1,236 @@
+"""Build the record: every claim judged by the prover, every object hashed and linked, one root over all.
+
+Input: chapters, each a document with its claims. Output: a Ledger whose `objects` are ready to be written as canonical JSON.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from derive.audit.check import number_of, root_of, sha256_of, status_of
+from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, as_list
+from derive.prove import Decision, Outcome, Statement, certificate, decide
+from derive.prove.edits import correction
+from derive.prove.tree import parse_formula, symbols
+
+OPERATIONS = {"d": "diff", "cross": "cross", "dot": "dot", "triple": "dot", "@": "matmul"}
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A document and what is claimed in it, in reading order."""
+
+    document: Document
+    claims: Sequence[Claim | FigureClaim]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One equation or printed number: its outcome, what it was decided from, and the hashes of its two objects."""
+
+    outcome: Outcome
+    equation: str
+    certificate: str
+    statement: Statement | None = None
+    decision: Decision | None = None
+    figure: Figure | None = None
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Equations that together are one way to read a claim."""
+
+    label: str
+    parts: tuple[Judged, ...]
+
+    @property
+    def outcome(self) -> Outcome:
+        outcomes = [part.outcome for part in self.parts]
+        return next(outcome for outcome in (Outcome.REFUTED, Outcome.UNDECIDED, Outcome.PROVED) if outcome in outcomes)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What came out for one claim. `change` says which token a correction changes."""
+
+    claim: Claim | FigureClaim
+    status: str
+    readings: tuple[Reading, ...] = ()
+    corrected: Reading | None = None
+    contradiction: Reading | None = None
+    change: str = ""
+    id: str = ""
+    sha256: str = ""
+
+
+@dataclass
+class Ledger:
+    """Every object of the record by its hash, and the verdicts in reading order."""
+
+    objects: dict[str, dict] = field(default_factory=dict)
+    verdicts: dict[str, list[Verdict]] = field(default_factory=dict)
+
+    @property
+    def root(self) -> str:
+        return root_of(self.objects)
+
+    def add(self, body: Mapping) -> str:
+        """Enter an object; its hash."""
+        key = sha256_of(body)
+        self.objects.setdefault(key, {**body, "sha256": key})
+        return key
+
+    def equation_ids(self, prefix: str) -> list[str]:
+        """The ids of all equations of a chapter, sorted."""
+        return sorted(item["id"] for item in self.objects.values() if item["object"] == "equation" and item["id"].startswith(prefix))
+
+
+def build(chapters: Sequence[Chapter]) -> Ledger:
+    """Judge every claim."""
+    ledger = Ledger()
+    for chapter in chapters:
+        document = chapter.document
+        found = ledger.verdicts[document.key] = []
+        for claim in chapter.claims:
+            source = ledger.add(_source(document, claim))
+            judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
+            verdict = judge(ledger, document, claim, source)
+            identifier = f"{document.key}/{claim.key}"
+            key = ledger.add(_verdict_body(verdict, identifier, source))
+            found.append(replace(verdict, id=identifier, sha256=key))
+    return ledger
+
+
+def _source(document: Document, claim: Claim | FigureClaim) -> dict:
+    return {
+        "object": "source",
+        "id": f"{document.key}/{claim.key}",
+        "document": document.file,
+        "document_sha256": document.sha256,
+        "locator": claim.where,
+        "verbatim": claim.verbatim,
+        "ocr_doubt": getattr(claim, "damage", ""),
+    }
+
+
+def _judge(ledger: Ledger, document: Document, claim: Claim, source: str) -> Verdict:
+    identifier = f"{document.key}/{claim.key}"
+    readings = tuple(_reading(ledger, claim, identifier, label, texts, source) for label, texts in claim.read().items())
+    if claim.contradiction:
+        against = _reading(ledger, claim, identifier, "contradiction", as_list(claim.contradiction), source)
+        return Verdict(claim, status_of([], [], [str(against.outcome)]), contradiction=against)
+    if not readings:
+        return Verdict(claim, "ambiguous" if claim.missing else claim.kind)
+    outcomes = [str(reading.outcome) for reading in readings]
+    corrected, change = _correct(ledger, claim, identifier, readings[0], source) if set(outcomes) == {"refuted"} else (None, "")
+    status = status_of(outcomes, [str(corrected.outcome)] if corrected else [], [])
+    return Verdict(claim, status, readings, corrected, change=change)
+
+
+def _reading(ledger: Ledger, claim: Claim, identifier: str, label: str, texts: Sequence[str], source: str) -> Reading:
+    return Reading(label, tuple(_judge_text(ledger, claim, f"{identifier}/{label}/{k}", text, source) for k, text in enumerate(texts, 1)))
+
+
+def _judge_text(ledger: Ledger, claim: Claim, identifier: str, text: str, source: str) -> Judged:
+    kind = "derived" if claim.kind == "identity" else "printed"
+    return _enter(ledger, claim, claim.scope.statement(identifier, text), kind, source)
+
+
+def _enter(ledger: Ledger, claim: Claim, statement: Statement, kind: str, source: str) -> Judged:
+    decision = decide(statement)
+    equation = ledger.add(
+        {
+            "object": "equation",
+            "id": statement.id,
+            "kind": kind,
+            "lhs": statement.lhs,
+            "rhs": statement.rhs,
+            "where": _enter_steps(ledger, claim.scope.key, statement),
+            "jets": {name: list(statement.jets[name]) for name in statement.used_jets},
+            "signs": sorted(statement.signs & set(statement.free_symbols)),
+            "side_conditions": list(claim.conditions),
+            "sources": [source],
+        }
+    )
+    shown = ledger.add({"object": "certificate", "equation": equation, **certificate(decision)})
+    return Judged(decision.outcome, equation, shown, statement, decision)
+
+
+def _enter_steps(ledger: Ledger, scope: str, statement: Statement) -> dict[str, str]:
+    """Name -> hash of the step that defines it; each step rests on those whose names it uses."""
+    entered: dict[str, str] = {}
+    for name, tree in statement.used.items():
+        operation = OPERATIONS.get(tree[0], "define") if isinstance(tree, tuple) else "define"
+        inputs = sorted(entered[other] for other in symbols(tree) if other in entered)
+        entered[name] = ledger.add({"object": "step", "id": f"{scope}.{name}", "op": operation, "tree": tree, "inputs": inputs})
+    return entered
+
+
+def _correct(ledger: Ledger, claim: Claim, identifier: str, reading: Reading, source: str) -> tuple[Reading | None, str]:
+    """What should stand there: the claim's own correction, else the first one-token change that is true."""
+    if claim.corrected:
+        statements = [claim.scope.statement(f"{identifier}/corrected/{k}", text) for k, text in enumerate(as_list(claim.corrected), 1)]
+        return Reading("corrected", tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)), ""
+    changes, parts = [], []
+    for number, part in enumerate(reading.parts, 1):
+        if part.outcome is Outcome.PROVED:
+            parts.append(part)
+            continue
+        found = correction(part.statement, claim.confusable)
+        if found is None:
+            return None, ""
+        edit, statement = found
+        changes.append(edit.change)
+        parts.append(_enter(ledger, claim, replace(statement, id=f"{identifier}/corrected/{number}"), "corrected", source))
+    return Reading("corrected", tuple(parts)), "; ".join(dict.fromkeys(changes))
+
+
+def _judge_figures(ledger: Ledger, document: Document, claim: FigureClaim, source: str) -> Verdict:
+    identifier = f"{document.key}/{claim.key}"
+    parts = tuple(_judge_figure(ledger, f"{identifier}/{k}", figure, "printed", source) for k, figure in enumerate(claim.figures, 1))
+    reading = Reading(AS_PRINTED, parts)
+    if reading.outcome is Outcome.PROVED:
+        return Verdict(claim, "proved", (reading,))
+    amended = claim.corrected or [part.figure if part.outcome is Outcome.PROVED else part.figure.amended() for part in parts]
+    corrected = Reading(
+        "corrected", tuple(_judge_figure(ledger, f"{identifier}/corrected/{k}", figure, "corrected", source) for k, figure in enumerate(amended, 1))
+    )
+    return Verdict(claim, status_of(["refuted"], [str(corrected.outcome)], []), (reading,), corrected)
+
+
+def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, source: str) -> Judged:
+    outcome = Outcome.PROVED if figure.holds else Outcome.REFUTED
+    equation = ledger.add(
+        {
+            "object": "equation", "id": identifier, "kind": kind, "lhs": parse_formula(figure.formula), "rhs": figure.printed,
+            "unit": figure.unit, "where": {}, "sources": [source],
+        }
+    )
+    shown = ledger.add(
+        {
+            "object": "certificate", "kind": "numeric", "equation": equation, "outcome": str(outcome),
+            "value": f"{figure.value:.9g}", "half_unit": figure.half_unit,
+        }
+    )
+    return Judged(outcome, equation, shown, figure=figure)
+
+
+def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
+    return {
+        "object": "verdict",
+        "id": identifier,
+        "source": source,
+        "status": verdict.status,
+        "plain": verdict.claim.plain,
+        "readings": [_reading_body(reading) for reading in verdict.readings],
+        "corrected": [_reading_body(verdict.corrected)] if verdict.corrected else [],
+        "contradiction": [_reading_body(verdict.contradiction)] if verdict.contradiction else [],
+        "change": verdict.change,
+        "missing": getattr(verdict.claim, "missing", ""),
+        "drops": getattr(verdict.claim, "drops", ""),
+    }
+
+
+def _reading_body(reading: Reading) -> dict:
+    return {"label": reading.label, "parts": [{"equation": part.equation, "certificate": part.certificate} for part in reading.parts]}

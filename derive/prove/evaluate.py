@@ -1,0 +1,239 @@
+"""Interpret expression trees in the polynomial ring: a tree becomes a quotient, or three, or nine of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import TypeAlias
+
+from derive.prove.angles import PI, linear_form, quarter_turns
+from derive.prove.fraction import Quotient
+from derive.prove.normal_form import Relation
+from derive.prove.polynomial import BACKENDS, PolynomialRing
+from derive.prove.statement import Statement
+from derive.prove.tree import NotationError, Tree, canonical
+
+Vector: TypeAlias = "tuple[Quotient, ...]"
+Value: TypeAlias = "Quotient | Vector | tuple[Vector, ...]"
+
+
+@dataclass(frozen=True)
+class Root:
+    """sqrt(radicand) = generator / divisor."""
+
+    radicand: Tree
+    generator: str
+    divisor: int
+
+
+def jet_name(name: str, orders: tuple[int, ...]) -> str:
+    return f"{name}[{','.join(map(str, orders))}]"
+
+
+class Evaluator:
+    """The ring of one statement and the values of its trees in that ring."""
+
+    def __init__(self, statement: Statement, backend: str = BACKENDS[0]):
+        self.statement = statement
+        self.roots: list[Root] = []
+        self._jets = {
+            jet_name(name, orders): (name, orders)
+            for name, highest in statement.used_jets.items()
+            for orders in product(range(highest + 1), repeat=len(statement.jets[name]))
+            if sum(orders) <= highest
+        }
+        names = [f"sqrt{k}" for k in range(len(statement.radicands))]
+        names += statement.free_symbols + list(self._jets)
+        names += [name for angle in statement.angles for name in (angle.cosine, angle.sine)]
+        self.ring = PolynomialRing(tuple(names), backend)
+        self.relations = self._circle_and_sign_relations()
+        self._known: dict[Tree, Value] = {}
+        self._angles = {angle.symbol: angle for angle in statement.angles}
+        for radicand in statement.radicands:
+            self._adjoin_root(radicand)
+
+    def value(self, tree: Tree) -> Value:
+        """The tree's value; every subtree is computed once."""
+        known = self._known.get(tree)
+        if known is None:
+            known = self._known[tree] = self._evaluate(tree)
+        return known
+
+    def constant(self, value: int) -> Quotient:
+        return Quotient(self.ring, self.ring.constant(value))
+
+    def generator(self, name: str) -> Quotient:
+        return Quotient(self.ring, self.ring.generator(name))
+
+    def _circle_and_sign_relations(self) -> tuple[Relation, ...]:
+        terms, index, one = self.ring.terms, self.ring.index, self.ring.constant(1)
+        circles = tuple(
+            Relation("circle", angle.sine, terms(one - self.ring.generator(angle.cosine) ** 2)) for angle in self.statement.angles
+        )
+        signs = tuple(Relation("sign", name, terms(one)) for name in sorted(self.statement.signs) if name in index)
+        return circles + signs
+
+    def _adjoin_root(self, radicand: Tree) -> None:
+        """Name sqrt(radicand), reusing the generator of an equal radicand."""
+        square = self.value(radicand)
+        divisor = self._positive_divisor(radicand, square)
+        terms = {powers: factor * divisor for powers, factor in self.ring.terms(square.numerator).items()}
+        for relation in self.relations:
+            if relation.kind == "root" and relation.square == terms:
+                self.roots.append(Root(radicand, relation.generator, divisor))
+                return
+        name = f"sqrt{sum(relation.kind == 'root' for relation in self.relations)}"
+        self.relations = (Relation("root", name, terms), *self.relations)
+        self.roots.append(Root(radicand, name, divisor))
+
+    def _positive_divisor(self, radicand: Tree, square: Quotient) -> int:
+        """The denominator of a radicand, which has to be a positive integer."""
+        divisor = 1
+        for factor, times in square.factors:
+            terms = self.ring.terms(factor)
+            if set(terms) != {(0,) * len(self.ring.names)} or min(terms.values()) < 0:
+                raise NotationError(f"write the root of a quotient as a quotient of roots: {canonical(radicand)}")
+            divisor *= terms[(0,) * len(self.ring.names)] ** times
+        return divisor
+
+    def _evaluate(self, tree: Tree) -> Value:
+        if isinstance(tree, int):
+            return self.constant(tree)
+        if isinstance(tree, str):
+            return self.value(self.statement.used[tree]) if tree in self.statement.used else self.generator(tree)
+        operation, *arguments = tree
+        match operation:
+            case "+":
+                return _fold(lambda a, b: _zip(Quotient.__add__, a, b), map(self.value, arguments))
+            case "-":
+                return _map(Quotient.__neg__, self.value(arguments[0]))
+            case "*":
+                return _fold(_times, map(self.value, arguments))
+            case "/":
+                divisor = self.value(arguments[1])
+                return _map(lambda part: part / divisor, self.value(arguments[0]))
+            case "^":
+                return self.value(arguments[0]) ** arguments[1]
+            case "sqrt":
+                return self._root(next(root for root in self.roots if root.radicand == arguments[0]))
+            case "jet":
+                return self.generator(jet_name(arguments[0], tuple(arguments[1:])))
+            case "cos" | "sin" | "tan":
+                cosine, sine = self._cosine_and_sine(arguments[0])
+                return {"cos": lambda: cosine, "sin": lambda: sine, "tan": lambda: sine / cosine}[operation]()
+            case "Rx" | "Ry" | "Rz":
+                return self._rotation("xyz".index(operation[1]), *self._cosine_and_sine(arguments[0]))
+            case "d":
+                rates = self._rates({symbol: self.value(rate) for symbol, rate in arguments[1:]})
+                return _map(lambda part: part.derivative(rates), self.value(arguments[0]))
+            case "mat":
+                return tuple(tuple(map(self.value, row)) for row in arguments)
+            case "at":
+                return self.value(arguments[0])[arguments[1]]
+            case "entry":
+                return self.value(arguments[0])[arguments[1]][arguments[2]]
+        return ALGEBRA[operation](*map(self.value, arguments))
+
+    def _root(self, root: Root) -> Quotient:
+        generator = self.generator(root.generator)
+        return generator if root.divisor == 1 else generator / self.constant(root.divisor)
+
+    def _cosine_and_sine(self, tree: Tree) -> tuple[Quotient, Quotient]:
+        """By complex multiplication over the base angles, then by quarter turns."""
+        form = linear_form(tree, self.statement.used)
+        cosine, sine = self.constant(1), self.constant(0)
+        for symbol in sorted(set(form) - {PI}):
+            angle = self._angles[symbol]
+            times = int(form[symbol] * angle.divisor)
+            c = self.generator(angle.cosine)
+            s = self.generator(angle.sine) if times > 0 else -self.generator(angle.sine)
+            for _ in range(abs(times)):
+                cosine, sine = cosine * c - sine * s, sine * c + cosine * s
+        for _ in range(quarter_turns(form) % 4):
+            cosine, sine = -sine, cosine
+        return cosine, sine
+
+    def _rotation(self, axis: int, cosine: Quotient, sine: Quotient) -> tuple[Vector, ...]:
+        one, zero = self.constant(1), self.constant(0)
+        rows = [[one if i == j else zero for j in range(3)] for i in range(3)]
+        first, second = (axis + 1) % 3, (axis + 2) % 3
+        rows[first][first], rows[first][second] = cosine, -sine
+        rows[second][first], rows[second][second] = sine, cosine
+        return tuple(map(tuple, rows))
+
+    def _rates(self, moving: Mapping[str, Quotient]) -> dict[str, Quotient]:
+        """The rate of every generator when symbols move: the derivation of the ring."""
+        rates = dict(moving)
+        for symbol, rate in moving.items():
+            if symbol in self._angles:
+                angle = self._angles[symbol]
+                turning = rate if angle.divisor == 1 else rate / self.constant(angle.divisor)
+                rates[angle.cosine] = -self.generator(angle.sine) * turning
+                rates[angle.sine] = self.generator(angle.cosine) * turning
+        for name, (function, orders) in self._jets.items():
+            for position, variable in enumerate(self.statement.jets[function]):
+                raised = jet_name(function, tuple(n + (k == position) for k, n in enumerate(orders)))
+                if variable in moving and raised in self._jets:
+                    slope = self.generator(raised) * moving[variable]
+                    rates[name] = rates[name] + slope if name in rates else slope
+        for root in self.roots:
+            slope = self.value(root.radicand).derivative(rates)
+            if slope.numerator:
+                scale = self.constant(root.divisor**2)
+                rates[root.generator] = slope * scale / (self.constant(2) * self.generator(root.generator))
+        return rates
+
+
+def _map(function: Callable[[Quotient], Quotient], value: Value) -> Value:
+    return function(value) if isinstance(value, Quotient) else tuple(_map(function, part) for part in value)
+
+
+def _zip(function: Callable[[Quotient, Quotient], Quotient], left: Value, right: Value) -> Value:
+    if isinstance(left, Quotient):
+        return function(left, right)
+    return tuple(_zip(function, a, b) for a, b in zip(left, right, strict=True))
+
+
+def _fold(function: Callable, values) -> Value:
+    values = iter(values)
+    total = next(values)
+    for value in values:
+        total = function(total, value)
+    return total
+
+
+def _times(left: Value, right: Value) -> Value:
+    if isinstance(left, Quotient):
+        return _map(lambda part: left * part, right)
+    return _map(lambda part: part * right, left)
+
+
+def _dot(u: Vector, v: Vector) -> Quotient:
+    return _fold(Quotient.__add__, (a * b for a, b in zip(u, v, strict=True)))
+
+
+def _cross(u: Vector, v: Vector) -> Vector:
+    return tuple(u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3] for i in range(3))
+
+
+def _matmul(left: tuple[Vector, ...], right: Value) -> Value:
+    if isinstance(right[0], Quotient):
+        return tuple(_dot(row, right) for row in left)
+    columns = tuple(zip(*right, strict=True))
+    return tuple(tuple(_dot(row, column) for column in columns) for row in left)
+
+
+ALGEBRA: dict[str, Callable[..., Value]] = {
+    "vec": lambda *parts: parts,
+    "dot": _dot,
+    "cross": _cross,
+    "triple": lambda u, v, w: _dot(_cross(u, v), w),
+    "@": _matmul,
+    "T": lambda matrix: tuple(zip(*matrix, strict=True)),
+}
+
+
+def components(value: Value) -> list[Quotient]:
+    """The scalar entries of a value, row by row."""
+    return [value] if isinstance(value, Quotient) else [entry for part in value for entry in components(part)]

@@ -1,0 +1,111 @@
+"""Points at which statements are evaluated: rational cosines and sines, small rational parameters.
+
+A polynomial identity in an angle and its cosine and sine that held on all real points would hold as a polynomial identity, so a
+point with an exactly rational cosine and sine refutes exactly. Where the bare angle, pi or a root also occurs, their values are
+rational to 1e-30 and a difference counts only above 1e-9.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+from math import isqrt
+
+from derive.prove.angles import PI
+from derive.prove.evaluate import Evaluator
+from derive.prove.fraction import Quotient
+from derive.prove.normal_form import Relation
+from derive.prove.polynomial import Terms
+
+HALF_TANGENTS = tuple(Fraction(*pair) for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7)))
+LENGTHS = tuple(map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)))
+SCALE = 10**30
+THRESHOLD = Fraction(1, 10**9)
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values of the free symbols and jets, and of the half-angle tangents that fix every cosine and sine."""
+
+    symbols: dict[str, Fraction]
+    half_tangents: dict[str, Fraction]
+    values: dict[str, Fraction]
+
+
+def sample_points(evaluator: Evaluator, count: int) -> Iterator[Point]:
+    """Deterministic points of the statement's variety with real roots, simplest first."""
+    return islice((point for attempt in range(8 * count) if (point := _point(evaluator, attempt)) is not None), count)
+
+
+def value_at(part: Quotient, point: Point) -> Fraction | None:
+    """The number, or None where a denominator vanishes."""
+    names = part.ring.names
+    below = Fraction(1)
+    for factor, times in part.factors:
+        below *= _sum(part.ring.terms(factor), names, point.values) ** times
+    return _sum(part.ring.terms(part.numerator), names, point.values) / below if below else None
+
+
+def is_rounded(evaluator: Evaluator, parts: list[Quotient]) -> bool:
+    """Does a value depend on a bare angle, on pi or on a root, which are rational only to 1e-30?"""
+    inexact = {angle.symbol for angle in evaluator.statement.angles} | {PI} | {root.generator for root in evaluator.roots}
+    positions = [i for i, name in enumerate(evaluator.ring.names) if name in inexact]
+    polys = [poly for part in parts for poly in (part.numerator, *(factor for factor, _ in part.factors))]
+    return any(powers[i] for poly in polys for powers in evaluator.ring.terms(poly) for i in positions)
+
+
+def _point(evaluator: Evaluator, attempt: int) -> Point | None:
+    statement = evaluator.statement
+    bases = {angle.name: HALF_TANGENTS[(k + attempt) % len(HALF_TANGENTS)] for k, angle in enumerate(statement.angles)}
+    values: dict[str, Fraction] = {PI: arctangent(Fraction(1)) * 4}
+    for angle in statement.angles:
+        t = bases[angle.name]
+        values[angle.cosine], values[angle.sine] = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+        values[angle.symbol] = 2 * angle.divisor * arctangent(t)
+    free = [name for name in evaluator.ring.names if name not in values and not name.startswith("sqrt")]
+    for k, name in enumerate(free):
+        if name in statement.signs:
+            values[name] = Fraction((-1) ** (attempt + k))
+        else:
+            values[name] = LENGTHS[(k + 3 * attempt) % len(LENGTHS)] / (1 if attempt < 4 else 1 + (attempt + k) % 3)
+    for relation in reversed([relation for relation in evaluator.relations if relation.kind == "root"]):
+        root = _root(relation, evaluator.ring.names, values)
+        if root is None:
+            return None
+        values[relation.generator] = root
+    return Point({name: values[name] for name in free}, bases, values)
+
+
+def _root(relation: Relation, names: tuple[str, ...], values: dict[str, Fraction]) -> Fraction | None:
+    square = _sum(relation.square, names, values)
+    return None if square < 0 else Fraction(isqrt(square.numerator * SCALE**2 // square.denominator), SCALE)
+
+
+def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> Fraction:
+    total = Fraction(0)
+    for powers, factor in terms.items():
+        product = Fraction(factor)
+        for name, power in zip(names, powers, strict=True):
+            if power:
+                product *= values[name] ** power
+        total += product
+    return total
+
+
+def arctangent(t: Fraction) -> Fraction:
+    """arctan t for 0 < t <= 1, to 1e-30: Euler's series."""
+    square = t * t / (1 + t * t)
+    term = total = t / (1 + t * t)
+    n = 1
+    while term > Fraction(1, 100 * SCALE):
+        term *= square * 2 * n / (2 * n + 1)
+        total += term
+        n += 1
+        term, total = _rounded(term), _rounded(total)
+    return total
+
+
+def _rounded(value: Fraction) -> Fraction:
+    return Fraction(value.numerator * SCALE * 1000 // value.denominator, SCALE * 1000)

@@ -1,0 +1,196 @@
+"""The checker accepts the record as written and nothing else. It runs alone, with the standard library."""
+
+import subprocess
+import sys
+
+import pytest
+
+from derive.audit import check
+
+
+def run(folder):
+    """The shipped copy, isolated from every installed package."""
+    return subprocess.run([sys.executable, "-I", "-S", folder / "check.py"], capture_output=True, text=True, cwd="/")
+
+
+def change(path, old, new):
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+
+
+def test_shipped_checker_accepts_the_record_without_any_package(record, small_ledger):
+    result = run(record)
+    assert result.returncode == 0, result.stderr
+    assert small_ledger.root in result.stdout
+
+
+def test_checker_imports_only_the_standard_library():
+    source = open(check.__file__).read()
+    modules = {line.split()[1].split(".")[0] for line in source.splitlines() if line.startswith(("import ", "from "))}
+    assert modules <= sys.stdlib_module_names
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("certificates.jsonl", '"kind":"ring_nf"', '"kind":"ring_nF"'),
+        ("certificates.jsonl", '"cofactors":["', '"cofactors":["2*0+'),
+        ("ledger.jsonl", '"omega1"', '"omega2"'),
+        ("ledger.jsonl", '"status":"proved_with_correction"', '"status":"proved"'),
+        ("artifacts.json", '"root": "', '"root": "0'),
+        ("../c/drive.h", "a - b", "a + b"),
+    ],
+    ids=["certificate", "cofactor", "equation", "verdict", "root", "generated C file"],
+)
+def test_one_changed_token_is_caught(record, name, old, new):
+    change(record / name, old, new)
+    result = run(record)
+    assert result.returncode == 1
+    assert "REJECTED" in result.stderr
+
+
+def test_a_missing_line_is_caught(record):
+    path = record / "certificates.jsonl"
+    path.write_text("".join(path.read_text().splitlines(keepends=True)[1:]))
+    assert run(record).returncode == 1
+
+
+def test_no_record_is_reported_as_such(tmp_path):
+    assert check.main([str(tmp_path)]) == 1
+
+
+# A forger who recomputes the hash of the certificate: the mathematics itself has to catch him.
+
+
+@pytest.fixture
+def proof(objects):
+    """A certificate with at least one relation, its equation and definitions."""
+    certificate = next(item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "ring_nf" and item["relations"])
+    equation = objects[certificate["equation"]]
+    return certificate, equation, check.definitions_of(equation, objects)
+
+
+def rejected(proof, match):
+    with pytest.raises(check.Rejected, match=match):
+        check.check_proof(*proof)
+
+
+def test_untouched_proof_passes(proof):
+    check.check_proof(*proof)
+
+
+def test_altered_cofactor(proof):
+    proof[0]["components"][0]["cofactors"][0] += "+1*0"
+    rejected(proof, "not the sum|repeats|canonical")
+
+
+def test_altered_numerator_with_matching_cofactors(proof):
+    """Numerator and cofactors doubled: the integers agree, the trees do not."""
+    component = proof[0]["components"][0]
+    double = lambda text: "+".join(f"{2 * int(term.partition('*')[0])}{term[len(term.partition('*')[0]):]}" for term in text.split("+")) if text else ""
+    component["numerator"] = double(component["numerator"])
+    component["cofactors"] = [double(text) for text in component["cofactors"]]
+    rejected(proof, "trees differ")
+
+
+def test_empty_numerator_does_not_prove_an_equation_that_needs_relations(proof):
+    component = proof[0]["components"][0]
+    component["numerator"] = ""
+    component["cofactors"] = ["" for _ in component["cofactors"]]
+    rejected(proof, "trees differ")
+
+
+def test_certificate_without_components(proof):
+    proof[0]["components"] = []
+    rejected(proof, "no component")
+
+
+def test_altered_expression(proof):
+    certificate, equation, definitions = proof
+    equation["rhs"] = ["+", equation["rhs"], 1]
+    rejected(proof, "trees differ")
+
+
+def test_invented_relation(proof):
+    certificate = proof[0]
+    certificate["relations"].append({"kind": "circle", "generator": certificate["generators"][0], "square": "1"})
+    for component in certificate["components"]:
+        component["cofactors"].append("1")
+    rejected(proof, "not the sine|invented or repeated")
+
+
+def test_false_circle(proof):
+    proof[0]["relations"][0]["square"] = "2"
+    rejected(proof, "not the circle")
+
+
+def test_relation_of_an_unknown_kind(proof):
+    proof[0]["relations"][0]["kind"] = "wish"
+    rejected(proof, "invented")
+
+
+def test_two_names_for_one_angle(proof):
+    certificate = proof[0]
+    certificate["angles"].append({**certificate["angles"][0], "divisor": 2})
+    rejected(proof, "two names")
+
+
+def test_one_name_for_two_things(proof):
+    certificate, equation, _ = proof
+    equation["signs"] = [certificate["angles"][0]["symbol"]]
+    rejected(proof, "two things")
+
+
+def test_zero_denominator(proof):
+    component = proof[0]["components"][0]
+    component["denominators"].append(["", 1])
+    rejected(proof, "denominator is zero")
+
+
+def test_vacuous_statement_is_rejected():
+    """1/(cos^2 + sin^2 - 1) never exists on the circle."""
+    certificate = {
+        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "generators": [], "relations": [],
+        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+    }
+    zero = ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2], -1]
+    equation = {"lhs": ["/", "x", zero], "rhs": ["/", "x", zero], "signs": [], "jets": {}}
+    with pytest.raises(check.Rejected, match="denominator vanishes"):
+        check.check_proof(certificate, equation, {})
+
+
+def test_refutation_needs_sides_that_differ(objects):
+    certificate = next(item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "exact_point")
+    equation = objects[certificate["equation"]]
+    equation["rhs"] = equation["lhs"]
+    with pytest.raises(check.Rejected, match="agree"):
+        check.check_refutation(certificate, equation, check.definitions_of(equation, objects))
+
+
+def test_wrong_derivative_is_caught_by_dual_numbers(objects):
+    """d(sin)/da = -cos passed off as true."""
+    certificate = {
+        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "generators": [], "relations": [],
+        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+    }
+    equation = {"lhs": ["d", ["sin", "a"], ["a", 1]], "rhs": ["-", ["cos", "a"]], "signs": [], "jets": {}}
+    with pytest.raises(check.Rejected, match="trees differ"):
+        check.check_proof(certificate, equation, {})
+    check.check_proof(certificate, {**equation, "rhs": ["cos", "a"]}, {})
+
+
+def test_second_derivatives_of_jets_and_roots():
+    """xi(u)^2 twice, and sqrt(u^2 + 1) once, by nested dual numbers."""
+    certificate = {
+        "angles": [], "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": 1}],
+        "generators": [], "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+    }
+    xi = lambda n: ["jet", "xi", n]
+    twice = {
+        "lhs": ["d", ["d", ["^", xi(0), 2], ["u", 1]], ["u", 1]], "rhs": ["+", ["*", 2, ["^", xi(1), 2]], ["*", 2, xi(0), xi(2)]],
+        "signs": [], "jets": {"xi": ["u"]},
+    }
+    check.check_proof(certificate, twice, {})
+    root = ["sqrt", ["+", ["^", "u", 2], 1]]
+    check.check_proof(certificate, {"lhs": ["d", root, ["u", 1]], "rhs": ["/", "u", root], "signs": [], "jets": {}}, {})
