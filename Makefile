@@ -4,7 +4,11 @@ VENV   := .venv
 PY     := $(VENV)/bin/python
 READY  := $(VENV)/.ready
 
-.PHONY: setup generate check test
+SHIP   := runtime/meshwright/_generated
+CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
+CFLAGS := -std=c99 -O3 -ffp-contract=off -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+
+.PHONY: setup generate build check run test
 
 setup: $(READY)
 
@@ -18,9 +22,18 @@ $(READY): pyproject.toml
 generate: setup
 	$(PY) -m derive
 
+# The shared library and the data that the Python package ships.
+build: $(SHIP)/libmeshwright.so
+
+$(SHIP)/libmeshwright.so: $(wildcard runtime/c/*.[ch]) $(wildcard generated/c/*) $(wildcard generated/casadi/*) | $(READY)
+	mkdir -p $(SHIP)/include
+	cp generated/c/*.h runtime/c/meshwright.h runtime/c/mw_model.h $(SHIP)/include/
+	cp generated/c/*.json generated/casadi/*.casadi $(SHIP)/
+	$(CC) $(CFLAGS) -shared -Igenerated/c -Iruntime/c runtime/c/*.c -o $@ -lm
+
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r $$folder generated && rm -r $$folder
 
-test: setup
+test: build
 	$(PY) -m pytest

@@ -72,7 +72,9 @@ class System:
 class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
-    ``variant`` are the words of the design file that choose this drive within its family. Of each group in
+    ``variant`` are the words of the design file that choose this drive within its family; a key in
+    ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
+    mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
     ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made.
     """
 
@@ -96,7 +98,10 @@ class Drive:
     guess: dict
     sample: dict
     sample_angle: float
+    pinion_teeth: str
     variant: dict = field(default_factory=dict)
+    variant_defaults: dict = field(default_factory=dict)
+    handed: bool = False
     exclusive: tuple[tuple[str, ...], ...] = ()
     required: tuple[str, ...] = ()
 

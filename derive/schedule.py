@@ -61,6 +61,7 @@ class Schedule:
     start_residual: list[int] = field(default_factory=list)
     start_jacobian: list[list[int]] = field(default_factory=list)
     start_guess: list[int] = field(default_factory=list)
+    start_scales: list[int] = field(default_factory=list)
     start_solution: list[int] = field(default_factory=list)
     guards: list[int] = field(default_factory=list)
     observed: list[Output] = field(default_factory=list)
@@ -113,6 +114,7 @@ def _fixed(plan, node, values):
 def _start(plan, start: System):
     unknowns = [u.symbol for u in start.unknowns]
     plan.start_residual, plan.start_jacobian = _system(plan, start.residual, unknowns, start.fixed)
+    plan.start_scales = [plan.lower(u.scale) for u in start.unknowns]
     plan.start_guess = [plan.lower(plan.drive.guess[u]) for u in unknowns]
     solution = (_fixed(plan, plan.lower(start.outputs[u]), start.fixed) for u in plan.unknowns)
     plan.start_solution = list(solution)
@@ -262,6 +264,7 @@ def iterate_outputs(plan):
     for row in plan.start_jacobian:
         yield from row
     yield from plan.start_guess
+    yield from plan.start_scales
     yield from plan.start_solution
     for output in plan.observed:
         yield from output.nodes

@@ -255,7 +255,10 @@ def cylindrical_worm(worm_profile, hob_profile):
         guess={t_w: worm.pitch_point, t_h: hob.pitch_point},
         sample=SAMPLE,
         sample_angle=7.0,
+        pinion_teeth=threads.key,
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
+        variant_defaults={"hob_profile": "worm_profile"},
+        handed=True,
         exclusive=(
             (normal_module.key, axial_module.key),
             (lead_angle.key, pitch_radius.key),

@@ -136,6 +136,7 @@ def header(plan: Schedule, description: dict, model_source: str):
         step=iterate.body([*plan.step, *plan.step_size])[0],
         scale=iterate.body(plan.scales)[0],
         guess=iterate.body(plan.start_guess)[0],
+        start_scale=iterate.body(plan.start_scales)[0],
         start_residual=start_residual,
         start_jacobian=start.body([e for row in plan.start_jacobian for e in row], start_known)[0],
         start_solution=start.body(plan.start_solution)[0],

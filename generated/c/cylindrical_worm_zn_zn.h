@@ -61,6 +61,7 @@ typedef struct mw_model {
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
     void (*guess)(const double *s, double *y);
+    void (*start_scale)(const double *s, double *y);            /* natural size of the start system's unknowns */
     void (*start_eval)(const double *s, const double *y, double *R, double *J);
     void (*start_solution)(const double *s, const double *y, double *x);
     void (*observe)(const double *s, const double *x, double *o);
@@ -1636,6 +1637,14 @@ static inline void cylindrical_worm_zn_zn_guess(const double *s, double *y)
     y[1] = s[57];
 }
 
+/* Natural size y[cylindrical_worm_zn_zn_NSTART] of each unknown of the start system. */
+static inline void cylindrical_worm_zn_zn_start_scale(const double *s, double *y)
+{
+    (void)s;
+    y[0] = s[35];
+    y[1] = s[35];
+}
+
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_zn_eval. */
 static inline void cylindrical_worm_zn_zn_start_eval(const double *s, const double *y, double *R, double *J)
 {
@@ -2835,7 +2844,7 @@ static const mw_model cylindrical_worm_zn_zn_model = {
     cylindrical_worm_zn_zn_unknown_names, cylindrical_worm_zn_zn_parameter_names, cylindrical_worm_zn_zn_size_names,
     cylindrical_worm_zn_zn_output_names, 26, cylindrical_worm_zn_zn_output_sizes, cylindrical_worm_zn_zn_guard_texts, cylindrical_worm_zn_zn_bodies,
     cylindrical_worm_zn_zn_derive, cylindrical_worm_zn_zn_size, cylindrical_worm_zn_zn_setup, cylindrical_worm_zn_zn_set_phi, cylindrical_worm_zn_zn_eval, cylindrical_worm_zn_zn_step,
-    cylindrical_worm_zn_zn_guess, cylindrical_worm_zn_zn_start_eval, cylindrical_worm_zn_zn_start_solution, cylindrical_worm_zn_zn_observe, cylindrical_worm_zn_zn_scale
+    cylindrical_worm_zn_zn_guess, cylindrical_worm_zn_zn_start_scale, cylindrical_worm_zn_zn_start_eval, cylindrical_worm_zn_zn_start_solution, cylindrical_worm_zn_zn_observe, cylindrical_worm_zn_zn_scale
 };
 
 #endif

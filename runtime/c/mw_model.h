@@ -46,6 +46,7 @@ typedef struct mw_model {
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
     void (*guess)(const double *s, double *y);
+    void (*start_scale)(const double *s, double *y);            /* natural size of the start system's unknowns */
     void (*start_eval)(const double *s, const double *y, double *R, double *J);
     void (*start_solution)(const double *s, const double *y, double *x);
     void (*observe)(const double *s, const double *x, double *o);

@@ -1,1 +1,15 @@
-"""meshwright: tooth contact analysis on generated gear meshing equations."""
+"""meshwright: tooth contact analysis on generated gear meshing equations.
+
+>>> import numpy as np
+>>> from meshwright import Drive
+>>> drive = Drive.load("recess-action-full")
+>>> result = drive.tca(np.radians([400.0, 800.0]))
+>>> result.status
+('converged', 'converged')
+"""
+
+from meshwright.drive import Drive
+from meshwright.errors import DesignError, UsageError
+from meshwright.results import TCA
+
+__all__ = ["TCA", "DesignError", "Drive", "UsageError"]

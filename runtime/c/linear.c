@@ -1,0 +1,70 @@
+/* Small dense linear algebra with complete pivoting.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include "linear.h"
+#include "meshwright.h"
+
+static double magnitude(double a)
+{
+    return a < 0.0 ? -a : a;
+}
+
+static void swap(double *a, double *b)
+{
+    const double t = *a;
+    *a = *b;
+    *b = t;
+}
+
+static void equilibrate(int n, double *A, double *b, const double *scale)
+{
+    for (int i = 0; i < n; i++) {
+        double largest = 0.0;
+        for (int j = 0; j < n; j++) {
+            A[i * n + j] *= scale[j];
+            if (magnitude(A[i * n + j]) > largest) largest = magnitude(A[i * n + j]);
+        }
+        if (largest > 0.0) {
+            for (int j = 0; j < n; j++) A[i * n + j] /= largest;
+            b[i] /= largest;
+        }
+    }
+}
+
+int mw_linear_solve(int n, double *A, double *b, const double *scale, double tolerance, double *x, double *gap)
+{
+    int column[MW_MAX_UNKNOWNS];
+    int rank = 0;
+    double first = 0.0, last = 0.0;
+    equilibrate(n, A, b, scale);
+    for (int j = 0; j < n; j++) column[j] = j;
+    for (int k = 0; k < n; k++) {
+        int row = k, col = k;
+        for (int i = k; i < n; i++)
+            for (int j = k; j < n; j++)
+                if (magnitude(A[i * n + j]) > magnitude(A[row * n + col])) row = i, col = j;
+        last = magnitude(A[row * n + col]);
+        if (k == 0) first = last;
+        if (!(last > tolerance * first)) break;
+        for (int j = 0; j < n; j++) swap(&A[k * n + j], &A[row * n + j]);
+        swap(&b[k], &b[row]);
+        for (int i = 0; i < n; i++) swap(&A[i * n + k], &A[i * n + col]);
+        const int t = column[k];
+        column[k] = column[col];
+        column[col] = t;
+        for (int i = k + 1; i < n; i++) {
+            const double factor = A[i * n + k] / A[k * n + k];
+            for (int j = k; j < n; j++) A[i * n + j] -= factor * A[k * n + j];
+            b[i] -= factor * b[k];
+        }
+        rank = k + 1;
+    }
+    for (int j = 0; j < n; j++) x[j] = 0.0;
+    for (int k = rank - 1; k >= 0; k--) {
+        double sum = b[k];
+        for (int j = k + 1; j < rank; j++) sum -= A[k * n + j] * x[column[j]];
+        x[column[k]] = sum / A[k * n + k];
+    }
+    for (int j = 0; j < n; j++) x[j] *= scale[j];
+    *gap = first > 0.0 ? last / first : 0.0;
+    return rank;
+}

@@ -1,0 +1,86 @@
+/* meshwright: tooth contact analysis on generated models.  SPDX-License-Identifier: MIT-0
+ *
+ * C99, no heap, no globals, no input or output; every function is re-entrant and the caller owns all memory.
+ * Units: mm, rad. A model comes from a generated header ("<drive>_model") or, in the shared library, from mw_find. */
+#ifndef MESHWRIGHT_H
+#define MESHWRIGHT_H
+
+#include <stddef.h>
+#include "mw_model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How a solve ended: code, value, the word used in results, what it means. Success is >= 0. */
+#define MW_STATUS_LIST(X) \
+    X(MW_CONVERGED, 0, "converged", "the last step was below tolerance") \
+    X(MW_CONVERGED_NOISE, 1, "converged", "the steps ended in round-off; near line contact the point is ill-determined") \
+    X(MW_LINE_CONTACT, 2, "line_contact", "the flanks touch along a line: no single contact point exists") \
+    X(MW_NO_CONTACT, -1, "no_contact", "the flanks do not touch at this angle") \
+    X(MW_LEFT_FLANK, -2, "left_flank", "the search left the domain in which the flanks exist") \
+    X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
+    X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \
+    X(MW_DIVERGED, -5, "diverged", "the iteration did not settle") \
+    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold")
+
+typedef enum mw_status {
+#define MW_STATUS_ENUM(code, value, word, text) code = value,
+    MW_STATUS_LIST(MW_STATUS_ENUM)
+#undef MW_STATUS_ENUM
+    MW_STATUS_END = 1000
+} mw_status;
+
+enum { MW_MAX_UNKNOWNS = 8 };
+
+/* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
+
+/* Record of one solve. residual: largest |R| at the end; rank_gap: smallest over largest pivot of the scaled
+ * Jacobian where it was factorised with complete pivoting, else 0; guard: 1 + index of a failed guard, else 0. */
+typedef struct mw_info {
+    int status, iterations, guard;
+    double step, residual, rank_gap;
+} mw_info;
+
+/* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
+ * positive without interference. major: direction of curvature_min. flags: see mw_flag. */
+typedef struct mw_contact {
+    double point[3], normal[3];
+    double curvature_min, curvature_max;
+    double major[3];
+    double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
+    int line;                    /* curvature_min is zero to round-off: line contact */
+    unsigned flags;
+} mw_contact;
+
+int mw_abi(void);
+const char *mw_status_word(int status);
+const char *mw_status_text(int status);
+int mw_model_count(void);
+const mw_model *mw_model_at(int index);
+const mw_model *mw_find(const char *drive);
+
+/* Solve one point from a cold start. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result.
+ * Misalignments are applied by continuation. Returns info->status. */
+int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
+
+/* Solve from start values x[nx], state s set up for p and phi already. */
+int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
+
+/* Trace phi[n] in order, each point predicted from its predecessors; x[n*nx], info[n]. A point that fails is
+ * solved cold. Returns the number of points that succeeded. */
+size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
+                mw_info *info);
+
+/* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
+int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);
+
+/* Name of flag number bit of mw_contact.flags, NULL past the last. */
+const char *mw_flag(const mw_model *m, int bit);
+
+/* END INTERFACE */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

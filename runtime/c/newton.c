@@ -1,0 +1,107 @@
+/* Newton iterations on one system of equations.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include "linear.h"
+#include "newton.h"
+
+enum { MAX_ITERATIONS = 60, MAX_HALVINGS = 5, MAX_FUSED = 12 };
+
+/* Steps are in units of the unknowns' natural size. */
+static const double STEP_DONE = 1e-9;      /* the next step would be about its square: below round-off */
+static const double STEP_NOISE = 1e-4;     /* a stagnating step may be noise only below this */
+static const double STEP_LIMIT = 0.7;      /* no unknown moves further at once */
+static const double RANK_TOLERANCE = 1e-12;
+static const double RESIDUAL_NOISE = 1e-10; /* largest |R| that round-off explains, relative to its own terms */
+
+static double largest(int n, const double *a)
+{
+    double most = 0.0;
+    for (int i = 0; i < n; i++) {
+        const double size = fabs(a[i]);
+        if (!(size <= most)) most = size; /* not-a-number wins */
+        if (most != most) return most;
+    }
+    return most;
+}
+
+/* Residual in units of natural steps: rows divided by their largest scaled slope. */
+static double merit(int n, const double *R, const double *J, const double *scale)
+{
+    double most = 0.0;
+    for (int i = 0; i < n; i++) {
+        double slope = 0.0;
+        for (int j = 0; j < n; j++) {
+            const double size = fabs(J[i * n + j]) * scale[j];
+            if (size > slope) slope = size;
+        }
+        const double size = fabs(R[i]) / (slope > 0.0 ? slope : 1.0);
+        if (!(size <= most)) most = size;
+        if (most != most) return most;
+    }
+    return most;
+}
+
+static double scaled_step(int n, const double *step, const double *scale)
+{
+    double most = 0.0;
+    for (int j = 0; j < n; j++) {
+        const double size = fabs(step[j]) / scale[j];
+        if (!(size <= most)) most = size;
+    }
+    return most;
+}
+
+static int finish(mw_info *info, int status)
+{
+    info->status = status;
+    return status;
+}
+
+int mw_newton(mw_equations f, int n, const double *s, const double *scale, double *x, mw_info *info)
+{
+    double R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], A[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
+    double b[MW_MAX_UNKNOWNS], step[MW_MAX_UNKNOWNS], trial[MW_MAX_UNKNOWNS];
+    double previous = HUGE_VAL;
+    f(s, x, R, J);
+    double error = merit(n, R, J, scale);
+    for (info->iterations = 0; info->iterations < MAX_ITERATIONS; info->iterations++) {
+        if (!(error < HUGE_VAL)) return finish(info, MW_LEFT_FLANK);
+        for (int i = 0; i < n * n; i++) A[i] = J[i];
+        for (int i = 0; i < n; i++) b[i] = R[i];
+        const int rank = mw_linear_solve(n, A, b, scale, RANK_TOLERANCE, step, &info->rank_gap);
+        info->step = scaled_step(n, step, scale);
+        info->residual = largest(n, R);
+        if (rank < n && error < RESIDUAL_NOISE) return finish(info, MW_SINGULAR);
+        if (info->step < STEP_DONE || (info->step < STEP_NOISE && info->step > 0.5 * previous && error < RESIDUAL_NOISE)) {
+            for (int j = 0; j < n; j++) x[j] -= step[j];
+            info->iterations++;
+            return finish(info, rank < n ? MW_SINGULAR : info->step < STEP_DONE ? MW_CONVERGED : MW_CONVERGED_NOISE);
+        }
+        previous = info->step;
+        double factor = info->step > STEP_LIMIT ? STEP_LIMIT / info->step : 1.0;
+        double after = HUGE_VAL;
+        for (int h = 0; h <= MAX_HALVINGS; h++, factor *= 0.5) {
+            for (int j = 0; j < n; j++) trial[j] = x[j] - factor * step[j];
+            f(s, trial, R, J);
+            after = merit(n, R, J, scale);
+            if (after < error || (h == MAX_HALVINGS && after < HUGE_VAL)) break;
+        }
+        for (int j = 0; j < n; j++) x[j] = trial[j];
+        error = after;
+    }
+    return finish(info, info->rank_gap < 1e-8 ? MW_NO_CONTACT : MW_DIVERGED);
+}
+
+int mw_newton_fused(const mw_model *m, const double *s, double *x, double tolerance, mw_info *info)
+{
+    double previous = HUGE_VAL;
+    for (info->iterations = 1; info->iterations <= MAX_FUSED; info->iterations++) {
+        info->step = m->step(s, x);
+        if (info->step < tolerance) {
+            info->status = MW_CONVERGED;
+            return 1;
+        }
+        if (!(info->step < 0.5 * previous) || info->step > STEP_LIMIT) return 0;
+        previous = info->step;
+    }
+    return 0;
+}

@@ -1,0 +1,99 @@
+/* One contact point from a cold start.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include <string.h>
+#include "newton.h"
+
+static const double FUSED_TOLERANCE = 1e-9;
+
+static int ended_well(int status)
+{
+    return status >= 0;
+}
+
+/* A singular Jacobian at a true contact means line contact if a relative curvature vanishes there. */
+static int judge_singular(const mw_model *m, const double *s, const double *x, mw_info *info)
+{
+    if (info->status == MW_SINGULAR) {
+        double o[512];
+        mw_contact c;
+        if (m->no <= 512 && mw_contact_at(m, s, x, o, &c) == MW_LINE_CONTACT) info->status = MW_LINE_CONTACT;
+    }
+    return info->status;
+}
+
+int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double before[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS];
+    memset(info, 0, sizeof *info);
+    for (int i = 0; i < m->nx; i++) before[i] = x[i];
+    if (mw_newton_fused(m, s, x, FUSED_TOLERANCE, info)) {
+        m->eval(s, x, R, NULL);
+        for (int i = 0; i < m->nx; i++)
+            if (!(fabs(R[i]) <= info->residual)) info->residual = fabs(R[i]);
+        return info->status;
+    }
+    for (int i = 0; i < m->nx; i++) x[i] = before[i];
+    m->scale(s, scale);
+    mw_newton(m->eval, m->nx, s, scale, x, info);
+    return judge_singular(m, s, x, info);
+}
+
+static int is_misalignment(const mw_model *m, int parameter)
+{
+    return strcmp(m->parameters[parameter].table, "misalignment") == 0;
+}
+
+/* State for the share of the misalignments, 0 to 1. */
+static int setup_share(const mw_model *m, const double *p, double share, double phi, double *s, double *work)
+{
+    for (int i = 0; i < m->np; i++) work[i] = is_misalignment(m, i) ? share * p[i] : p[i];
+    const int guard = m->setup(work, s);
+    m->set_phi(s, phi);
+    return guard;
+}
+
+static int start(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double y[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    memset(info, 0, sizeof *info);
+    m->guess(s, y);
+    m->start_scale(s, scale);
+    if (m->nstart > 0 && !ended_well(mw_newton(m->start_eval, m->nstart, s, scale, y, info))) return info->status;
+    m->start_solution(s, y, x);
+    return mw_refine(m, s, x, info);
+}
+
+/* Raise the misalignments from share `from` to 1, halving the step where Newton fails. */
+static int raise(const mw_model *m, const double *p, double phi, double from, double *s, double *work, double *x,
+                 mw_info *info)
+{
+    double good[MW_MAX_UNKNOWNS];
+    double share = from, step = 1.0 - from;
+    for (int i = 0; i < m->nx; i++) good[i] = x[i];
+    for (int attempt = 0; attempt < 60 && share < 1.0; attempt++) {
+        const double next = share + step < 1.0 ? share + step : 1.0;
+        setup_share(m, p, next, phi, s, work);
+        if (ended_well(mw_refine(m, s, x, info))) {
+            share = next;
+            step *= 2.0;
+            for (int i = 0; i < m->nx; i++) good[i] = x[i];
+        } else {
+            step *= 0.5;
+            for (int i = 0; i < m->nx; i++) x[i] = good[i];
+            if (step < 1.0 / 1024.0) return info->status;
+        }
+    }
+    return info->status;
+}
+
+int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+{
+    memset(info, 0, sizeof *info);
+    info->guard = setup_share(m, p, 1.0, phi, s, work);
+    if (info->guard) return info->status = MW_BAD_INPUT;
+    if (ended_well(start(m, s, x, info))) return info->status;
+    setup_share(m, p, 0.0, phi, s, work);
+    if (ended_well(start(m, s, x, info))) raise(m, p, phi, 0.0, s, work, x, info);
+    if (!ended_well(info->status)) setup_share(m, p, 1.0, phi, s, work);
+    return info->status;
+}

@@ -1,0 +1,208 @@
+"""Designs: read, checked and turned into the parameter vector of a drive."""
+
+import copy
+import difflib
+import math
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pydantic
+
+from meshwright import metadata, schema
+from meshwright._library import ffi, model, text
+from meshwright.errors import DesignError
+
+PACKAGED = Path(__file__).parent / "designs"
+
+
+def packaged_names():
+    """Names of the packaged designs."""
+    return sorted(path.stem for path in PACKAGED.glob("*.toml"))
+
+
+def read(name_or_path):
+    """The raw tables of a packaged design or of a TOML file."""
+    path = PACKAGED / f"{name_or_path}.toml"
+    if not path.exists():
+        path = Path(name_or_path)
+    if not path.exists():
+        near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
+        hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
+        raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise DesignError(str(path), None, f"not a TOML file: {error}", "correct the line named") from error
+    except OSError as error:
+        raise DesignError(str(path), None, f"cannot be read: {error.strerror}", "name a readable file") from error
+
+
+def changed(tables, changes):
+    """The tables with ``{"table.key": value}`` (or top-level ``"key"``) set."""
+    tables = copy.deepcopy(tables)
+    for place, value in changes.items():
+        *parents, key = place.split(".")
+        target = tables
+        for parent in parents:
+            target = target.setdefault(parent, {})
+            if not isinstance(target, dict):
+                raise DesignError(place, value, f"{parent} is not a table", "write table.key=value")
+        target[key] = value
+    return tables
+
+
+@dataclass(frozen=True)
+class Design:
+    """A checked design: the drive that solves it and its complete parameter vector (inner units)."""
+
+    tables: dict
+    description: dict
+    parameters: np.ndarray
+    sizes: dict
+    mirrored: bool
+
+    @property
+    def family(self):
+        return self.description["family"]
+
+    @property
+    def flank(self):
+        """The flank sign."""
+        return float(self.parameters[0])
+
+    def value(self, key, table="design"):
+        """A parameter in inner units by its design key; NaN if the design leaves it open."""
+        for number, p in zip(self.parameters, self.description["parameters"], strict=True):
+            if p["key"] == key and p["table"] == table:
+                return float(number)
+        raise KeyError(f"{table}.{key}")
+
+    def as_solved(self):
+        """The design with every default and derived size filled in, in the units of the keys."""
+        solved = {"drive": self.family, "name": self.tables.get("name", ""), "flank": self.tables["flank"]}
+        for number, p in zip(self.parameters, self.description["parameters"], strict=True):
+            if p["table"] != "flank":
+                value = None if math.isnan(number) else float(number) / p["factor"]
+                solved.setdefault(p["table"], {})[p["key"]] = value
+        words = {**self.description["variant"], "hand": None}
+        solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
+        solved["design"] |= self.sizes
+        return solved
+
+
+def check(tables):
+    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+    family = tables.get("drive")
+    known = metadata.families()
+    if family not in known:
+        raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
+    checked = _validated(family, tables)
+    description = _variant(family, checked)
+    _check_exclusive(description, tables["design"])
+    _check_needed(description, checked["design"])
+    c = model(description["name"])
+    parameters = _vector(description, checked)
+    p = ffi.from_buffer("double[]", parameters)
+    c.derive(p)
+    state = np.empty(c.ns)
+    failed = c.setup(p, ffi.from_buffer("double[]", state))
+    if failed:
+        raise _guard_error(description["guards"][failed - 1], checked)
+    parameters.flags.writeable = False
+    return Design(checked, description, parameters, _sizes(c, parameters), checked["design"].get("hand") == "left")
+
+
+def _validated(family, tables):
+    try:
+        return schema.design_model(family).model_validate(tables).model_dump()
+    except pydantic.ValidationError as error:
+        raise _first_error(family, error.errors()[0]) from None
+
+
+def _first_error(family, problem):
+    place = [str(part) for part in problem["loc"] if not str(part).startswith(("function-", "constrained"))]
+    key = ".".join(dict.fromkeys(p for p in place if p not in ("float", "int")))
+    value, kind, context = problem.get("input"), problem["type"], problem.get("ctx", {})
+    match kind:
+        case "missing":
+            return DesignError(key, None, "the key is missing", "add it to the design")
+        case "extra_forbidden":
+            near = difflib.get_close_matches(place[-1], _known_keys(family, place), n=1)
+            remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
+            return DesignError(key, value, "unknown key", remedy)
+        case "greater_than":
+            return DesignError(key, value, f"must be greater than {context['gt']:g}", "choose a larger value")
+        case "less_than":
+            return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
+        case "finite_number":
+            return DesignError(key, value, "not a finite number", "give a finite number")
+        case "literal_error":
+            return DesignError(key, value, "not one of the possible words", f"use {context['expected']}")
+        case "int_type" | "int_from_float":
+            return DesignError(key, value, "must be a whole number", "write it without a decimal point")
+        case "float_type":
+            return DesignError(key, value, "must be a number", "write a number without quotes")
+        case _:
+            return DesignError(key, value, problem["msg"], "correct the value")
+
+
+def _known_keys(family, place):
+    if len(place) == 1:
+        return list(schema.design_model(family).model_fields)
+    return [entry["key"] for entry in schema.keys(family) if entry["table"] == place[0]]
+
+
+def _variant(family, checked):
+    """The drive for the design's words; words left out follow the word they default to."""
+    descriptions = metadata.families()[family]
+    words = checked["design"]
+    for key, source in descriptions[0]["variant_defaults"].items():
+        if words[key] is None:
+            words[key] = words[source]
+    return metadata.choose(family, words)
+
+
+def _check_exclusive(description, given):
+    for group in description["exclusive"]:
+        present = [key for key in group if key in given]
+        pair = " and ".join(group)
+        if len(present) > 1:
+            raise DesignError(
+                f"design.{present[1]}", given[present[1]], f"{pair} determine each other", "give exactly one of them"
+            )
+        if not present:
+            raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
+
+
+def _check_needed(description, design):
+    for key in description["required"]:
+        if design.get(key) is None:
+            raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
+
+
+def _vector(description, checked):
+    vector = np.full(len(description["parameters"]), np.nan)
+    for k, p in enumerate(description["parameters"]):
+        if p["table"] == "flank":
+            vector[k] = p["choices"][checked["flank"]]
+        elif (value := checked[p["table"]].get(p["key"])) is not None:
+            vector[k] = value * p["factor"]
+    return vector
+
+
+def _sizes(c, parameters):
+    numbers = np.empty(c.nd)
+    c.size(ffi.from_buffer("double[]", parameters), ffi.from_buffer("double[]", numbers))
+    names = (c.sizes[k] for k in range(c.nd))
+    return {text(n.name): float(x) / n.factor for n, x in zip(names, numbers, strict=True)}
+
+
+def _guard_error(guard, checked):
+    given = {key: checked["design"].get(key) for key in guard["keys"]}
+    shown = {key: value for key, value in given.items() if value is not None}
+    first = next(iter(shown or given))
+    others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
+    reason = guard["message"] + (f" (with {others})" if others else "")
+    return DesignError(f"design.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")

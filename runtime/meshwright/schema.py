@@ -1,0 +1,103 @@
+"""Pydantic models of a design file, made from the generated descriptions: one source for checks and JSON Schema."""
+
+from functools import cache
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, StrictInt, create_model
+
+from meshwright import metadata
+
+_STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+HAND = Literal["right", "left"]
+
+
+def _number_field(parameter):
+    """Type and default of one numeric key; the open bounds are given in the key's own unit."""
+    bounds = {}
+    if parameter["lower"] is not None:
+        bounds["gt"] = parameter["lower"] / parameter["factor"]
+    if parameter["upper"] is not None:
+        bounds["lt"] = parameter["upper"] / parameter["factor"]
+    base = StrictInt if parameter["integer"] else float
+    annotated = Annotated[base, Field(description=parameter["meaning"], **bounds)]
+    return (annotated, ...) if parameter["required"] else (annotated | None, None)
+
+
+def _variant_fields(descriptions):
+    """Keys whose words choose the drive within the family."""
+    words = {}
+    for description in descriptions:
+        for key, allowed in description["variant"].items():
+            words.setdefault(key, {}).update(dict.fromkeys(allowed))
+    defaults = descriptions[0]["variant_defaults"]
+    return {
+        key: (Literal[tuple(allowed)] | None, None) if key in defaults else (Literal[tuple(allowed)], ...)
+        for key, allowed in words.items()
+    }
+
+
+@cache
+def design_model(family):
+    """The pydantic model of a family's design file."""
+    descriptions = metadata.families()[family]
+    tables = {}
+    for parameter in metadata.parameters(family):
+        if parameter["table"] != "flank":
+            tables.setdefault(parameter["table"], {})[parameter["key"]] = _number_field(parameter)
+    tables["design"] |= _variant_fields(descriptions)
+    if descriptions[0]["handed"]:
+        tables["design"]["hand"] = (HAND, "right")
+    models = {
+        name: create_model(f"{family}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
+    }
+    flanks = next(p for p in metadata.parameters(family) if p["table"] == "flank")["choices"]
+    others = {
+        name: (model, Field(default_factory=model)) for name, model in models.items() if name != "design"
+    }
+    return create_model(
+        family,
+        __config__=_STRICT,
+        drive=(Literal[family], ...),
+        name=(str, ""),
+        flank=(Literal[tuple(flanks)], next(iter(flanks))),
+        design=(models["design"], ...),
+        **others,
+    )
+
+
+def json_schema():
+    """JSON Schema of every family's design file."""
+    schemas = {family: design_model(family).model_json_schema() for family in metadata.families()}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "meshwright design",
+        "oneOf": [{"$ref": f"#/$defs/{family}"} for family in schemas],
+        "$defs": schemas,
+    }
+
+
+def keys(family):
+    """Keys of a family as plain data, for ``meshwright drives``."""
+    model = design_model(family).model_json_schema()
+    definitions = model.pop("$defs")
+    listed = []
+    for name, definition in definitions.items():
+        table = name.removeprefix(f"{family}-")
+        required = definition.get("required", [])
+        for key, entry in definition["properties"].items():
+            listed.append(
+                {
+                    "table": table,
+                    "key": key,
+                    "required": key in required,
+                    "meaning": entry.get("description") or _described(entry),
+                }
+            )
+    return listed
+
+
+def _described(entry):
+    return next((option["description"] for option in entry.get("anyOf", []) if "description" in option), "")
+
+

@@ -1,0 +1,68 @@
+"""Generated flanks as functions of their own parameters, body frame."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright._library import ffi
+from meshwright.errors import UsageError
+
+
+@dataclass(frozen=True)
+class FlankPoints:
+    """A flank at N parameter pairs (or triples, where one condition stays implicit).
+
+    ``points`` (N, 3) mm, ``normals`` (N, 3) unit and out of the material, ``tangents`` (N, k, 3), body frame;
+    ``regular`` (N,) is 1 at the reference point and negative beyond a singular line; ``margins[event]`` (N,) are
+    negative outside a limit of the design; ``conditions`` (N, c, 1 + k) value and slopes of implicit conditions.
+    """
+
+    parameters: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    tangents: np.ndarray
+    regular: np.ndarray
+    margins: dict[str, np.ndarray]
+    conditions: np.ndarray
+
+
+@dataclass(frozen=True)
+class Flank:
+    """The flank of one member of a drive; call it with parameters (…, k)."""
+
+    drive: object
+    body: dict
+    pointer: object
+
+    @classmethod
+    def of(cls, drive, member):
+        """The flank of ``"pinion"`` or ``"wheel"``."""
+        for k, body in enumerate(drive.design.description["bodies"]):
+            if body["name"] == member:
+                return cls(drive, body, drive.model.bodies[k])
+        raise UsageError(f"member = {member!r}: no such member; use pinion or wheel")
+
+    @property
+    def parameters(self):
+        """Names of the surface parameters."""
+        return tuple(self.body["parameters"])
+
+    def __call__(self, parameters):
+        """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
+        q = np.atleast_2d(np.asarray(parameters, dtype=float))
+        k, n, c = len(self.parameters), len(q), self.body["conditions"]
+        rows = np.empty((n, self.body["outputs"]))
+        s = ffi.from_buffer("double[]", self.drive.state())
+        for i in range(n):
+            self.pointer.flank(s, ffi.from_buffer("double[]", np.ascontiguousarray(q[i])), ffi.from_buffer("double[]", rows[i]))
+        at = 7 + 3 * k
+        margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}
+        return FlankPoints(
+            parameters=q,
+            points=rows[:, 0:3],
+            normals=rows[:, 3:6],
+            tangents=rows[:, 6 : 6 + 3 * k].reshape(n, k, 3),
+            regular=rows[:, at - 1],
+            margins=margins,
+            conditions=rows[:, at + len(margins) :].reshape(n, c, 1 + k) if c else np.empty((n, 0, 1 + k)),
+        )
