@@ -31,7 +31,7 @@ def compile_drive(drive, log):
         return {
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",
-            f"casadi/{drive.name}.casadi": casadi.text(plan) + "\n",
+            f"casadi/{drive.name}.casadi": casadi.text(plan),
         }
 
 

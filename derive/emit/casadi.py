@@ -1,5 +1,8 @@
 """Print a schedule as a CasADi function: the same tape over CasADi's SX symbols."""
 
+import tempfile
+from pathlib import Path
+
 import casadi
 
 
@@ -33,5 +36,8 @@ def function(plan):
 
 
 def text(plan):
-    """The function in CasADi's own serialisation."""
-    return function(plan).serialize()
+    """The function as ``casadi.Function.load`` reads it from a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "function.casadi"
+        function(plan).save(str(path))
+        return path.read_text(encoding="ascii")

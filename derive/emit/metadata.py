@@ -45,6 +45,7 @@ def describe(plan, provenance=None):
         "outputs": [
             {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
         ],
+        "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],

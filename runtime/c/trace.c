@@ -122,7 +122,9 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
                 continue;
             }
         }
-        remember(&h, phi[k], x);
+        /* a point of a contact line is arbitrary: it predicts nothing */
+        if (info->status == MW_LINE_CONTACT) h.count = 0;
+        else remember(&h, phi[k], x);
         succeeded++;
     }
     return succeeded;

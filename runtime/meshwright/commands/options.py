@@ -1,0 +1,67 @@
+"""Options that several commands share: designs, settings and angles."""
+
+import re
+import tomllib
+
+import numpy as np
+
+from meshwright import design as designs
+from meshwright.drive import BACKENDS, Drive
+from meshwright.errors import UsageError
+
+
+def add_design(parser):
+    """DESIGN, --set and --backend."""
+    parser.add_argument("design", metavar="DESIGN", help="packaged design or TOML file")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key of the design; repeatable"
+    )
+    parser.add_argument("--backend", choices=sorted(BACKENDS), default="c", help="what evaluates the equations")
+
+
+def drive_of(options):
+    """The drive that the options ask for."""
+    changes = dict(_setting(text) for text in options.set)
+    return Drive.from_tables(designs.changed(designs.read(options.design), changes), options.backend)
+
+
+def _setting(text):
+    place, equals, value = text.partition("=")
+    if not equals or not place:
+        raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")
+    try:
+        return place.strip(), tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return place.strip(), value.strip()
+
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+
+
+def angles(text):
+    """Radians from ``A:B:STEP`` (both ends included) or ``v1,v2,…`` in degrees."""
+    if re.fullmatch(rf"{_NUMBER}:{_NUMBER}:{_NUMBER}", text):
+        begin, end, step = map(float, text.split(":"))
+        if step == 0 or (end - begin) / step < 0:
+            raise UsageError(f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign")
+        count = int(np.floor((end - begin) / step + 1e-9)) + 1
+        if count > 10_000_000:
+            raise UsageError(f"--phi-deg {text}: {count} angles; choose a larger step")
+        return np.radians(begin + step * np.arange(count))
+    if re.fullmatch(rf"{_NUMBER}(,{_NUMBER})*", text):
+        return np.radians([float(v) for v in text.split(",")])
+    raise UsageError(f"--phi-deg {text}: not A:B:STEP and not v1,v2,…; for example --phi-deg=-400:400:50")
+
+
+def add_angles(parser):
+    """--phi-deg."""
+    parser.add_argument(
+        "--phi-deg", metavar="A:B:STEP|v1,v2,…", help="pinion angles, degrees; default: one pitch about 0 in 12 steps"
+    )
+
+
+def angles_of(options, drive):
+    """The angles asked for, rad."""
+    if options.phi_deg is not None:
+        return angles(options.phi_deg)
+    return np.linspace(-0.5, 0.5, 13) * drive.pitch()
