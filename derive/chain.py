@@ -77,9 +77,11 @@ class Swing:
         return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
 
     def point(self, a):
+        first, second = _OTHERS[self.axis]
+        if (a[first], a[second]) == (self.centre[first], self.centre[second]):
+            return a
         half = self.angle / 2
         versine, sine = 2 * sp.sin(half) ** 2, 2 * sp.sin(half) * sp.cos(half)
-        first, second = _OTHERS[self.axis]
         shift = [sp.Integer(0)] * 3
         shift[first] = versine * self.centre[first] + sine * self.centre[second]
         shift[second] = versine * self.centre[second] - sine * self.centre[first]

@@ -17,13 +17,15 @@ class Margin:
     ``positive`` is formed from body coordinates, surface parameters and design parameters. A limit whose design
     key is not given is "not a number" and never raises its flag. ``event`` is the word by which a contact window
     that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
-    reference point, for functions whose sign has no meaning of its own.
+    reference point, for functions whose sign has no meaning of its own. With ``along``, a surface parameter, the
+    limit is where ``positive`` stops growing along it.
     """
 
     flag: str
     event: str
     positive: sp.Expr
     relative: bool = False
+    along: Quantity | None = None
 
 
 @dataclass(frozen=True)

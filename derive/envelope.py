@@ -21,7 +21,7 @@ def envelope(surface, motion, variable):
     joins the conditions; ``variable`` joins the parameters.
     """
     moved = surface.placed(motion)
-    meshing = moved.motion.power(variable, surface.point, surface.normal)
+    meshing = moved.motion.power(variable, surface.pole or surface.point, surface.normal)
     parameters = surface.parameters + (() if variable in surface.parameters else (variable,))
     return replace(
         moved,
@@ -98,19 +98,37 @@ def shared_angles(surface):
     return pairs
 
 
+def explicit_angle(surface, angle, sign):
+    """Solve the last condition, homogeneous in the cosine and sine of ``angle``, for that parameter.
+
+    Of two opposite directions, ``sign`` = ±1 selects the one with which ``solve_direction`` of sign · condition
+    answers.
+    """
+    *others, condition = surface.conditions
+    a, b = _direction(condition, angle)
+    named = surface.definitions.let(angle.name, sp.atan2(-sign * a, sign * b), angle.meaning, angle.unit)
+    remaining = tuple(p for p in surface.parameters if p != angle)
+    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
+
+
 def solve_direction(condition, angle):
     """Solve a·cos + b·sin = 0 for the direction of ``angle``: what replaces its cosine and sine.
 
     The result is (cos, sin) = (b, −a)/√(a² + b²). The opposite direction solves the equation too: negate the
     condition to select it.
     """
+    a, b = _direction(condition, angle)
+    length = sp.sqrt(a**2 + b**2)
+    return {sp.cos(angle): b / length, sp.sin(angle): -a / length}
+
+
+def _direction(condition, angle):
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
     form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
     a, b = sp.diff(form, cosine), sp.diff(form, sine)
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols) or form.xreplace({cosine: 0, sine: 0}) != 0:
         raise ValueError("the equation is not homogeneous in the cosine and sine of one angle")
-    length = sp.sqrt(a**2 + b**2)
-    return {sp.cos(angle): b / length, sp.sin(angle): -a / length}
+    return a, b
 
 
 def _defined(surface, expression):

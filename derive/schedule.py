@@ -227,6 +227,8 @@ def _margin(plan, body, margin):
     """A margin in terms of surface parameters; body coordinates are replaced by the surface's own."""
     coordinates = dict(zip(body.point, body.surface.body_point(), strict=True))
     node = plan.lower(sp.sympify(margin.positive).xreplace(coordinates))
+    if margin.along is not None:
+        node = plan.tape.derivative(node, plan.lower(margin.along))
     return _relative(plan, body, node) if margin.relative else node
 
 

@@ -19,7 +19,8 @@ class Surface:
     ``definitions``; ``motion`` takes the section frame into the body frame. ``conditions`` are equations (= 0)
     left implicit: a surface with k conditions has k + 2 parameters. The normal points out of the body, has any
     positive length, and the tangents span its plane. An envelope keeps the tangents of its generating surface,
-    which touch it; they are then not its derivatives.
+    which touch it; they are then not its derivatives. ``pole`` is any other point of the normal's line, section
+    frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed there.
     """
 
     definitions: Definitions
@@ -29,6 +30,7 @@ class Surface:
     normal: tuple
     motion: Motion = Motion()
     conditions: tuple = ()
+    pole: tuple | None = None
 
     def placed(self, *motions):
         """The surface moved by the product of these motions (leftmost acting last)."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cache
 
 import sympy as sp
 from sympy.physics import units as si
@@ -47,6 +48,7 @@ _INTERFACE_UNITS = {
 }
 
 
+@cache
 def interface_unit(key):
     """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
     suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")

@@ -17,11 +17,15 @@ from derive.definitions import Definitions
 from derive.drive import Body, Drive, Margin, System, body_point
 from derive.envelope import envelope, explicit, merge_sum
 from derive.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
+from derive.tools.axial_blade import axial_blade
+from derive.tools.grinding_arc import grinding_arc
+from derive.tools.grinding_disc import grinding_disc
+from derive.tools.involute import involute
 from derive.tools.straight_blade import straight_blade
 from derive.tools.worm_body import WormBody
 
 #: ISO 10828 letters and the tools that make them.
-TOOLS = {"ZN": straight_blade}
+TOOLS = {"ZA": axial_blade, "ZI": involute, "ZN": straight_blade, "ZK": grinding_disc, "ZC": grinding_arc}
 
 POSITIVE = (0, sp.oo)
 
@@ -109,6 +113,9 @@ lam, r_1, alpha, Sigma = (q.symbol for q in (lead_angle, pitch_radius, pressure_
 r_h, T_h, lam_h, alpha_h = (q.symbol for q in (hob_radius, hob_threads, hob_lead_angle, hob_pressure_angle))
 A, A_gen, Sigma_gen = (q.symbol for q in (center_distance, cutting_distance, cutting_angle))
 
+#: Design keys of the data that only some tools need.
+REQUIRED = {"grinding_wheel_radius": wheel_radius.key, "profile_arc_radius": arc_radius.key}
+
 #: Derived sizes that every formula shares.
 p_1 = r_1 * sp.tan(lam)
 p_h = r_h * sp.tan(lam_h)
@@ -172,6 +179,7 @@ def _threaded_body(name, radius, lead, angle, disc, arc):
     return WormBody(
         name=name,
         turn=Quantity(f"psi_{name}", "rad", f"screw angle of the {name} flank", name),
+        module=m_n,
         pitch_radius=radius,
         lead_angle=lead,
         screw_parameter=radius * sp.tan(lead),
@@ -231,9 +239,8 @@ def cylindrical_worm(worm_profile, hob_profile):
         margins=_wheel_margins(body_point("wheel"), hob, psi, definitions),
         recovered=(psi_h, phi_h),
     )
-    unknowns = tuple(
-        Unknown(symbol, m_n if symbol.unit == "mm" else sp.Integer(1)) for symbol in (t_w, psi_w, t_h, psi, error)
-    )
+    sizes = {t_w: worm.scale, t_h: hob.scale}
+    unknowns = tuple(Unknown(symbol, sizes.get(symbol, sp.Integer(1))) for symbol in (t_w, psi_w, t_h, psi, error))
     return Drive(
         name=_name(worm_profile, hob_profile),
         family="cylindrical-worm",
@@ -254,10 +261,11 @@ def cylindrical_worm(worm_profile, hob_profile):
         start=_start(worm, hob, psi, phi_1, phi_h, error, definitions),
         guess={t_w: worm.pitch_point, t_h: hob.pitch_point},
         sample=SAMPLE,
-        sample_angle=7.0,
+        sample_angle=1.0,
         pinion_teeth=threads.key,
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
         variant_defaults={"hob_profile": "worm_profile"},
+        required=tuple(sorted({REQUIRED[word] for word in worm.required + hob.required})),
         handed=True,
         exclusive=(
             (normal_module.key, axial_module.key),
@@ -278,7 +286,7 @@ def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
     return System(
         name="start",
         definitions=definitions,
-        unknowns=(Unknown(t_w, m_n), Unknown(t_h, m_n)),
+        unknowns=(Unknown(t_w, worm.scale), Unknown(t_h, hob.scale)),
         residual=(worm_radius - r_1 - (hob_radius_here - r_h), phi_h - phi_1 * T_1 / T_h),
         outputs={
             t_w: t_w,
@@ -317,7 +325,7 @@ def _wheel_margins(point, hob, psi, definitions):
 
 
 def _regression(tool):
-    return () if tool.regular is None else (Margin("beyond_regression", "regression", tool.regular),)
+    return () if tool.regular is None else (tool.regular,)
 
 
 def _profile_guards(worm, hob):

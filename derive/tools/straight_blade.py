@@ -30,5 +30,6 @@ def straight_blade(body, definitions):
         flank,
         pitch_point=pitch_point,
         tip_margin=pitch_point + body.tip_addendum / sp.cos(alpha) - t,
+        scale=body.module,
         radicands=(("the groove is wider than the pitch cylinder", r**2 - half_groove**2),),
     )

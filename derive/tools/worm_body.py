@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from derive.drive import Margin
 from derive.surface import Surface
 from derive.symbols import Quantity
 
@@ -14,6 +15,7 @@ class WormBody:
 
     name: str
     turn: Quantity
+    module: sp.Expr
     pitch_radius: sp.Expr
     lead_angle: sp.Expr
     screw_parameter: sp.Expr
@@ -27,19 +29,32 @@ class WormBody:
 
 @dataclass(frozen=True)
 class WormTool:
-    """A flank with the profile parameter of its pitch point, its end of blade, and the roots that must exist.
+    """A flank with the profile parameter at (or near) its pitch point, its limits, and what it needs to exist.
 
-    ``tip_margin`` > 0 on the part of the profile that the tool's blade reaches; ``regular`` > 0 where the flank
-    exists (beyond it lies an edge of regression); ``radicands`` are (reason, expression > 0).
+    ``tip_margin`` > 0 on the part of the profile that the tool's blade reaches; ``scale`` is the natural size of the
+    profile parameter; ``regular`` is the edge of regression beyond which no flank exists; ``required`` are the
+    data of the body that only this tool needs; ``radicands`` are (reason, expression > 0).
     """
 
     flank: Surface
     pitch_point: sp.Expr
     tip_margin: sp.Expr
-    regular: sp.Expr | None = None
+    scale: sp.Expr
+    regular: Margin | None = None
+    required: tuple[str, ...] = ()
     radicands: tuple = ()
 
     @property
     def parameter(self):
         """The profile parameter."""
         return self.flank.parameters[0]
+
+
+def reach(body, radius):
+    """Positive where the tool reaches: up to the tip addendum above the pitch cylinder."""
+    return body.pitch_radius + body.tip_addendum - radius
+
+
+def regression(positive, along=None):
+    """The margin of an edge of regression: ``positive`` > 0, or growing along a parameter, where the flank exists."""
+    return Margin("beyond_regression", "regression", positive, along=along)

@@ -1,0 +1,25 @@
+"""ZC: a grinding wheel with a convex arc profile, set at the lead angle (ISO 10828, form C): a concave worm flank."""
+
+import sympy as sp
+
+from derive import vectors as v
+from derive.chain import swing
+from derive.envelope import explicit_angle
+from derive.symbols import Quantity
+from derive.tools.grinding import grinding_wheel, ground_flank, ground_tool
+
+
+def grinding_arc(body, definitions):
+    """Groove flank of a ZC worm or hob in its body frame; parameters (t, ψ), t the angle on the grinding wheel."""
+    alpha, r, s, rho = body.pressure_angle, body.pitch_radius, body.flank, body.profile_arc_radius
+    xi = Quantity(f"xi_{body.name}", "rad", "angle along the wheel's arc from its pitch point, about y", body.name)
+    pitch_point = (r, sp.Integer(0), s * body.groove_width / 2)
+    centre = v.add(pitch_point, (rho * sp.sin(alpha), sp.Integer(0), -s * rho * sp.cos(alpha)))
+    arc = swing("y", xi, centre)
+    tangent = arc.local_velocity(xi, pitch_point)
+    wheel = grinding_wheel(body, definitions, pitch_point, tangent, arc, xi, outward=1 / rho, pole=centre)
+    # Both directions of the normal solve the equation of meshing; at the pitch point the wheel's own is the one
+    # along which the arc's centre recedes, hence the sign.
+    flank = ground_flank(wheel, body, lambda surface: explicit_angle(surface, xi, sign=-1))
+    radicand = ("the arc's centre lies inside the groove", rho - body.groove_width / 2 * sp.cos(alpha))
+    return ground_tool(body, flank, required=("profile_arc_radius",), radicands=(radicand,))

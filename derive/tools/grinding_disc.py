@@ -1,0 +1,18 @@
+"""ZK: a biconical grinding wheel set at the lead angle (ISO 10828, form K)."""
+
+import sympy as sp
+
+from derive.chain import Motion
+from derive.envelope import explicit
+from derive.symbols import Quantity
+from derive.tools.grinding import grinding_wheel, ground_flank, ground_tool
+
+
+def grinding_disc(body, definitions):
+    """Groove flank of a ZK worm or hob in its body frame; parameters (t, ψ), t the angle on the grinding wheel."""
+    alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank
+    u = Quantity(f"u_{body.name}", "mm", "distance along the wheel's edge from its pitch point to the rim", body.name)
+    edge = (r - u * sp.cos(alpha), sp.Integer(0), s * (body.groove_width / 2 - u * sp.sin(alpha)))
+    tangent = tuple(sp.diff(c, u) for c in edge)
+    wheel = grinding_wheel(body, definitions, edge, tangent, Motion(), u, outward=-s)
+    return ground_tool(body, ground_flank(wheel, body, lambda surface: explicit(surface)[0]))
