@@ -70,6 +70,49 @@ class System:
     fixed: dict = field(default_factory=dict)
 
 
+#: The share of the way from a system's easy start to the design that is wanted, 0 to 1.
+PATH = Quantity("path", "", "share of the way of a continuation")
+
+
+@dataclass(frozen=True)
+class DesignSystem:
+    """Equations that a design solves once, before anything else; their solution fills in open parameters.
+
+    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution
+    is known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the
+    solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
+    stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
+    meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
+    replaces symbols by constants throughout.
+    """
+
+    name: str
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    guess: dict
+    fills: dict
+    message: str
+    keys: tuple[str, ...]
+    fixed: dict = field(default_factory=dict)
+    regular: tuple | None = None
+    definitions: Definitions = field(default_factory=Definitions)
+
+
+@dataclass(frozen=True)
+class Region:
+    """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
+
+    ``domain`` gives lower and upper ends of parameters that have them. The singular function is positive where
+    ``regular`` (a sign) times it is.
+    """
+
+    member: str
+    name: str
+    surface: Surface
+    regular: sp.Expr
+    domain: dict = field(default_factory=dict)
+
+
 @dataclass(frozen=True)
 class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
@@ -106,6 +149,8 @@ class Drive:
     handed: bool = False
     exclusive: tuple[tuple[str, ...], ...] = ()
     required: tuple[str, ...] = ()
+    systems: tuple[DesignSystem, ...] = ()
+    regions: tuple[Region, ...] = ()
 
     @property
     def bodies(self):

@@ -111,6 +111,16 @@ def explicit_angle(surface, angle, sign):
     return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
 
 
+def in_turn(condition, angle):
+    """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
+    cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
+    form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
+    a, b, c = sp.diff(form, cosine), sp.diff(form, sine), form.xreplace({cosine: sp.Integer(0), sine: sp.Integer(0)})
+    if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
+        raise ValueError("the equation is not linear in the cosine and sine of one angle")
+    return a, b, c
+
+
 def solve_direction(condition, angle):
     """Solve a·cos + b·sin = 0 for the direction of ``angle``: what replaces its cosine and sine.
 
@@ -123,12 +133,16 @@ def solve_direction(condition, angle):
 
 
 def _direction(condition, angle):
-    cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
-    form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
-    a, b = sp.diff(form, cosine), sp.diff(form, sine)
-    if {cosine, sine, angle} & (a.free_symbols | b.free_symbols) or form.xreplace({cosine: 0, sine: 0}) != 0:
+    a, b, c = in_turn(condition, angle)
+    if c != 0:
         raise ValueError("the equation is not homogeneous in the cosine and sine of one angle")
     return a, b
+
+
+def nearest_turn(condition, angle):
+    """The root of a·cos + b·sin + c = 0 that is nearest 0; not a number where there is none."""
+    a, b, c = in_turn(condition, angle)
+    return sp.atan2(b, a) - b / sp.Abs(b) * sp.acos(-c / sp.sqrt(a**2 + b**2))
 
 
 def _defined(surface, expression):

@@ -2,32 +2,62 @@
 
 import mpmath
 
+from derive.completion import lower_system
+from derive.drive import PATH
 from derive.symbols import Table
+from derive.tape import Lowering, Stage, Tape
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40
 
+#: Steps in which the path of a design system is followed.
+PATH_STEPS = 16
+
 
 def sample_parameters(drive):
-    """The drive's sample design as parameter values by symbol, rules applied; parameters left open are NaN."""
+    """The drive's sample design as parameter values by symbol, complete; parameters left open are NaN."""
     values = {p.symbol: mpmath.nan for p in drive.parameters}
     for p in drive.parameters:
         if p.table in (Table.DESIGN, Table.FLANK) and p.key in drive.sample:
             values[p.symbol] = _number(p.factor) * mpmath.mpf(drive.sample[p.key])
         elif p.default is not None:
             values[p.symbol] = _number(p.default)
-    for rule in drive.rules:
-        if mpmath.isnan(values[rule.target]):
-            known = {k: x for k, x in values.items() if k in rule.value.free_symbols}
-            values[rule.target] = _number(rule.value, known)
+    rules = _rules(drive)
+    _apply(rules, values)
+    for system in drive.systems:
+        _complete(lower_system(system, drive.parameters), values)
+        _apply(rules, values)
     return values
 
 
-def _number(expression, values=None):
-    values = values or {}
-    if any(mpmath.isnan(x) for x in values.values()):
-        return mpmath.nan
-    return mpmath.mpf(expression.evalf(DIGITS, subs=values)) if values else mpmath.mpf(expression.evalf(DIGITS))
+def _rules(drive):
+    """Each rule's target with the tape and node of its value."""
+    inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
+    lower = Lowering(Tape(), inputs, drive.definitions)
+    return [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
+
+
+def _apply(rules, values):
+    for target, tape, node in rules:
+        if mpmath.isnan(values[target]):
+            values[target] = tape.evaluate([node], values, mpmath)[0]
+
+
+def _complete(plan, values):
+    """Fill in what a design system gives, following its path in equal steps."""
+    unknowns = plan.unknowns
+    inputs = dict(values)
+    inputs.update(zip(unknowns, plan.tape.evaluate(plan.guess, inputs, mpmath), strict=True))
+    for step in range(PATH_STEPS + 1):
+        inputs[PATH] = mpmath.mpf(step) / PATH_STEPS
+        _iterate(plan.tape, plan.residual, plan.jacobian, unknowns, inputs)
+    for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
+        if mpmath.isnan(values[target]):
+            values[target] = value
+
+
+def _number(expression):
+    return mpmath.mpf(expression.evalf(DIGITS))
 
 
 def sample_solution(plan, angle=None):

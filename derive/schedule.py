@@ -184,34 +184,25 @@ def _count(outputs):
     return sum(len(o.nodes) for o in outputs)
 
 
-def singular_function(plan, body: Body):
-    """Node of the function that vanishes where the body's surface is singular.
+def singular_function(lower, surface):
+    """Node of the function that vanishes where a surface is singular, body frame.
 
     Explicit surface: (∂r/∂a × ∂r/∂b)·n. Envelope with its condition f(a, b, c) = 0: the sum over cyclic (a, b, c)
     of f_a n·(∂r/∂b × ∂r/∂c).
     """
-    surface = body.surface
-    parameters = [plan.lower(p) for p in surface.parameters]
-    point = _vector(plan, surface.body_point())
-    normal = _vector(plan, surface.body_normal())
-    tangents = [[plan.tape.derivative(i, p) for i in point] for p in parameters]
+    tape = lower.tape
+    parameters = [lower(p) for p in surface.parameters]
+    point = [lower(c) for c in surface.body_point()]
+    normal = [lower(c) for c in surface.body_normal()]
+    tangents = [[tape.derivative(i, p) for i in point] for p in parameters]
     if not surface.conditions:
-        return _triple(plan, normal, *tangents)
+        return tape.triple(normal, *tangents)
     (condition,) = surface.conditions
     a, b, c = tangents
-    slopes = [plan.tape.derivative(plan.lower(condition), p) for p in parameters]
-    total = plan.tape.constant(0)
+    slopes = [tape.derivative(lower(condition), p) for p in parameters]
+    total = tape.constant(0)
     for slope, pair in zip(slopes, ((b, c), (c, a), (a, b)), strict=True):
-        total = plan.tape.add(total, plan.tape.mul(slope, _triple(plan, normal, *pair)))
-    return total
-
-
-def _triple(plan, a, b, c):
-    t = plan.tape
-    cross = [t.sub(t.mul(b[i], c[j]), t.mul(b[j], c[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
-    total = t.mul(a[0], cross[0])
-    for i in (1, 2):
-        total = t.add(total, t.mul(a[i], cross[i]))
+        total = tape.add(total, tape.mul(slope, tape.triple(normal, *pair)))
     return total
 
 
@@ -220,7 +211,7 @@ def _relative(plan, body, node):
 
 
 def _regular(plan, body):
-    return _relative(plan, body, singular_function(plan, body))
+    return _relative(plan, body, singular_function(plan.lower, body.surface))
 
 
 def _margin(plan, body, margin):

@@ -7,7 +7,7 @@ with the motion into the body frame. Nothing is multiplied out.
 from dataclasses import dataclass, replace
 
 from derive import vectors as v
-from derive.chain import Motion, screw
+from derive.chain import Motion, Rz, screw
 from derive.definitions import Definitions
 
 
@@ -61,6 +61,16 @@ def swept(definitions, section, motion, *, along, sweep, outward):
     )
     normal = v.scale(outward, v.cross(*tangents))
     return Surface(definitions, (along, sweep), section, tangents, normal, motion)
+
+
+def revolved(definitions, profile, *, along, turn, outward):
+    """The surface of revolution of a ``profile`` in the x–z half plane (x > 0), turned by ``turn`` about z.
+
+    The tangent along the circle has unit length, so the normal is as long as the profile's tangent.
+    """
+    tangents = (definitions.derivative_vector(profile, along), v.vector(*v.J))
+    normal = v.scale(outward, v.cross(*tangents))
+    return Surface(definitions, (along, turn), profile, tangents, normal, Rz(turn))
 
 
 def helicoid(definitions, section, *, along, sweep, parameter, outward):

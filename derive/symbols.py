@@ -31,6 +31,7 @@ class Table(Enum):
 
     FLANK = "flank"
     DESIGN = "design"
+    PLACEMENT = "placement"
     MISALIGNMENT = "misalignment"
     BLANK = "blank"
     CONTACT = "contact"

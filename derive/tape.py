@@ -186,6 +186,14 @@ class Tape:
                 square = self.mul(square, square)
         return self.constant(1) if result is None else result
 
+    def triple(self, a, b, c):
+        """a · (b × c) of three vectors of nodes."""
+        cross = [self.sub(self.mul(b[i], c[j]), self.mul(b[j], c[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
+        total = self.mul(a[0], cross[0])
+        for i in (1, 2):
+            total = self.add(total, self.mul(a[i], cross[i]))
+        return total
+
     # -- differentiation --------------------------------------------------------------------------------------
 
     def derivative(self, i, variable):

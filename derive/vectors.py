@@ -37,5 +37,17 @@ def cross(a, b):
 
 def unit(a):
     """The vector over its length."""
-    length = sp.sqrt(dot(a, a))
+    length = norm(a)
     return tuple(p / length for p in a)
+
+
+def norm(a):
+    return sp.sqrt(dot(a, a))
+
+
+def circle_centre(a, b, c):
+    """Centre of the circle through three points, and a normal of its plane (zero where they are in line)."""
+    p, q = sub(a, b), sub(c, b)
+    normal = cross(p, q)
+    offset = cross(sub(scale(dot(p, p), q), scale(dot(q, q), p)), normal)
+    return add(b, scale(1 / (2 * dot(normal, normal)), offset)), normal

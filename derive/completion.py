@@ -1,0 +1,60 @@
+"""Schedule of a design system: its residual, Jacobian, watch and results as functions of parameters alone.
+
+Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.newton`.
+"""
+
+from dataclasses import dataclass
+
+from derive.drive import PATH, DesignSystem
+from derive.schedule import singular_function
+from derive.tape import Lowering, Stage, Tape
+
+
+@dataclass(frozen=True)
+class SystemTape:
+    """Nodes of one design system. ``watch`` must be positive along the path; None if there is nothing to watch."""
+
+    system: DesignSystem
+    tape: Tape
+    lower: Lowering
+    residual: list
+    jacobian: list
+    scales: list
+    guess: list
+    values: list
+    watch: int | None
+
+    @property
+    def unknowns(self):
+        return [u.symbol for u in self.system.unknowns]
+
+
+def lower_system(system: DesignSystem, parameters):
+    """A design system of a drive with these parameters on a tape."""
+    tape = Tape()
+    inputs = {p.symbol: Stage.DESIGN for p in parameters} | {PATH: Stage.INSTANT}
+    inputs |= {u.symbol: Stage.ITERATE for u in system.unknowns}
+    inputs |= {symbol: Stage.ITERATE for symbol in system.fixed}
+    lower = Lowering(tape, inputs, system.definitions)
+    fixed = {lower(symbol): lower(value) for symbol, value in system.fixed.items()}
+    unknowns = [lower(u.symbol) for u in system.unknowns]
+    residual = [tape.substitute(lower(r), fixed) for r in system.residual]
+    return SystemTape(
+        system=system,
+        tape=tape,
+        lower=lower,
+        residual=residual,
+        jacobian=[[tape.derivative(r, u) for u in unknowns] for r in residual],
+        scales=[lower(u.scale) for u in system.unknowns],
+        guess=[lower(system.guess[u.symbol]) for u in system.unknowns],
+        values=[lower(value) for value in system.fills.values()],
+        watch=_watch(system, lower, fixed),
+    )
+
+
+def _watch(system, lower, fixed):
+    if system.regular is None:
+        return None
+    surface, sign = system.regular
+    value = lower.tape.mul(lower(sign), singular_function(lower, surface))
+    return lower.tape.substitute(value, fixed)

@@ -1,0 +1,344 @@
+"""Face worm gear drives: a conical or cylindrical worm above a face gear, both cut by a tilted head-cutter.
+
+Frames: ``f`` fixed, z the gear axis, x along the worm axis, y the common perpendicular; the worm axis lies at
+y = E_m, z = 0 and the gear body at z < 0. The worm turns by +φ1 about x, the gear by +φ2 about z. Right-hand thread.
+Source: 001_d957fec2e26e51c5.txt. A hob-cut reference design gives three points; the head-cutter whose blade passes
+through them copies its cone into the gear and, with a parabolic blade and plunge, envelopes the worm. One drive is
+one flank: both flanks have settings of their own.
+"""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derive import vectors as v
+from derive.chain import Motion, Ry, Rz, placement, translation
+from derive.contact import contact
+from derive.definitions import Definitions
+from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
+from derive.drives import face_worm_keys as k
+from derive.envelope import envelope, nearest_turn
+from derive.surface import Surface
+from derive.symbols import Guard, Quantity, Rule, Unknown
+from derive.tools.conical_hob import conical_hob
+from derive.tools.head_cutter import HeadCutter
+
+s, N_1, N_2, m_ax = (q.symbol for q in (k.flank, k.threads, k.teeth, k.axial_module))
+E_m, L, cone, alpha = (q.symbol for q in (k.offset, k.worm_position, k.cone_angle, k.profile_angle))
+R_in, R_out = k.inner_radius.symbol, k.outer_radius.symbol
+R_g, alpha_g, tilt_change = k.cutter_radius.symbol, k.blade_angle.symbol, k.tilt_change.symbol
+
+#: Derived sizes that every formula shares.
+p_1 = m_ax * N_1 / 2
+r_p = k.pitch_diameter.symbol / 2
+ratio = N_1 / N_2
+taper = sp.tan(cone)
+crossing = Ry(sp.pi / 2)  # worm axes to fixed axes: the worm's z is the fixed x
+
+
+# -- the reference design: what a hob shaped like the worm would cut ------------------------------------------------
+
+
+@dataclass(frozen=True)
+class HobCut:
+    """The flank that the hob would cut, gear frame, in three parameters that its meshing equation relates."""
+
+    surface: Surface
+    u: Quantity
+    theta: Quantity
+    psi: Quantity
+
+    def at(self, u, theta, psi):
+        """Point and (unscaled) normal at these parameters."""
+        place = {self.u: sp.sympify(u), self.theta: sp.sympify(theta), self.psi: sp.sympify(psi)}
+
+        def put(vector):
+            return tuple(sp.sympify(c).xreplace(place) for c in vector)
+
+        return put(self.surface.body_point()), put(self.surface.body_normal())
+
+    @property
+    def meshing(self):
+        return self.surface.conditions[0]
+
+
+def hob_cut(definitions):
+    """The hob turns by ψ about its axis at (L, E_m, 0), the blank by ψ·N1/N2 about z."""
+    u = Quantity("u_hob", "mm", "along the hob's profile from the pitch cone", "hob")
+    theta = Quantity("theta_hob", "rad", "screw angle of the hob flank", "hob")
+    psi = Quantity("psi_hob", "rad", "angle of the hob in cutting", "gen")
+    hob = conical_hob(
+        definitions, along=u, sweep=theta, phase=k.hob_phase.symbol, pitch_radius=r_p, screw_parameter=p_1,
+        cone_angle=cone, profile_angle=alpha, flank=s,
+    )  # fmt: skip
+    cutting = Rz(-ratio * psi) @ translation(L, E_m, 0) @ crossing @ Rz(psi)
+    return HobCut(envelope(hob, cutting, psi), u, theta, psi)
+
+
+def _pitch_cones():
+    """Radius and height of the point where the pitch cones of worm and gear touch."""
+    sine = -taper * E_m / (L + r_p * taper)
+    return sp.sqrt(L**2 + (E_m + r_p * sine) ** 2), -r_p * sp.sqrt(1 - sine**2)
+
+
+def _pitch_point(reference):
+    """The pitch point by either rule: u = θ = 0, or where the pitch cones touch."""
+    x, y, z = reference.surface.body_point()
+    radius, height = _pitch_cones()
+    cones = k.pitch_rule.symbol
+    return DesignSystem(
+        name="pitch_point",
+        unknowns=(Unknown(reference.u, m_ax), Unknown(reference.theta), Unknown(reference.psi)),
+        residual=(
+            cones * (sp.sqrt(x**2 + y**2) - radius) + (1 - cones) * reference.u,
+            cones * (z - height) + (1 - cones) * m_ax * reference.theta,
+            reference.meshing,
+        ),
+        guess={reference.u: 0, reference.theta: 0, reference.psi: 0},
+        fills=dict(zip(k.symbols(k.hob_at_pitch_point), (reference.u, reference.theta, reference.psi), strict=True)),
+        message="no pitch point: the hob does not touch the gear there",
+        keys=(k.worm_position.key, k.offset.key, k.pitch_diameter.key, k.profile_angle.key, k.pitch_rule.key),
+    )
+
+
+def _middle_line_point(reference, name, at, end, keys):
+    """The point that the middle of the hob's profile cuts at the radius ``end``, followed from the section x = L."""
+    x, y, _ = reference.surface.body_point()
+    (x_0, y_0, _), _ = reference.at(0, 0, 0)
+    wanted = (1 - PATH) * sp.sqrt(x_0**2 + y_0**2) + PATH * end
+    return DesignSystem(
+        name=name,
+        unknowns=(Unknown(reference.theta), Unknown(reference.psi)),
+        residual=(sp.sqrt(x**2 + y**2) - wanted, reference.meshing),
+        guess={reference.theta: 0, reference.psi: 0},
+        fills=dict(zip(k.symbols(at), (reference.theta, reference.psi), strict=True)),
+        message="the hob of the reference design undercuts the gear inside its face",
+        keys=keys,
+        fixed={reference.u: sp.Integer(0)},
+        regular=(reference.surface, -s),
+    )
+
+
+def _point_rules(reference):
+    points = (
+        (k.inner_point, (0, *k.symbols(k.hob_at_inner))),
+        (k.pitch_point, k.symbols(k.hob_at_pitch_point)),
+        (k.outer_point, (0, *k.symbols(k.hob_at_outer))),
+    )
+    return [
+        Rule(target, value)
+        for names, at in points
+        for target, value in zip(k.symbols(names), reference.at(*at)[0], strict=True)
+    ]
+
+
+# -- the head-cutter: a circle through the three points, a blade along the cross-section at P -----------------------
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Axes of the head-cutter in the gear frame and the blade angle that makes it touch the reference flank at P."""
+
+    x: tuple
+    y: tuple
+    z: tuple
+    blade_angle: sp.Expr
+
+
+def _frame(reference, x, y, z):
+    """A section across the tooth holds the blade: its direction is normal to y and to the reference normal."""
+    _, normal = reference.at(*k.symbols(k.hob_at_pitch_point))
+    edge = v.cross(normal, y)
+    return Frame(x, y, z, sp.atan(v.dot(edge, x) / v.dot(edge, z)))
+
+
+def _cutter_rules(reference, definitions):
+    """Axes, radius, blade angle and origin, in this order; each may be given instead.
+
+    A change of the tilt turns the tool about the tooth's tangent at P. It keeps the tangent plane there, by the
+    blade angle, and the lengthwise curvature cos(blade angle)/radius.
+    """
+    inner, pitch, outer = (k.symbols(p) for p in (k.inner_point, k.pitch_point, k.outer_point))
+    centre, normal = v.circle_centre(inner, pitch, outer)
+    centre = definitions.let_vector("circle_centre", centre, "centre of the circle through A1, P, A2", "mm", "wheel")
+    normal = definitions.let_vector("circle_plane", normal, "normal of its plane, any length", "", "wheel")
+    upward = v.scale(normal[2] / sp.Abs(normal[2]), v.unit(normal))
+    z_c = definitions.let_vector("circle_axis", upward, "axis of the circle", "", "wheel")
+    spoke = v.sub(pitch, centre)
+    radius = definitions.let("circle_radius", v.norm(spoke), "radius of the circle", "mm")
+    x_c = definitions.let_vector("circle_spoke", v.scale(1 / radius, spoke), "from centre to P", "", "wheel")
+    plain = _frame(reference, x_c, v.cross(z_c, x_c), z_c)
+    turn = placement(plain.x, plain.y, plain.z, (0, 0, 0)) @ Ry(tilt_change)
+    x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
+    axes = (turn.direction(axis) for axis in v.AXES.values())
+    frame = _frame(reference, x_g, y_g, z_g)
+    rules = [
+        Rule(target, value)
+        for names, axis in zip((x_g, y_g, z_g), axes, strict=True)
+        for target, value in zip(names, axis, strict=True)
+    ]
+    rules.append(Rule(alpha_g, frame.blade_angle))
+    rules.append(Rule(R_g, radius * sp.cos(frame.blade_angle) / sp.cos(plain.blade_angle)))
+    origin = v.sub(pitch, v.scale(R_g, x_g))
+    rules += [Rule(target, value) for target, value in zip(k.symbols(k.origin), origin, strict=True)]
+    return rules
+
+
+def _collinear():
+    inner, pitch, outer = (k.symbols(p) for p in (k.inner_point, k.pitch_point, k.outer_point))
+    a, b = v.unit(v.sub(pitch, inner)), v.unit(v.sub(outer, pitch))
+    bend = v.norm(v.cross(a, b))
+    return Guard(
+        bend - sp.Rational(1, 10**8),
+        "A1, P and A2 lie in line: no head-cutter passes through them",
+        (k.inner_radius.key, k.outer_radius.key, k.pitch_rule.key, k.profile_angle.key),
+    )
+
+
+# -- the drive ------------------------------------------------------------------------------------------------------
+
+
+def face_worm():
+    """The drive of one flank."""
+    definitions = Definitions()
+    reference = hob_cut(definitions)
+    cutter = HeadCutter(definitions, R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
+    installed = placement(*(k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z, k.origin)))
+
+    phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
+    error = Quantity("transmission_error", "rad", "gear angle less ratio times worm angle", "f")
+    phi_2 = ratio * phi_1 + error
+
+    # The gear is the copy of the head-cutter.
+    u_g = Quantity("u_gear", "mm", "along the blade, to the tip of the gear tooth", "tool")
+    theta_g = Quantity("theta_gear", "rad", "around the head-cutter's axis", "tool")
+    gear = cutter.edge(u_g, theta_g).placed(installed)
+
+    # The worm is enveloped by the same tool on a cradle, with a parabolic blade and a parabolic plunge.
+    u_w = Quantity("u_worm", "mm", "along the worm's blade", "tool")
+    theta_w = Quantity("theta_worm", "rad", "around the axis of the worm's head-cutter", "tool")
+    psi = Quantity("psi_worm", "rad", "angle of the worm in cutting", "gen")
+    blade = cutter.edge(u_w, theta_w, parabola=k.blade_parabola.symbol).placed(installed)
+    worm = envelope(blade, _cradle(psi), psi)
+
+    lam = Quantity("lambda_gear", "rad", "around the blade's rounding, from the bottom of the space", "tool")
+    fillet = cutter.fillet(lam, theta_g).placed(installed)
+
+    wheel_point = body_point("wheel")
+    pinion = Body("pinion", worm, _mounting(phi_1), reference={u_w: 0, theta_w: 0, psi: 0})
+    wheel = Body(
+        "wheel",
+        gear,
+        Rz(phi_2),
+        reference={u_g: 0, theta_g: 0},
+        point=wheel_point,
+        margins=_wheel_margins(wheel_point, u_g, cutter),
+    )
+    return Drive(
+        name="face_worm",
+        family="face-worm",
+        title="Face worm gear drive with a conical or cylindrical worm",
+        parameters=k.PARAMETERS,
+        rules=(*k.RULES, Rule(k.hob_phase.symbol, _hob_phase(reference)), *_point_rules(reference),
+               *_cutter_rules(reference, definitions)),
+        systems=(
+            _pitch_point(reference),
+            _middle_line_point(
+                reference, "inner_point", k.hob_at_inner, R_in, (k.inner_radius.key, k.profile_angle.key)
+            ),
+            _middle_line_point(
+                reference, "outer_point", k.hob_at_outer, R_out,
+                (k.inner_radius.key, k.outer_radius.key, k.profile_angle.key),
+            ),
+        ),
+        guards=(
+            Guard(R_out - R_in, "the outer radius must exceed the inner", (k.outer_radius.key, k.inner_radius.key)),
+            _collinear(),
+            Guard(
+                -cutter.junction,
+                "the rounding of the blade reaches the middle of the profile",
+                (k.fillet_radius.key, k.blade_depth.key),
+            ),
+        ),
+        sizes=_sizes(),
+        instant=phi_1,
+        error=error,
+        ratio=ratio,
+        wheel_angle=phi_2,
+        pinion=pinion,
+        wheel=wheel,
+        regions=(
+            Region("wheel", "fillet", fillet, -s, {lam: (sp.Integer(0), cutter.fillet_end)}),
+            Region("reference_wheel", "flank", reference.surface, -s),
+        ),
+        unknowns=(
+            Unknown(u_w, m_ax), Unknown(theta_w), Unknown(psi), Unknown(u_g, m_ax), Unknown(theta_g), Unknown(error),
+        ),
+        residual=contact(wheel.placed, pinion.placed),
+        definitions=definitions,
+        start=_start(worm, phi_1, u_g, theta_g, error, definitions),
+        guess={theta_w: sp.Integer(0)},
+        sample=k.SAMPLE,
+        sample_angle=1.0,
+        pinion_teeth=k.threads.key,
+    )  # fmt: skip
+
+
+def _hob_phase(reference):
+    """The hob's phase at which its mid profile cuts in the section x = L at ψ = 0."""
+    here = {reference.u: sp.Integer(0), reference.theta: sp.Integer(0), reference.psi: sp.Integer(0)}
+    return nearest_turn(reference.meshing.xreplace(here), k.hob_phase.symbol)
+
+
+def _cradle(psi):
+    """From the cradle to the worm: the cradle turns N1/N2 times as fast, the worm plunges by a parabola."""
+    plunge = k.plunge.symbol * psi**2
+    return Rz(-psi) @ crossing.inverse() @ translation(-L, -(E_m + plunge), 0) @ Rz(ratio * psi)
+
+
+def _mounting(phi_1):
+    """The worm in mesh: the shaft angle error turns about the common perpendicular, the axial one goes along the worm."""
+    return (
+        translation(y=E_m + k.error_offset.symbol)
+        @ Ry(k.error_angle.symbol)
+        @ translation(x=L + k.error_axial.symbol)
+        @ crossing
+        @ Rz(phi_1)
+    )
+
+
+def _wheel_margins(point, u_g, cutter):
+    x, y, _ = point
+    radius = sp.sqrt(x**2 + y**2)
+    return (
+        Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in)),
+        Margin("off_root", "root", u_g - cutter.junction),
+    )
+
+
+def _start(worm, phi_1, u_g, theta_g, error, definitions):
+    """Without plunge and errors worm and gear touch at u = 0, ψ = φ1, θ_worm = θ_gear: one meshing equation is left."""
+    u_w, theta_w, psi = worm.parameters
+    (meshing,) = worm.conditions
+    return System(
+        name="start",
+        definitions=definitions,
+        unknowns=(Unknown(theta_w),),
+        residual=(meshing,),
+        outputs={u_w: 0, theta_w: theta_w, psi: phi_1, u_g: 0, theta_g: theta_w, error: 0},
+        fixed={u_w: 0, psi: phi_1},
+    )
+
+
+def _sizes():
+    return (
+        ("screw_parameter_worm_mm_per_rad", p_1, "screw parameter of the worm"),
+        ("lead_worm_mm", 2 * sp.pi * p_1, "lead of the worm"),
+        ("head_cutter_tilt_deg", sp.acos(k.symbols(k.axis_z)[2]), "angle between the head-cutter's and the gear's axis"),
+        ("ratio", ratio, "transmission ratio N1/N2"),
+    )
+
+
+def catalogue():
+    """One drive: name → builder."""
+    return {"face_worm": face_worm}

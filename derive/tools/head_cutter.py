@@ -1,0 +1,67 @@
+"""Head-cutter: a blade that turns about the tool axis z; straight or parabolic edge, circular end.
+
+The surfaces are those of the gear tooth that the tool leaves as its copy: normals point out of the gear.
+Source: 001_d957fec2e26e51c5.txt, sections 2 to 4, Figs. 5 and 11.
+"""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derive.definitions import Definitions
+from derive.surface import revolved
+
+
+@dataclass(frozen=True)
+class HeadCutter:
+    """A blade set. Angles in rad, lengths in mm.
+
+    ``radius`` is that of the blade point u = 0 on the edge; ``blade_angle`` is measured from the tool axis, positive
+    where the radius grows with u (to the tip of the gear tooth); ``flank`` is +1 where the gear tooth is convex;
+    ``depth`` is the distance of the blade's end below u = 0 along the axis.
+    """
+
+    definitions: Definitions
+    radius: sp.Expr
+    blade_angle: sp.Expr
+    flank: sp.Expr
+    fillet_radius: sp.Expr
+    depth: sp.Expr
+
+    @property
+    def _across(self):
+        """Direction in the axial section, normal to the edge and out of the gear tooth: (x, z)."""
+        return self.flank * sp.cos(self.blade_angle), -self.flank * sp.sin(self.blade_angle)
+
+    def edge(self, u, theta, parabola=0):
+        """The working surface: a cone, or with ``parabola`` a blade that stands off it by parabola·u²."""
+        x, z = self._across
+        bulge = parabola * u**2
+        profile = (
+            self.radius + u * sp.sin(self.blade_angle) + bulge * x,
+            sp.Integer(0),
+            u * sp.cos(self.blade_angle) + bulge * z,
+        )
+        return revolved(self.definitions, profile, along=u, turn=theta, outward=-self.flank)
+
+    @property
+    def junction(self):
+        """u where the edge ends and the rounding begins."""
+        rise = 1 + self.flank * sp.sin(self.blade_angle)
+        return (self.fillet_radius * rise - self.depth) / sp.cos(self.blade_angle)
+
+    @property
+    def fillet_end(self):
+        """λ where the rounding joins the edge; λ = 0 is the end of the blade."""
+        return sp.pi / 2 + self.flank * self.blade_angle
+
+    def fillet(self, lam, theta):
+        """The torus of the blade's rounding, λ from 0 (bottom of the tooth space) to ``fillet_end``."""
+        x, _ = self._across
+        centre = self.radius + self.junction * sp.sin(self.blade_angle) + self.fillet_radius * x
+        profile = (
+            centre - self.flank * self.fillet_radius * sp.sin(lam),
+            sp.Integer(0),
+            self.fillet_radius * (1 - sp.cos(lam)) - self.depth,
+        )
+        return revolved(self.definitions, profile, along=lam, turn=theta, outward=-self.flank)
