@@ -6,7 +6,7 @@ Each system has a small tape of its own, read by the C printer and, at generatio
 from dataclasses import dataclass
 
 from derive.drive import PATH, DesignSystem
-from derive.schedule import singular_function
+from derive.limits import singular_function
 from derive.tape import Lowering, Stage, Tape
 
 

@@ -102,15 +102,13 @@ class DesignSystem:
 class Region:
     """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
 
-    ``domain`` gives lower and upper ends of parameters that have them. The singular function is positive where
-    ``regular`` (a sign) times it is.
+    It is regular where ``regular`` (a sign) times its singular function is positive.
     """
 
     member: str
     name: str
     surface: Surface
     regular: sp.Expr
-    domain: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

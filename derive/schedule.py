@@ -12,7 +12,9 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from derive import pivots
+from derive.completion import SystemTape, lower_system
 from derive.drive import Body, Drive, System
+from derive.limits import singular_function
 from derive.tape import Lowering, Stage, Tape
 
 
@@ -28,11 +30,12 @@ class Output:
 
 @dataclass(frozen=True)
 class Flank:
-    """A flank as a function of its own parameters, body frame."""
+    """A flank, or another region of a member, as a function of its own parameters, body frame."""
 
     body: str
     parameters: tuple
     outputs: tuple[Output, ...]
+    region: str = "flank"
 
 
 @dataclass(frozen=True)
@@ -67,6 +70,8 @@ class Schedule:
     observed: list[Output] = field(default_factory=list)
     bodies: dict = field(default_factory=dict)
     flanks: list[Flank] = field(default_factory=list)
+    regions: list[Flank] = field(default_factory=list)
+    systems: list[SystemTape] = field(default_factory=list)
     state: dict[int, int] = field(default_factory=dict)
     design_slots: int = 0
 
@@ -80,11 +85,13 @@ def schedule(drive):
     inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
     inputs[drive.instant] = Stage.INSTANT
     inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
+    inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
     tape = Tape()
     for symbol, stage in inputs.items():
         tape.input(symbol, stage)
     plan = Schedule(drive, tape, Lowering(tape, inputs, drive.definitions))
 
+    plan.systems = [lower_system(system, drive.parameters) for system in drive.systems]
     plan.guards = [plan.lower(g.positive) for g in drive.guards]
     plan.residual, plan.jacobian = _system(plan, drive.residual, plan.unknowns)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
@@ -93,7 +100,12 @@ def schedule(drive):
     plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]
     _observe(plan)
     for body in drive.bodies:
-        plan.flanks.append(_flank(plan, body))
+        limits = [Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins]
+        plan.flanks.append(Flank(body.name, *_surface(plan, body.surface, body.name, _regular(plan, body), limits)))
+    for region in drive.regions:
+        regular = tape.mul(plan.lower(region.regular), singular_function(plan.lower, region.surface))
+        surface = _surface(plan, region.surface, region.member, regular, [])
+        plan.regions.append(Flank(region.member, *surface, region.name))
     _assign_state(plan)
     return plan
 
@@ -184,28 +196,6 @@ def _count(outputs):
     return sum(len(o.nodes) for o in outputs)
 
 
-def singular_function(lower, surface):
-    """Node of the function that vanishes where a surface is singular, body frame.
-
-    Explicit surface: (∂r/∂a × ∂r/∂b)·n. Envelope with its condition f(a, b, c) = 0: the sum over cyclic (a, b, c)
-    of f_a n·(∂r/∂b × ∂r/∂c).
-    """
-    tape = lower.tape
-    parameters = [lower(p) for p in surface.parameters]
-    point = [lower(c) for c in surface.body_point()]
-    normal = [lower(c) for c in surface.body_normal()]
-    tangents = [[tape.derivative(i, p) for i in point] for p in parameters]
-    if not surface.conditions:
-        return tape.triple(normal, *tangents)
-    (condition,) = surface.conditions
-    a, b, c = tangents
-    slopes = [tape.derivative(lower(condition), p) for p in parameters]
-    total = tape.constant(0)
-    for slope, pair in zip(slopes, ((b, c), (c, a), (a, b)), strict=True):
-        total = tape.add(total, tape.mul(slope, tape.triple(normal, *pair)))
-    return total
-
-
 def _relative(plan, body, node):
     return plan.tape.div(node, _fixed(plan, node, body.reference))
 
@@ -223,26 +213,26 @@ def _margin(plan, body, margin):
     return _relative(plan, body, node) if margin.relative else node
 
 
-def _flank(plan, body):
-    surface = body.surface
+def _surface(plan, surface, frame, regular, limits):
+    """Parameters of a surface and what is known at them, body frame."""
     normal, _ = _unit(plan, _vector(plan, surface.body_normal()))
     parameters = [plan.lower(p) for p in surface.parameters]
     point = _vector(plan, surface.body_point())
     outputs = [
-        Output("point", tuple(point), "mm", body.name),
-        Output("normal", tuple(normal), "", body.name),
+        Output("point", tuple(point), "mm", frame),
+        Output("normal", tuple(normal), "", frame),
         *(
-            Output(f"tangent_{s}", tuple(plan.tape.derivative(i, p) for i in point), f"mm/({s.unit})", body.name)
+            Output(f"tangent_{s}", tuple(plan.tape.derivative(i, p) for i in point), f"mm/({s.unit})", frame)
             for s, p in zip(surface.parameters, parameters, strict=True)
         ),
-        Output("regular", (_regular(plan, body),)),
-        *(Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins),
+        Output("regular", (regular,)),
+        *limits,
     ]
     for k, condition in enumerate(surface.conditions):
         node = plan.lower(condition)
         slopes = tuple(plan.tape.derivative(node, p) for p in parameters)
         outputs += [Output(f"condition_{k}", (node,)), Output(f"condition_{k}_slopes", slopes)]
-    return Flank(body.name, tuple(surface.parameters), tuple(outputs))
+    return tuple(surface.parameters), tuple(outputs)
 
 
 def iterate_outputs(plan):
@@ -261,7 +251,7 @@ def iterate_outputs(plan):
     yield from plan.start_solution
     for output in plan.observed:
         yield from output.nodes
-    for flank in plan.flanks:
+    for flank in (*plan.flanks, *plan.regions):
         for output in flank.outputs:
             yield from output.nodes
 

@@ -260,7 +260,7 @@ def face_worm():
                 (k.fillet_radius.key, k.blade_depth.key),
             ),
         ),
-        sizes=_sizes(),
+        sizes=_sizes(cutter),
         instant=phi_1,
         error=error,
         ratio=ratio,
@@ -268,7 +268,7 @@ def face_worm():
         pinion=pinion,
         wheel=wheel,
         regions=(
-            Region("wheel", "fillet", fillet, -s, {lam: (sp.Integer(0), cutter.fillet_end)}),
+            Region("wheel", "fillet", fillet, -s),
             Region("reference_wheel", "flank", reference.surface, -s),
         ),
         unknowns=(
@@ -330,11 +330,13 @@ def _start(worm, phi_1, u_g, theta_g, error, definitions):
     )
 
 
-def _sizes():
+def _sizes(cutter):
     return (
         ("screw_parameter_worm_mm_per_rad", p_1, "screw parameter of the worm"),
         ("lead_worm_mm", 2 * sp.pi * p_1, "lead of the worm"),
         ("head_cutter_tilt_deg", sp.acos(k.symbols(k.axis_z)[2]), "angle between the head-cutter's and the gear's axis"),
+        ("flank_root_mm", cutter.junction, "u of the gear where the flank joins the rounding at its root"),
+        ("fillet_angle_deg", cutter.fillet_end, "angle of the rounding, from the bottom of the space to the flank"),
         ("ratio", ratio, "transmission ratio N1/N2"),
     )
 

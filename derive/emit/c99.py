@@ -6,6 +6,7 @@ gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math
 
 from dataclasses import dataclass
 
+from derive.drive import PATH
 from derive.emit import approximation
 from derive.emit.render import render
 from derive.schedule import Schedule
@@ -142,6 +143,8 @@ def header(plan: Schedule, description: dict, model_source: str):
         start_solution=start.body(plan.start_solution)[0],
         observed=iterate.body([i for o in plan.observed for i in o.nodes])[0],
         flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
+        regions=[_flank(plan, region, leaves.state) for region in plan.regions],
+        systems=[_system(system, drive) for system in plan.systems],
         literal=number,
         approximation=approximation,
     )
@@ -151,6 +154,26 @@ def _flank(plan, flank, state):
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
     printer = Printer(plan.tape, plan.drive.name, state | own)
     return {"flank": flank, "body": printer.body([i for o in flank.outputs for i in o.nodes])[0]}
+
+
+def _system(plan, drive):
+    """A design system's C: functions of q, the parameters followed by the share of the path, and of y."""
+    lower, count = plan.lower, len(drive.parameters)
+    known = {lower(p.symbol): f"q[{k}]" for k, p in enumerate(drive.parameters)} | {lower(PATH): f"q[{count}]"}
+    printer = Printer(plan.tape, drive.name, known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)})
+    index = {p.symbol: k for k, p in enumerate(drive.parameters)}
+    residual, statements = printer.body(plan.residual)
+    return {
+        "name": plan.system.name,
+        "unknowns": plan.unknowns,
+        "guess": printer.body(plan.guess)[0],
+        "scale": printer.body(plan.scales)[0],
+        "residual": residual,
+        "jacobian": printer.body([e for row in plan.jacobian for e in row], statements)[0],
+        "watch": None if plan.watch is None else printer.body([plan.watch])[0],
+        "values": printer.body(plan.values)[0],
+        "fills": [index[target] for target in plan.system.fills],
+    }
 
 
 def _rules(drive, prefix):

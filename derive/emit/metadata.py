@@ -41,6 +41,9 @@ def describe(plan, provenance=None):
         "exclusive": [list(group) for group in drive.exclusive],
         "required": list(drive.required),
         "sizes": [_size(*entry) for entry in drive.sizes],
+        "systems": [
+            {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems
+        ],
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in drive.guards],
         "outputs": [
             {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
@@ -49,6 +52,7 @@ def describe(plan, provenance=None):
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
+        "regions": [_region(region) for region in plan.regions],
         "shapes": {
             "p": [len(drive.parameters)],
             "s": [len(plan.state)],
@@ -64,13 +68,23 @@ def describe(plan, provenance=None):
 
 def specification_hash(plan):
     """SHA-256 of the tape, its inputs and what is read from it: equal for equal generated arithmetic."""
-    nodes = [[n.op, list(n.args), str(n.value) if n.value is not None else ""] for n in plan.tape.nodes]
+    nodes = _nodes(plan.tape)
     reads = [plan.residual, plan.jacobian, plan.step, plan.start_residual, plan.start_solution, plan.guards]
     reads += [[o.name, list(o.nodes)] for o in plan.observed]
     reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
+    reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.regions]
+    reads += [_system_content(system) for system in plan.systems]
     rules = [[r.target.name, str(r.value)] for r in plan.drive.rules]
     text = json.dumps([nodes, reads, rules], separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _nodes(tape):
+    return [[n.op, list(n.args), str(n.value) if n.value is not None else ""] for n in tape.nodes]
+
+
+def _system_content(plan):
+    return [plan.system.name, _nodes(plan.tape), plan.residual, plan.guess, plan.values, plan.watch]
 
 
 def operations(plan):
@@ -139,6 +153,17 @@ def _parameter(p):
 def _size(key, _value, meaning):
     _, unit, factor = interface_unit(key)
     return _plain(key, unit) | {"meaning": meaning, "key": key, "factor": _float(factor)}
+
+
+def _region(region):
+    return {
+        "name": region.body,
+        "region": region.region,
+        "parameters": [p.name for p in region.parameters],
+        "conditions": sum(o.name.endswith("_slopes") for o in region.outputs),
+        "margins": [],
+        "outputs": sum(len(o.nodes) for o in region.outputs),
+    }
 
 
 def _offsets(plan):

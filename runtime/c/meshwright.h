@@ -60,6 +60,10 @@ int mw_model_count(void);
 const mw_model *mw_model_at(int index);
 const mw_model *mw_find(const char *drive);
 
+/* Complete the parameters p[np] of a design (NaN: open) by rules, defaults and the model's design systems;
+ * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution. */
+int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
+
 /* Solve one point from a cold start. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result.
  * Misalignments are applied by continuation. Returns info->status. */
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
