@@ -11,7 +11,7 @@ import numpy as np
 import pydantic
 
 from meshwright import metadata, schema
-from meshwright._library import ffi, model, text
+from meshwright._library import ffi, library, model, text
 from meshwright.errors import DesignError
 
 PACKAGED = Path(__file__).parent / "designs"
@@ -84,12 +84,19 @@ class Design:
         solved = {"drive": self.family, "name": self.tables.get("name", ""), "flank": self.tables["flank"]}
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["table"] != "flank":
-                value = None if math.isnan(number) else float(number) / p["factor"]
-                solved.setdefault(p["table"], {})[p["key"]] = value
+                solved.setdefault(p["table"], {})[p["key"]] = _shown(p, float(number))
         words = {**self.description["variant"], "hand": None}
         solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
         solved["design"] |= self.sizes
         return solved
+
+
+def _shown(parameter, number):
+    """A parameter in the unit of its key, a choice as its word, None if open."""
+    if math.isnan(number):
+        return None
+    words = {value: word for word, value in parameter["choices"].items()}
+    return words.get(number, number / parameter["factor"])
 
 
 def check(tables):
@@ -105,7 +112,7 @@ def check(tables):
     c = model(description["name"])
     parameters = _vector(description, checked)
     p = ffi.from_buffer("double[]", parameters)
-    c.derive(p)
+    _complete(c, description, p, checked)
     state = np.empty(c.ns)
     failed = c.setup(p, ffi.from_buffer("double[]", state))
     if failed:
@@ -188,8 +195,16 @@ def _vector(description, checked):
         if p["table"] == "flank":
             vector[k] = p["choices"][checked["flank"]]
         elif (value := checked[p["table"]].get(p["key"])) is not None:
-            vector[k] = value * p["factor"]
+            vector[k] = p["choices"][value] if p["choices"] else value * p["factor"]
     return vector
+
+
+def _complete(c, description, p, checked):
+    """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
+    work, info = np.empty(c.np + 1), ffi.new("mw_info *")
+    failed = library().mw_complete(c, p, ffi.from_buffer("double[]", work), info)
+    if failed:
+        raise _guard_error(description["systems"][failed - 1], checked)
 
 
 def _sizes(c, parameters):

@@ -75,9 +75,9 @@ class Drive:
         """Pinion angle from one tooth pair to the next, rad."""
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])
 
-    def flank(self, member):
-        """The generated flank of ``"pinion"`` or ``"wheel"``."""
-        return Flank.of(self, member)
+    def flank(self, member, region="flank"):
+        """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
+        return Flank.of(self, member, region)
 
     def state(self, angle=0.0):
         """The model's state for this design at an input angle: what generated functions read."""

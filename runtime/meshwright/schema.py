@@ -12,8 +12,11 @@ _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 HAND = Literal["right", "left"]
 
 
-def _number_field(parameter):
-    """Type and default of one numeric key; the open bounds are given in the key's own unit."""
+def _field(parameter):
+    """Type and default of one key: a choice of words, or a number with open bounds in the key's own unit."""
+    if parameter["choices"]:
+        word = Annotated[Literal[tuple(parameter["choices"])], Field(description=parameter["meaning"])]
+        return (word, ...) if parameter["required"] else (word | None, None)
     bounds = {}
     if parameter["lower"] is not None:
         bounds["gt"] = parameter["lower"] / parameter["factor"]
@@ -44,7 +47,7 @@ def design_model(family):
     tables = {}
     for parameter in metadata.parameters(family):
         if parameter["table"] != "flank":
-            tables.setdefault(parameter["table"], {})[parameter["key"]] = _number_field(parameter)
+            tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
     tables["design"] |= _variant_fields(descriptions)
     if descriptions[0]["handed"]:
         tables["design"]["hand"] = (HAND, "right")

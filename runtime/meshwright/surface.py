@@ -35,12 +35,18 @@ class Flank:
     pointer: object
 
     @classmethod
-    def of(cls, drive, member):
-        """The flank of ``"pinion"`` or ``"wheel"``."""
-        for k, body in enumerate(drive.design.description["bodies"]):
-            if body["name"] == member:
-                return cls(drive, body, drive.model.bodies[k])
-        raise UsageError(f"member = {member!r}: no such member; use pinion or wheel")
+    def of(cls, drive, member, region="flank"):
+        """The flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
+        description, model = drive.design.description, drive.model
+        for k, body in enumerate(description["bodies"]):
+            if (body["name"], "flank") == (member, region):
+                return cls(drive, body, model.bodies[k])
+        for k, other in enumerate(description["regions"]):
+            if (other["name"], other["region"]) == (member, region):
+                return cls(drive, other, model.regions[k])
+        known = [f"flank of {b['name']}" for b in description["bodies"]]
+        known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
+        raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
 
     @property
     def parameters(self):
