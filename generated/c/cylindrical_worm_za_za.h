@@ -41,6 +41,26 @@ typedef struct mw_body {
     void (*flank)(const double *s, const double *q, double *o);
 } mw_body;
 
+/* Equations solved once per design: their solution y[n] fills in open parameters. q[np + 1] are the parameters followed
+ * by the share of a path, 0 to 1, along which the solution is followed from the guess. */
+typedef struct mw_system {
+    const char *name;
+    int n;
+    void (*guess)(const double *q, double *y);
+    void (*scale)(const double *q, double *y);                  /* natural size of each unknown */
+    void (*eval)(const double *q, const double *y, double *R, double *J);
+    double (*watch)(const double *q, const double *y);          /* must stay positive along the path; or NULL */
+    int (*open)(const double *p);                               /* number of parameters it would fill in */
+    void (*fill)(const double *y, double *q);
+} mw_system;
+
+/* A surface of a member beside its flank, or a surface from which the design was derived; flank() as in mw_body. */
+typedef struct mw_region {
+    const char *member, *name;
+    int parameters, conditions, outputs;
+    void (*flank)(const double *s, const double *q, double *o);
+} mw_region;
+
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
  * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
 typedef struct mw_model {
@@ -66,6 +86,10 @@ typedef struct mw_model {
     void (*start_solution)(const double *s, const double *y, double *x);
     void (*observe)(const double *s, const double *x, double *o);
     void (*scale)(const double *s, double *x);                  /* natural size of each unknown */
+    int nsystems;
+    const mw_system *systems;    /* in the order in which they are solved, derive() before and after each */
+    int nregions;
+    const mw_region *regions;
 } mw_model;
 
 #endif
@@ -2456,6 +2480,7 @@ static const mw_body cylindrical_worm_za_za_bodies[] = {
       18, cylindrical_worm_za_za_flank_wheel },
 };
 
+
 /* The model table by which runtime/c solves this drive. */
 static const mw_model cylindrical_worm_za_za_model = {
     cylindrical_worm_za_za_ABI, "cylindrical_worm_za_za", "cylindrical-worm", "ZA worm with a wheel cut by a ZA hob", cylindrical_worm_za_za_SPEC_HASH,
@@ -2464,7 +2489,8 @@ static const mw_model cylindrical_worm_za_za_model = {
     cylindrical_worm_za_za_unknown_names, cylindrical_worm_za_za_parameter_names, cylindrical_worm_za_za_size_names,
     cylindrical_worm_za_za_output_names, 26, cylindrical_worm_za_za_output_sizes, cylindrical_worm_za_za_guard_texts, cylindrical_worm_za_za_bodies,
     cylindrical_worm_za_za_derive, cylindrical_worm_za_za_size, cylindrical_worm_za_za_setup, cylindrical_worm_za_za_set_phi, cylindrical_worm_za_za_eval, cylindrical_worm_za_za_step,
-    cylindrical_worm_za_za_guess, cylindrical_worm_za_za_start_scale, cylindrical_worm_za_za_start_eval, cylindrical_worm_za_za_start_solution, cylindrical_worm_za_za_observe, cylindrical_worm_za_za_scale
+    cylindrical_worm_za_za_guess, cylindrical_worm_za_za_start_scale, cylindrical_worm_za_za_start_eval, cylindrical_worm_za_za_start_solution, cylindrical_worm_za_za_observe, cylindrical_worm_za_za_scale,
+    0, NULL, 0, NULL
 };
 
 #endif

@@ -41,6 +41,26 @@ typedef struct mw_body {
     void (*flank)(const double *s, const double *q, double *o);
 } mw_body;
 
+/* Equations solved once per design: their solution y[n] fills in open parameters. q[np + 1] are the parameters followed
+ * by the share of a path, 0 to 1, along which the solution is followed from the guess. */
+typedef struct mw_system {
+    const char *name;
+    int n;
+    void (*guess)(const double *q, double *y);
+    void (*scale)(const double *q, double *y);                  /* natural size of each unknown */
+    void (*eval)(const double *q, const double *y, double *R, double *J);
+    double (*watch)(const double *q, const double *y);          /* must stay positive along the path; or NULL */
+    int (*open)(const double *p);                               /* number of parameters it would fill in */
+    void (*fill)(const double *y, double *q);
+} mw_system;
+
+/* A surface of a member beside its flank, or a surface from which the design was derived; flank() as in mw_body. */
+typedef struct mw_region {
+    const char *member, *name;
+    int parameters, conditions, outputs;
+    void (*flank)(const double *s, const double *q, double *o);
+} mw_region;
+
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
  * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
 typedef struct mw_model {
@@ -66,6 +86,10 @@ typedef struct mw_model {
     void (*start_solution)(const double *s, const double *y, double *x);
     void (*observe)(const double *s, const double *x, double *o);
     void (*scale)(const double *s, double *x);                  /* natural size of each unknown */
+    int nsystems;
+    const mw_system *systems;    /* in the order in which they are solved, derive() before and after each */
+    int nregions;
+    const mw_region *regions;
 } mw_model;
 
 #endif
@@ -2947,6 +2971,7 @@ static const mw_body cylindrical_worm_zi_zn_bodies[] = {
       18, cylindrical_worm_zi_zn_flank_wheel },
 };
 
+
 /* The model table by which runtime/c solves this drive. */
 static const mw_model cylindrical_worm_zi_zn_model = {
     cylindrical_worm_zi_zn_ABI, "cylindrical_worm_zi_zn", "cylindrical-worm", "ZI worm with a wheel cut by a ZN hob", cylindrical_worm_zi_zn_SPEC_HASH,
@@ -2955,7 +2980,8 @@ static const mw_model cylindrical_worm_zi_zn_model = {
     cylindrical_worm_zi_zn_unknown_names, cylindrical_worm_zi_zn_parameter_names, cylindrical_worm_zi_zn_size_names,
     cylindrical_worm_zi_zn_output_names, 27, cylindrical_worm_zi_zn_output_sizes, cylindrical_worm_zi_zn_guard_texts, cylindrical_worm_zi_zn_bodies,
     cylindrical_worm_zi_zn_derive, cylindrical_worm_zi_zn_size, cylindrical_worm_zi_zn_setup, cylindrical_worm_zi_zn_set_phi, cylindrical_worm_zi_zn_eval, cylindrical_worm_zi_zn_step,
-    cylindrical_worm_zi_zn_guess, cylindrical_worm_zi_zn_start_scale, cylindrical_worm_zi_zn_start_eval, cylindrical_worm_zi_zn_start_solution, cylindrical_worm_zi_zn_observe, cylindrical_worm_zi_zn_scale
+    cylindrical_worm_zi_zn_guess, cylindrical_worm_zi_zn_start_scale, cylindrical_worm_zi_zn_start_eval, cylindrical_worm_zi_zn_start_solution, cylindrical_worm_zi_zn_observe, cylindrical_worm_zi_zn_scale,
+    0, NULL, 0, NULL
 };
 
 #endif

@@ -24,6 +24,7 @@
 #include "cylindrical_worm_zc_zn.h"
 #include "cylindrical_worm_zc_zk.h"
 #include "cylindrical_worm_zc_zc.h"
+#include "face_worm.h"
 
 static const mw_model *const mw_models[] = {
     &cylindrical_worm_za_za_model,
@@ -51,5 +52,6 @@ static const mw_model *const mw_models[] = {
     &cylindrical_worm_zc_zn_model,
     &cylindrical_worm_zc_zk_model,
     &cylindrical_worm_zc_zc_model,
+    &face_worm_model,
     NULL
 };

@@ -7,7 +7,7 @@ Frames and signs: ``f`` has z along the gear axis and x along the worm axis; see
 
 from dataclasses import dataclass, field
 
-from mpmath import acos, atan2, cos, findroot, matrix, mpf, norm, pi, sin, sqrt, tan
+from mpmath import acos, atan2, cos, findroot, lu_solve, matrix, mp, mpf, norm, pi, sin, sqrt, tan
 
 PERM = matrix([[0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 I = matrix([1, 0, 0])
@@ -35,14 +35,9 @@ def unit(a):
 
 
 def _solve(equations, start):
-    root = findroot(lambda *x: equations(*x), tuple(map(mpf, start)), tol=mpf(10) ** (-2 * _digits() + 8), maxsteps=50)
+    """Root of ``equations`` near ``start`` in the working precision; derivatives are differences."""
+    root = findroot(equations, tuple(map(mpf, start)), tol=mpf(10) ** (8 - 2 * mp.dps), maxsteps=50)
     return list(root) if len(start) > 1 else [root]
-
-
-def _digits():
-    from mpmath import mp
-
-    return mp.dps
 
 
 @dataclass
@@ -104,10 +99,15 @@ class FaceWorm:
 
     # -- placement of the head-cutter -------------------------------------------------------------------------
 
-    def place(self):
-        """Hob phase, A1, P, A2, head-cutter radius, axes, origin, tilt and blade angle, as a dictionary."""
-        phase = self._phase()
-        on_circle = [self._at_radius(r, phase) for r in (self.inner, self.outer)]
+    def place(self, near=None):
+        """Hob phase, A1, P, A2, head-cutter radius, axes, origin, tilt and blade angle, as a dictionary.
+
+        ``near`` may give approximate values of phase and hob parameters, to save the search.
+        """
+        near = near or {}
+        phase = self._phase(near.get("phase"))
+        places = zip((self.inner, self.outer), (near.get("hob_A1"), near.get("hob_A2")), strict=True)
+        on_circle = [self._at_radius(radius, phase, start) for radius, start in places]
         a1, a2 = (self.hob_cut(0, *at, phase)[0] for at in on_circle)
         pitch = self._pitch(phase)
         p, n = self.hob_cut(*pitch, phase)
@@ -125,27 +125,29 @@ class FaceWorm:
         }  # fmt: skip
         return self.placed
 
-    def _phase(self):
+    def _phase(self, near=None):
         """All roots over a turn by sign changes; the one nearest zero."""
+        if near is not None:
+            return _solve(lambda a: self.hob_meshing(0, 0, 0, a), [near])[0]
         steps = 360
         angles = [-pi + 2 * pi * k / steps for k in range(steps + 1)]
         values = [self.hob_meshing(0, 0, 0, a) for a in angles]
-        starts = [a for a, v, w in zip(angles, values, values[1:]) if v * w <= 0]
+        starts = [a for a, v, w in zip(angles[1:], values[1:], values[:-1], strict=True) if v * w <= 0]
         roots = [_solve(lambda a: self.hob_meshing(0, 0, 0, a), [a])[0] for a in starts]
         return min(roots, key=abs)
 
-    def _at_radius(self, radius, phase):
+    def _at_radius(self, radius, phase, near=None):
+        """Hob parameters (θ, ψ) of the mid-profile point at this gear radius, in small steps from the section L."""
         middle = norm(self.hob_cut(0, 0, 0, phase)[0][:2])
-        at, steps = [0, 0], 24
+        at, steps = ([0, 0], 24) if near is None else (near, 1)
         for k in range(1, steps + 1):
             wanted = middle + (radius - middle) * k / steps
-            at = _solve(
-                lambda t, q: [
-                    self.hob_meshing(0, t, q, phase),
-                    norm(self.hob_cut(0, t, q, phase)[0][:2]) - wanted,
-                ],
-                at,
-            )
+
+            def equations(theta, psi, wanted=wanted):
+                reached = norm(self.hob_cut(0, theta, psi, phase)[0][:2])
+                return [self.hob_meshing(0, theta, psi, phase), reached - wanted]
+
+            at = _solve(equations, at)
         return at
 
     def _pitch(self, phase):
@@ -165,8 +167,6 @@ class FaceWorm:
     @staticmethod
     def _centre(a, b, c):
         """Equal distances from a, b, c in their plane: three linear equations."""
-        from mpmath import lu_solve
-
         normal = cross(b - a, c - b)
         rows = [b - a, c - a, normal]
         right = [(dot(b, b) - dot(a, a)) / 2, (dot(c, c) - dot(a, a)) / 2, dot(normal, a)]
@@ -231,7 +231,6 @@ class FaceWorm:
             r2, n2 = self.gear(u_g, t_g)
             r2, n2 = rz(phi_2) * r2, rz(phi_2) * n2
             across = cross(n2, rz(phi_2) * self.placed["z"])
-            gap = r1 - r2
-            return [*gap, dot(n1, across), dot(n1, cross(n2, across)), self.worm_meshing(u_w, t_w, psi)]
+            return [*(r1 - r2), dot(n1, across), dot(n1, cross(n2, across)), self.worm_meshing(u_w, t_w, psi)]
 
         return _solve(equations, start)

@@ -1,0 +1,110 @@
+"""Contact of the face worm drive: what its geometry must give, against closed form and 50-digit arithmetic."""
+
+import math
+from itertools import product
+
+import mpmath
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from tests.face_worm.designs import ERRORS, NAMES, UNKNOWNS, changed, driving, independent
+
+ARCSEC = math.pi / 648000
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("rule", ["mid", "cones"])
+def test_without_plunge_and_errors_there_is_no_transmission_error_and_contact_keeps_to_the_middle_line(name, rule):
+    for crown in (0.002, 0.05):
+        drive = changed(
+            name, {"plunge_mm_per_rad2": 0.0, "blade_parabola_per_mm": crown, "pitch_point_rule": rule}
+        )
+        result = drive.tca(np.radians(np.arange(-400.0, 401.0, 80.0)))
+        assert set(result.status) == {"converged"}
+        assert np.max(np.abs(result.error)) < 1e-9 * ARCSEC
+        assert np.max(np.abs(result.unknowns["u_worm"])) < 1e-11
+        assert np.max(np.abs(result.unknowns["u_gear"])) < 1e-11
+        assert np.allclose(result.unknowns["psi_worm"], result.angles, rtol=0, atol=1e-12)
+        assert np.allclose(result.unknowns["theta_worm"], result.unknowns["theta_gear"], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_gear_lags_along_a_parabola_with_its_vertex_in_the_middle(name):
+    drive = Drive.load(name)
+    angles = np.linspace(-0.5, 0.5, 21) * drive.pitch()
+    error = drive.tca(angles).relative_error / ARCSEC
+    lag = -driving(drive) * error
+    assert lag[10] == 0.0 and np.all(np.delete(lag, 10) > 0)
+    square, line, _ = np.polyfit(angles, lag, 2)
+    assert abs(line / (2 * square)) < 0.1 * drive.pitch()
+    assert np.max(np.abs(np.polyval([square, line, 0], angles) - lag)) < 0.05 * np.max(lag)
+    assert 5 < np.max(lag) < 50
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_path_of_contact_is_longitudinal(name):
+    """The radius runs across the whole face; |u| on the gear stays below 0.25 mm while three pairs share the load.
+
+    Towards the ends of the face, where another pair leads, it grows: up to 0.64 mm on the conical concave side.
+    """
+    drive = Drive.load(name)
+    result = drive.tca(np.radians(np.arange(-700.0, 701.0, 5.0)))
+    radius = np.hypot(*result.body_points["wheel"][:, :2].T)
+    inside = np.array(["off_face" not in flags for flags in result.flags])
+    inner, outer = drive.design.value("gear_inner_radius_mm"), drive.design.value("gear_outer_radius_mm")
+    assert np.array_equal(inside, (radius > inner) & (radius < outer))
+    assert np.ptp(radius[inside]) > 0.95 * (outer - inner)
+    sharing = inside & (np.abs(result.angles) <= 1.5 * drive.pitch())
+    assert np.ptp(radius[sharing]) > 0.4 * (outer - inner)
+    assert np.max(np.abs(result.unknowns["u_gear"][sharing])) <= 0.25
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("signs", [(0, 0, 0), (1, 1, 1), (-1, 1, -1)])
+def test_double_precision_agrees_with_fifty_digits(name, signs):
+    errors = {key: sign * value for (key, value), sign in zip(ERRORS.items(), signs, strict=True)}
+    for rule in ("mid", "cones") if signs == (0, 0, 0) else ("mid",):
+        drive = changed(name, {"pitch_point_rule": rule}, errors)
+        angles = np.radians([-130.0, 210.0])
+        result = drive.tca(angles)
+        with mpmath.workdps(50):
+            twin = independent(drive)
+            for k, angle in enumerate(angles):
+                start = [result.unknowns[u][k] for u in UNKNOWNS]
+                exact = twin.contact(mpmath.mpf(angle), [*start, result.wheel_angles[k]])
+                error = exact[5] - mpmath.mpf(angle) * twin.ratio
+                assert abs(float(error - mpmath.mpf(result.error[k]))) < 1e-10 * ARCSEC
+                assert np.allclose([float(x) for x in exact[:5]], start, rtol=0, atol=1e-10)
+                point, normal = twin.in_mesh(*exact[:3], mpmath.mpf(angle))
+                assert np.allclose([float(c) for c in point], result.points[k], rtol=0, atol=1e-10)
+                assert np.allclose([-float(c) for c in normal], result.normals[k], rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", NAMES[:2])
+def test_both_backends_agree(name):
+    angles = np.radians([-200.0, 0.0, 170.0])
+    errors = {"misalignment": ERRORS}
+    c, casadi = (Drive.load(name, backend).with_(**errors).tca(angles) for backend in ("c", "casadi"))
+    assert np.allclose(c.error, casadi.error, rtol=0, atol=1e-12)
+    assert np.allclose(c.points, casadi.points, rtol=0, atol=1e-10)
+
+
+def test_straight_blade_without_plunge_touches_along_a_line():
+    """Worm and gear are then cut by one and the same cone."""
+    drive = changed(NAMES[0], {"plunge_mm_per_rad2": 0.0, "blade_parabola_per_mm": 0.0})
+    result = drive.tca(np.radians([-100.0, 0.0, 100.0]))
+    assert set(result.status) == {"line_contact"}
+    assert np.max(np.abs(result.error)) < 1e-9 * ARCSEC
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if n.endswith("convex")])
+def test_convex_side_absorbs_all_errors(name):
+    """For all signs of the three errors the gear lags on both sides of a vertex inside the path."""
+    for signs in product((-1, 1), repeat=3):
+        errors = {key: sign * value for (key, value), sign in zip(ERRORS.items(), signs, strict=True)}
+        result = changed(name, misalignment=errors).tca(np.radians(np.arange(-700.0, 701.0, 10.0)))
+        inside = np.array(["off_face" not in flags for flags in result.flags])
+        error = result.error[inside]
+        vertex = int(np.argmax(error))
+        assert 0 < vertex < len(error) - 1

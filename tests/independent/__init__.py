@@ -1,0 +1,1 @@
+"""Formulations written from the sources, independent of the compiler: what physics is tested against."""
