@@ -1,0 +1,55 @@
+"""Linear elastic materials and the contact modulus of two of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Material:
+    """An isotropic linear elastic material.
+
+    youngs_modulus: Young's modulus E in MPa, above zero.
+    poisson_ratio: Poisson's ratio, -1 < nu < 0.5.
+    """
+
+    youngs_modulus: float
+    poisson_ratio: float
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E / (1 - nu^2) in MPa."""
+        return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
+
+    @property
+    def stiffness(self) -> NDArray[np.float64]:
+        """6 x 6 stiffness in MPa, order xx yy zz xy yz zx, engineering shear strains."""
+        nu = self.poisson_ratio
+        matrix = np.zeros((6, 6))
+        matrix[:3, :3] = nu
+        np.fill_diagonal(matrix[:3, :3], 1.0 - nu)
+        matrix[3:, 3:] = np.eye(3) * (0.5 - nu)
+        return matrix * self.youngs_modulus / ((1.0 + nu) * (1.0 - 2.0 * nu))
+
+
+def contact_modulus(first: Material, second: Material) -> float:
+    """Contact modulus E* in MPa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2."""
+    return 1.0 / (1.0 / first.plane_strain_modulus + 1.0 / second.plane_strain_modulus)
+
+
+def von_mises(stress: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Von Mises stress of (..., 6) stresses, order xx yy zz xy yz zx."""
+    xx, yy, zz, xy, yz, zx = np.moveaxis(np.asarray(stress), -1, 0)
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + zx**2))
+
+
+def max_principal(stress: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Largest principal stress of (..., 6) stresses, order xx yy zz xy yz zx."""
+    xx, yy, zz, xy, yz, zx = np.moveaxis(np.asarray(stress), -1, 0)
+    rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]
+    tensor = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return np.linalg.eigvalsh(tensor)[..., -1]

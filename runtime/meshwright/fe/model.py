@@ -1,0 +1,187 @@
+"""The finite-element model of a gear pair at one position, as a CalculiX deck."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body
+from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
+from meshwright.fe.hertz import HertzContact, elliptic_contact
+from meshwright.fe.hexahedra import Floats, HexMesh
+from meshwright.fe.material import contact_modulus
+from meshwright.fe.pair import GearPair, Member, PairTouch, lever_arm, touches, unloaded_wheel_angle
+from meshwright.fe.tooth import ContactZone, MeshDensity
+
+# The contact starts from an overlap of this part of the Hertz approach: from a gap the solver diverges.
+_START_OVERLAP = 0.5
+
+BodyName = Literal["pinion", "wheel"]
+
+
+@dataclass(frozen=True)
+class Load:
+    """Torque in N mm (> 0) on one member; the rim of the other member is held."""
+
+    torque: float
+    member: BodyName
+
+
+@dataclass(frozen=True)
+class PairModel:
+    """A deck in the frame of the loaded member (its axis is z) and what is needed to read its results.
+
+    hertz: for each pair the contact under the force its mesh was graded to.  start_rotation: rotation in rad
+    about +z of the loaded member from the first unloaded touch to the overlap at which the analysis starts.
+    direction: +1 or -1, sign of the torque about +z.
+    """
+
+    deck: Deck
+    bodies: dict[BodyName, BodyMesh]
+    contacts: tuple[PairTouch, ...]
+    hertz: tuple[HertzContact, ...]
+    load: Load
+    frame: Floats
+    start_rotation: float
+    direction: int
+
+
+def loaded_side(gear: GearPair, load: Load) -> tuple[Member, int]:
+    """The loaded member and the sign of the torque about +z of its body frame.
+
+    The pinion is pushed in its driving sense, the wheel against the sense in which it is driven.
+    """
+    if load.member == "pinion":
+        return gear.pinion, gear.sense * gear.pinion.turning
+    return gear.wheel, -gear.sense * gear.wheel.turning
+
+
+def hertz_of(gear: GearPair, contact: PairTouch, force: float) -> HertzContact:
+    """Hertz contact of a pair under a normal force in N."""
+    modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
+    touch = contact.touch
+    return elliptic_contact(
+        force, touch.curvature_min, touch.curvature_max, modulus, gear.pinion.material.poisson_ratio
+    )
+
+
+def build_model(
+    gear: GearPair, pinion_angle: float, pairs: int, load: Load, forces: Floats | None, density: MeshDensity
+) -> PairModel:
+    """Model ``pairs`` tooth pairs around a pinion angle.
+
+    forces: expected normal force in N of each pair in contact, by which its mesh is graded (the result of the
+    semi-analytic contact); None shares the torque equally.  A pair with no force gets a coarse mesh.
+    """
+    contacts = touches(gear, pinion_angle, pairs)
+    if not contacts:
+        raise ValueError(f"no tooth pair touches at a pinion angle of {np.degrees(pinion_angle):g} deg")
+    loaded, direction = loaded_side(gear, load)
+    arms = [abs(lever_arm(loaded, contact.touch.point, contact.touch.normal)) for contact in contacts]
+    if forces is None:
+        forces = np.array([load.torque / arm / len(contacts) for arm in arms])
+    hertz = tuple(hertz_of(gear, c, max(float(f), 0.02 * max(forces))) for c, f in zip(contacts, forces, strict=True))
+    bodies = {
+        name: mesh_body(member.form, _teeth(gear, name, pinion_angle, pairs, contacts, hertz), density)
+        for name, member in _members(gear).items()
+    }
+    lead = int(np.argmax(forces))
+    start = direction * _START_OVERLAP * hertz[lead].approach / arms[lead]
+    frame = np.linalg.inv(loaded.pose(0.0))
+    angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
+    parts = []
+    for name, member in _members(gear).items():
+        motion = frame @ member.pose(angles[name])
+        if name == load.member:
+            motion = _about_z(start) @ motion
+        nodes = bodies[name].mesh.nodes @ motion[:3, :3].T + motion[:3, 3]
+        parts.append(Part(name.upper(), HexMesh(nodes, bodies[name].mesh.elements), member.material))
+    deck = Deck(
+        f"meshwright: {len(contacts)} tooth pairs, pinion at {np.degrees(pinion_angle):.6f} deg",
+        tuple(parts),
+        rims=_rims(bodies, load, direction),
+        contacts=_contact_pairs(bodies, gear, contacts, pairs),
+        remarks=(
+            f"{load.torque / 1000.0:g} N m about z of the {load.member}; the rim of the other member is held.",
+            f"The {load.member} starts {abs(start):.3e} rad past the first touch.",
+        ),
+    )
+    return PairModel(deck, bodies, contacts, hertz, load, frame, start, direction)
+
+
+def _members(gear: GearPair) -> dict[BodyName, Member]:
+    return {"pinion": gear.pinion, "wheel": gear.wheel}
+
+
+def tooth_order(member: Member, pairs: int) -> list[int]:
+    """Which pair (``pairs_later``) each tooth of the body belongs to, in the order of ``next_tooth``."""
+    first = -((pairs - 1) // 2)
+    order = list(range(first, first + pairs))
+    later, following = member.tooth_motion(1), member.form.next_tooth
+    return order if np.allclose(later, following, atol=1e-6) else order[::-1]
+
+
+def _teeth(
+    gear: GearPair,
+    name: BodyName,
+    pinion_angle: float,
+    pairs: int,
+    contacts: tuple[PairTouch, ...],
+    hertz: tuple[HertzContact, ...],
+) -> list[PlacedTooth]:
+    member = _members(gear)[name]
+    zones = {}
+    for contact, ellipse in zip(contacts, hertz, strict=True):
+        touch = contact.touch
+        angle = touch.pinion_angle if name == "pinion" else touch.wheel_angle
+        to_body = np.linalg.inv(member.pose(angle))
+        zones[contact.pairs_later] = ContactZone(
+            member.working,
+            to_body[:3, :3] @ touch.point + to_body[:3, 3],
+            to_body[:3, :3] @ touch.major_direction,
+            to_body[:3, :3] @ touch.normal,
+            ellipse.semi_major,
+            ellipse.semi_minor,
+        )
+    return [
+        PlacedTooth(member.tooth_motion(later), zones.get(later)) for later in tooth_order(member, pairs)
+    ]
+
+
+def _contact_pairs(
+    bodies: dict[BodyName, BodyMesh], gear: GearPair, contacts: tuple[PairTouch, ...], pairs: int
+) -> tuple[ContactPair, ...]:
+    faces = {}
+    for name, member in _members(gear).items():
+        order = tooth_order(member, pairs)
+        faces[name] = {
+            later: bodies[name].teeth[place][f"flank_{member.working}"] for place, later in enumerate(order)
+        }
+    return tuple(
+        ContactPair(
+            f"PAIR{number}", "PINION", faces["pinion"][c.pairs_later], "WHEEL", faces["wheel"][c.pairs_later]
+        )
+        for number, c in enumerate(contacts, start=1)
+    )
+
+
+def _rims(bodies: dict[BodyName, BodyMesh], load: Load, direction: int) -> tuple[RigidRim, ...]:
+    return tuple(
+        RigidRim(
+            name.upper(),
+            name.upper(),
+            body.rim,
+            (0.0, 0.0, 0.0),
+            direction * load.torque if name == load.member else None,
+        )
+        for name, body in bodies.items()
+    )
+
+
+def _about_z(angle: float) -> Floats:
+    motion = np.eye(4)
+    c, s = np.cos(angle), np.sin(angle)
+    motion[:2, :2] = [[c, -s], [s, c]]
+    return motion

@@ -1,0 +1,107 @@
+"""What loaded contact needs to know of a gear pair: teeth, placements and the unloaded contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from meshwright.fe.hexahedra import Floats
+from meshwright.fe.material import Material
+from meshwright.fe.tooth import ToothForm
+
+
+@dataclass(frozen=True)
+class Member:
+    """Pinion (worm) or wheel.
+
+    working: the tooth side in contact.  pose: member angle in rad to the 4 x 4 motion from the body frame to the
+    fixed frame; the member's axis is the z axis of its body frame.  pitch: angle between successive teeth, 2 pi / teeth.
+    turning: +1 if a growing member angle turns the body about +z of its own frame, -1 if about -z.
+    """
+
+    form: ToothForm
+    working: Literal["left", "right"]
+    pose: Callable[[float], Floats]
+    pitch: float
+    turning: int
+    material: Material
+
+    @property
+    def axis(self) -> tuple[Floats, Floats]:
+        """Origin and unit direction of the axis in the fixed frame, along +z of the body."""
+        pose = self.pose(0.0)
+        return pose[:3, 3], pose[:3, 2]
+
+    def tooth_motion(self, pairs_later: int) -> Floats:
+        """4 x 4 motion in the body frame from the reference tooth to the tooth that meets so many pairs later."""
+        return np.linalg.inv(self.pose(0.0)) @ self.pose(-pairs_later * self.pitch)
+
+
+@dataclass(frozen=True)
+class Touch:
+    """The unloaded contact of one pair at a pinion angle: fixed frame, mm and rad.
+
+    normal points out of the pinion; curvatures are those of the gap, 0 < curvature_min <= curvature_max.
+    """
+
+    pinion_angle: float
+    wheel_angle: float
+    point: Floats
+    normal: Floats
+    curvature_min: float
+    curvature_max: float
+    major_direction: Floats
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """Two members and their contact.
+
+    ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
+    touch: contact of the reference pair at a pinion angle, or None where it has none.
+    """
+
+    pinion: Member
+    wheel: Member
+    ratio: float
+    sense: int
+    touch: Callable[[float], Touch | None]
+
+
+@dataclass(frozen=True)
+class PairTouch:
+    """Contact of the pair that is ``pairs_later`` tooth pitches behind the reference pair."""
+
+    pairs_later: int
+    touch: Touch
+    wheel_angle: float
+
+
+def touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch, ...]:
+    """The contacts of the pairs around a pinion angle, ``pairs`` of them, centred on the reference pair.
+
+    wheel_angle of each is that of the whole wheel at which this pair would touch.
+    """
+    first = -((pairs - 1) // 2)
+    found = []
+    for pairs_later in range(first, first + pairs):
+        touch = gear.touch(pinion_angle - pairs_later * gear.pinion.pitch)
+        if touch is not None:
+            wheel_angle = touch.wheel_angle + pairs_later * gear.wheel.pitch
+            found.append(PairTouch(pairs_later, touch, wheel_angle))
+    return tuple(found)
+
+
+def unloaded_wheel_angle(gear: GearPair, contacts: tuple[PairTouch, ...]) -> float:
+    """Wheel angle at which the first of the pairs touches: the pair that leads in the driven sense."""
+    angles = [contact.wheel_angle for contact in contacts]
+    return max(angles) if gear.sense > 0 else min(angles)
+
+
+def lever_arm(member: Member, point: Floats, direction: Floats) -> float:
+    """Moment about the member's axis of a unit force along ``direction`` at ``point``, fixed frame, mm."""
+    origin, axis = member.axis
+    return float(np.dot(axis, np.cross(point - origin, direction)))
