@@ -8,7 +8,7 @@ SHIP   := runtime/meshwright/_generated
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate build check run test
+.PHONY: setup generate build check run test solver test-fe
 
 setup: $(READY)
 
@@ -17,6 +17,12 @@ $(READY): pyproject.toml
 	$(PY) -m pip install --quiet --upgrade pip
 	$(PY) -m pip install --quiet --editable '.[derive,plot,fe,sweep,test]'
 	touch $@
+
+# The finite-element solver, where it can be had without asking; its tests say so if it is missing.
+solver:
+	@command -v ccx >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
+		&& apt-get update -qq && apt-get install -y -qq calculix-ccx; } >/dev/null 2>&1 \
+		|| echo "ccx not found and not installable here: the finite-element tests are not run"
 
 # Regenerate generated/ from the drives.
 generate: setup
@@ -35,5 +41,9 @@ $(SHIP)/libmeshwright.so: $(wildcard runtime/c/*.[ch]) $(wildcard generated/c/*)
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r $$folder generated && rm -r $$folder
 
-test: build
-	$(PY) -m pytest
+test: build solver
+	$(PY) -m pytest -m 'not slow'
+
+# The longer finite-element validation.
+test-fe: build solver
+	$(PY) -m pytest tests/fe -m slow
