@@ -112,7 +112,7 @@ def _middle_line_point(reference, name, at, end, keys):
         residual=(sp.sqrt(x**2 + y**2) - wanted, reference.meshing),
         guess={reference.theta: 0, reference.psi: 0},
         fills=dict(zip(k.symbols(at), (reference.theta, reference.psi), strict=True)),
-        message="the hob of the reference design undercuts the gear inside its face",
+        message="the hob of the reference design undercuts the gear inside its face, or does not reach this radius",
         keys=keys,
         fixed={reference.u: sp.Integer(0)},
         regular=(reference.surface, -s),
