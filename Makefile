@@ -41,7 +41,13 @@ $(SHIP)/libmeshwright.so: $(wildcard runtime/c/*.[ch]) $(wildcard generated/c/*)
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r $$folder generated && rm -r $$folder
 
-test: build solver
+# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table.
+run: setup
+	$(MAKE) --no-print-directory generate
+	$(MAKE) --no-print-directory build
+	$(PY) tests/published.py
+
+test: build check solver
 	$(PY) -m pytest -m 'not slow'
 
 # The longer finite-element validation.
