@@ -120,11 +120,20 @@ def self_test(plan):
 
 
 def _plain(name, unit, frame=""):
-    return {"name": name, "unit": unit, "frame": frame, "meaning": "", "key": "", "table": "", "factor": 1.0}
+    return {
+        "name": name, "unit": unit, "frame": frame, "meaning": "",
+        "key": "", "table": "", "factor": 1.0, "lower": None, "upper": None,
+    }  # fmt: skip
 
 
 def _name(symbol):
-    return _plain(symbol.name, symbol.unit, symbol.frame) | {"meaning": symbol.meaning}
+    return _plain(symbol.name, symbol.unit, symbol.frame) | {"meaning": symbol.meaning} | _bounds(symbol)
+
+
+def _bounds(symbol):
+    """The open domain of a symbol, inner unit; None where it has no end."""
+    ends = zip(("lower", "upper"), symbol.domain, strict=True)
+    return {name: _float(end) if end.is_finite else None for name, end in ends}
 
 
 def _float(expression):
@@ -132,7 +141,6 @@ def _float(expression):
 
 
 def _parameter(p):
-    lower, upper = p.symbol.domain
     return {
         "name": p.symbol.name,
         "unit": p.symbol.unit,
@@ -142,8 +150,7 @@ def _parameter(p):
         "factor": _float(p.factor),
         "key_unit": interface_unit(p.key)[0],
         "default": None if p.default is None else _float(p.default),
-        "lower": None if not lower.is_finite else _float(lower),
-        "upper": None if not upper.is_finite else _float(upper),
+        **_bounds(p.symbol),
         "integer": p.integer,
         "required": p.required,
         "choices": {word: value for word, value in p.choices},

@@ -11,7 +11,7 @@ from derive.tools.worm_body import WormTool
 def straight_blade(body, definitions):
     """Groove flank of a ZN worm or hob in its body frame; parameters (t, ψ), t along the edge from its apex."""
     alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank
-    t = Quantity(f"t_{body.name}", "mm", "distance along the edge from the virtual apex of both edges", body.name)
+    t = Quantity(f"t_{body.name}", "mm", "distance along the edge from the virtual apex of both edges", body.name, (0, sp.oo))
     half_groove = body.groove_width * sp.sin(body.lead_angle) / 2
     apex = definitions.let(
         f"r_t_{body.name}",

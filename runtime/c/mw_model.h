@@ -4,10 +4,11 @@
 #define MW_MODEL_ABI 1
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
- * turns the key's unit into the inner unit, table is the design file's table. */
+ * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
+ * upper (inner unit; +-HUGE_VAL where there is no bound). */
 typedef struct mw_name {
     const char *name, *unit, *meaning, *key, *table;
-    double factor;
+    double factor, lower, upper;
 } mw_name;
 
 /* A member. In the observation o of a solution: its point, body frame, at o[point]; at o[at], for each surface

@@ -21,6 +21,13 @@ static int judge_singular(const mw_model *m, const double *s, const double *x, m
     return info->status;
 }
 
+int mw_within_bounds(const mw_model *m, const double *x)
+{
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] >= m->unknowns[i].lower && x[i] <= m->unknowns[i].upper)) return 0;
+    return 1;
+}
+
 int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info)
 {
     double before[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS];
@@ -30,12 +37,14 @@ int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info)
         m->eval(s, x, R, NULL);
         for (int i = 0; i < m->nx; i++)
             if (!(fabs(R[i]) <= info->residual)) info->residual = fabs(R[i]);
-        return info->status;
+    } else {
+        for (int i = 0; i < m->nx; i++) x[i] = before[i];
+        m->scale(s, scale);
+        mw_newton(m->eval, m->nx, s, scale, x, info);
+        judge_singular(m, s, x, info);
     }
-    for (int i = 0; i < m->nx; i++) x[i] = before[i];
-    m->scale(s, scale);
-    mw_newton(m->eval, m->nx, s, scale, x, info);
-    return judge_singular(m, s, x, info);
+    if (info->status >= 0 && !mw_within_bounds(m, x)) info->status = MW_LEFT_FLANK;
+    return info->status;
 }
 
 static int is_misalignment(const mw_model *m, int parameter)
@@ -52,15 +61,22 @@ static int setup_share(const mw_model *m, const double *p, double share, double 
     return guard;
 }
 
-static int start(const mw_model *m, const double *s, double *x, mw_info *info)
+/* Start values x from the model's start system, or from its first guess where it has no solution. */
+static int start_values(const mw_model *m, const double *s, double *x, mw_info *info)
 {
     double y[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     memset(info, 0, sizeof *info);
     m->guess(s, y);
     m->start_scale(s, scale);
-    if (m->nstart > 0 && !ended_well(mw_newton(m->start_eval, m->nstart, s, scale, y, info))) return info->status;
+    if (m->nstart > 0 && !ended_well(mw_newton(m->start_eval, m->nstart, s, scale, y, info))) m->guess(s, y);
     m->start_solution(s, y, x);
-    return mw_refine(m, s, x, info);
+    return info->status;
+}
+
+static int start(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    if (ended_well(start_values(m, s, x, info))) mw_refine(m, s, x, info);
+    return info->status;
 }
 
 /* Raise the misalignments from share `from` to 1, halving the step where Newton fails. */
@@ -88,12 +104,17 @@ static int raise(const mw_model *m, const double *p, double phi, double from, do
 
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
+    double near[MW_MAX_UNKNOWNS];
+    mw_info started;
     memset(info, 0, sizeof *info);
     info->guard = setup_share(m, p, 1.0, phi, s, work);
     if (info->guard) return info->status = MW_BAD_INPUT;
-    if (ended_well(start(m, s, x, info))) return info->status;
-    setup_share(m, p, 0.0, phi, s, work);
-    if (ended_well(start(m, s, x, info))) raise(m, p, phi, 0.0, s, work, x, info);
-    if (!ended_well(info->status)) setup_share(m, p, 1.0, phi, s, work);
+    if (!ended_well(start(m, s, x, info))) {
+        setup_share(m, p, 0.0, phi, s, work);
+        if (ended_well(start(m, s, x, info))) raise(m, p, phi, 0.0, s, work, x, info);
+        setup_share(m, p, 1.0, phi, s, work);
+    }
+start_values(m, s, near, &started);
+    mw_search(m, s, near, x, info);
     return info->status;
 }

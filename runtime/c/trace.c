@@ -95,7 +95,7 @@ static int continue_branch(const mw_model *m, const history *h, double phi, doub
     memset(info, 0, sizeof *info);
     m->set_phi(s, phi);
     predict(h, phi, m->nx, x);
-    if (mw_newton_fused(m, s, x, FUSED_TOLERANCE, info)) return info->status;
+    if (mw_newton_fused(m, s, x, FUSED_TOLERANCE, info) && mw_within_bounds(m, x)) return info->status;
     return walk(m, h, phi, s, x, info);
 }
 
