@@ -56,6 +56,13 @@ class Definitions:
     def derivative_vector(self, vector, variable):
         return tuple(self.derivative(c, variable) for c in vector)
 
+    def resolve(self, expression):
+        """The expression with every definition put in, down to symbols that have none."""
+        expression = sp.sympify(expression)
+        while known := expression.free_symbols & self._values.keys():
+            expression = expression.xreplace({symbol: self._values[symbol] for symbol in known})
+        return expression
+
     def depends(self, expression, variable):
         """Whether the expression contains the variable, directly or through definitions."""
         symbols = sp.sympify(expression).free_symbols

@@ -103,9 +103,34 @@ def _iterate(tape, residual, jacobian, unknowns, inputs):
         for i in range(n):
             for j in range(n):
                 matrix[i, j] = numbers[n + i * n + j]
-        change = mpmath.lu_solve(matrix, mpmath.matrix(numbers[:n]))
+        change = _change(matrix, numbers[:n])
         for k, symbol in enumerate(unknowns):
             inputs[symbol] -= change[k]
-        if max(map(abs, change)) < tolerance:
+        if max(map(abs, change), default=0) < tolerance:
             return
     raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")
+
+
+def _change(matrix, residual):
+    """Solution of matrix · change = residual by complete pivoting; directions the equations do not see stay put.
+
+    A pair that touches along a line has such a direction at every contact.
+    """
+    n, negligible = len(residual), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
+    rows = [[matrix[i, j] for j in range(n)] + [residual[i]] for i in range(n)]
+    pivots = []
+    for step in range(n):
+        free = [j for j in range(n) if j not in [column for _, column in pivots]]
+        i, j = max(((i, j) for i in range(step, n) for j in free), key=lambda at: abs(rows[at[0]][at[1]]))
+        if abs(rows[i][j]) <= negligible * abs(rows[0][pivots[0][1]] if pivots else 1):
+            break
+        rows[step], rows[i] = rows[i], rows[step]
+        for k in range(step + 1, n):
+            factor = rows[k][j] / rows[step][j]
+            rows[k] = [a - factor * b for a, b in zip(rows[k], rows[step], strict=True)]
+        pivots.append((step, j))
+    change = [mpmath.mpf(0)] * n
+    for step, j in reversed(pivots):
+        known = sum(rows[step][k] * change[k] for _, k in pivots if k != j)
+        change[j] = (rows[step][n] - known) / rows[step][j]
+    return change

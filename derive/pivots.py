@@ -36,19 +36,21 @@ def _pivot_order(plan, inputs):
 
 
 def _best(values, present, rows, columns):
+    """The cheapest stable pivot; a row that vanishes at the sample (line contact) comes last, in any order."""
     best = None
     for i in sorted(rows):
         largest = max(abs(values[i][j]) for j in columns)
         for j in sorted(columns):
-            if not present[i][j] or abs(values[i][j]) < STABLE_SHARE * largest or largest == 0:
+            if not present[i][j] or abs(values[i][j]) < STABLE_SHARE * largest:
                 continue
             in_row = sum(present[i][k] for k in columns) - 1
             in_column = sum(present[k][j] for k in rows) - 1
-            cost = (in_row * in_column, -abs(values[i][j]) / largest, i, j)
+            share = abs(values[i][j]) / largest if largest > 0 else 0
+            cost = (largest == 0, in_row * in_column, -share, i, j)
             if best is None or cost < best[0]:
                 best = cost, (i, j)
     if best is None:
-        raise ArithmeticError("the sample solution has a singular Jacobian; choose another sample design")
+        raise ArithmeticError("an unknown occurs in no equation")
     return best[1]
 
 
@@ -58,7 +60,7 @@ def _eliminate(values, present, rows, columns, pivot):
     columns.discard(j)
     for k in rows:
         if present[k][j]:
-            factor = values[k][j] / values[i][j]
+            factor = values[k][j] / values[i][j] if values[i][j] else 0.0
             for m in columns:
                 values[k][m] -= factor * values[i][m]
                 present[k][m] = present[k][m] or present[i][m]

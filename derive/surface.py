@@ -6,6 +6,8 @@ with the motion into the body frame. Nothing is multiplied out.
 
 from dataclasses import dataclass, replace
 
+import sympy as sp
+
 from derive import vectors as v
 from derive.chain import Motion, Rz, screw
 from derive.definitions import Definitions
@@ -18,7 +20,7 @@ class Surface:
     ``point``, the two ``tangents`` and ``normal`` are in the section frame and depend on ``parameters`` through
     ``definitions``; ``motion`` takes the section frame into the body frame. ``conditions`` are equations (= 0)
     left implicit: a surface with k conditions has k + 2 parameters. The normal points out of the body, has any
-    positive length, and the tangents span its plane. An envelope keeps the tangents of its generating surface,
+    positive length, and the tangents, of any length, span its plane. An envelope keeps the tangents of its generating surface,
     which touch it; they are then not its derivatives. ``pole`` is any other point of the normal's line, section
     frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed there.
     """
@@ -49,15 +51,16 @@ class Surface:
         return tuple(self.motion.direction(t) for t in self.tangents)
 
 
-def swept(definitions, section, motion, *, along, sweep, outward):
+def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
     """The surface of a curve ``section(along)`` carried by ``motion(sweep)``.
 
-    The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep); ``outward`` (±1, or the flank sign)
-    makes it point out of the body.
+    The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep)/``arm``; ``outward`` (±1, or the flank
+    sign) makes it point out of the body. ``arm`` > 0 is the length of ∂r/∂sweep where that is large: dividing it
+    out keeps tangent and normal of order one.
     """
     tangents = (
         definitions.derivative_vector(section, along),
-        motion.local_velocity(sweep, section),
+        v.scale(1 / sp.sympify(arm), motion.local_velocity(sweep, section)),
     )
     normal = v.scale(outward, v.cross(*tangents))
     return Surface(definitions, (along, sweep), section, tangents, normal, motion)

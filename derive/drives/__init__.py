@@ -1,8 +1,8 @@
 """The drives: one module a family. A module offers ``catalogue()``: name → function that builds the drive."""
 
-from derive.drives import cylindrical_worm, face_worm
+from derive.drives import cylindrical_worm, face_worm, spherical
 
-FAMILIES = (cylindrical_worm, face_worm)
+FAMILIES = (cylindrical_worm, spherical, face_worm)
 
 
 def catalogue():

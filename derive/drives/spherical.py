@@ -1,0 +1,319 @@
+"""Spherical gears: parallel axes, teeth cut by a rack section that sweeps an arc (convex, concave) or a line (spur).
+
+Frames: ``f`` fixed, origin at the centre of the pinion, x to the centre of the wheel, z along the wheel axis. Body
+frames ``pinion`` and ``wheel``: the tooth is centred on x, z along the gear's own axis, middle of the face at z = 0.
+The pinion turns by +φ1 about z and the wheel by +φ2 about −z; at φ1 = 0 the ideal pair touches in the pitch point.
+Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, chapters 2 and 3.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import sympy as sp
+
+from derive.chain import Rx, Ry, Rz, translation
+from derive.contact import contact
+from derive.definitions import Definitions
+from derive.drive import Body, Drive, Margin, System, body_point
+from derive.envelope import envelope, explicit
+from derive.surface import Surface
+from derive.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
+from derive.tools.rack_section import SWEEPS, RackBody, RackTool
+
+POSITIVE = (0, sp.oo)
+
+flank = parameter("flank", "s", "cutting edge", table=Table.FLANK, choices=(("left", 1), ("right", -1)), default=1)
+module = parameter("module_mm", "m", "module", domain=POSITIVE, required=True)
+pressure_angle = parameter(
+    "pressure_angle_deg", "alpha", "pressure angle of the cutter", domain=(0, sp.pi / 2), required=True
+)
+face_width = parameter("face_width_mm", "F", "face width", domain=POSITIVE, required=True)
+edge_offset = parameter(
+    "edge_offset_mm", "a", "the straight edge reaches this far to both sides of the pitch line", domain=POSITIVE
+)
+half_space = parameter("half_space_mm", "b", "half width of the rack's space at the pitch line", domain=POSITIVE)
+
+error_distance = parameter(
+    "center_distance_mm", "dC", "centre distance error", table=Table.MISALIGNMENT, default=0
+)
+error_horizontal = parameter(
+    "horizontal_deg", "dh", "turn of the pinion axis about x", table=Table.MISALIGNMENT, default=0
+)
+error_vertical = parameter("vertical_deg", "dv", "turn of the pinion axis about y", table=Table.MISALIGNMENT, default=0)
+
+separation = parameter(
+    "separation_mm",
+    "delta",
+    "separation for contact ellipses",
+    table=Table.CONTACT,
+    domain=POSITIVE,
+    default=sp.Rational(632, 100000),
+)
+limit = parameter(
+    "limit",
+    "limit",
+    "what ends contact at the tips: the blanks of the gears, or the straight part of the cutter alone",
+    table=Table.CONTACT,
+    choices=(("tip", 1), ("cutter", -1)),
+    default=1,
+)
+
+
+@dataclass(frozen=True)
+class Gear:
+    """The design keys of one member."""
+
+    name: str
+    teeth: Parameter
+    sphere_radius: Parameter
+    face_width: Parameter
+    edge_offset: Parameter
+    half_space: Parameter
+    tip_addendum: Parameter
+
+    @classmethod
+    def of(cls, name, number):
+        def length(key, symbol, meaning, table=Table.DESIGN, **kind):
+            return parameter(f"{name}_{key}", f"{symbol}_{name}", f"{meaning} of the {name}", table=table,
+                             domain=POSITIVE, **kind)  # fmt: skip
+
+        return cls(
+            name,
+            parameter(f"{name}_teeth", f"T_{number}", f"teeth of the {name}", domain=POSITIVE, integer=True,
+                      required=True),
+            length("sphere_radius_mm", "R", "radius of the arc of the cutter", required=True),
+            length("face_width_mm", "F", "face width"),
+            length("edge_offset_mm", "a", "edge offset"),
+            length("half_space_mm", "b", "half width of the rack's space"),
+            length("tip_addendum_mm", "h", "tip of the blank beyond the pitch circle at mid face", Table.BLANK),
+        )  # fmt: skip
+
+    def parameters(self, form):
+        """The keys of a gear of this form: a spur gear has no sphere radius."""
+        radius = () if form == "spur" else (self.sphere_radius,)
+        return (self.teeth, *radius, self.face_width, self.edge_offset, self.half_space, self.tip_addendum)
+
+    @property
+    def pitch_radius(self):
+        return module.symbol * self.teeth.symbol / 2
+
+    def rules(self):
+        """What the pair shares unless a gear says otherwise; no tip where the cutter alone limits contact."""
+        return (
+            Rule(self.face_width.symbol, face_width.symbol),
+            Rule(self.edge_offset.symbol, edge_offset.symbol),
+            Rule(self.half_space.symbol, half_space.symbol),
+            Rule(self.tip_addendum.symbol, self.edge_offset.symbol * sp.sqrt(limit.symbol)),
+        )
+
+
+PINION, WHEEL = Gear.of("pinion", 1), Gear.of("wheel", 2)
+
+s, m, alpha = flank.symbol, module.symbol, pressure_angle.symbol
+r_1, r_2 = PINION.pitch_radius, WHEEL.pitch_radius
+
+RULES = (
+    Rule(edge_offset.symbol, m),
+    Rule(half_space.symbol, sp.pi * m / 4),
+    *PINION.rules(),
+    *WHEEL.rules(),
+)
+
+
+@dataclass(frozen=True)
+class Tooth:
+    """A generated tooth flank: explicit in the parameters of its cutter."""
+
+    gear: Gear
+    tool: RackTool
+    surface: Surface
+    generating_angle: sp.Expr
+
+
+def _tooth(gear, form, definitions):
+    """The flank that the rolling rack envelops: the gear turns by −φ while the rack moves by −r φ along y."""
+    tool = SWEEPS[form](
+        RackBody(
+            name=gear.name,
+            pressure_angle=alpha,
+            edge_offset=gear.edge_offset.symbol,
+            half_space=gear.half_space.symbol,
+            flank=s,
+            sphere_radius=gear.sphere_radius.symbol,
+        ),
+        definitions,
+    )
+    phi = Quantity(f"phi_gen_{gear.name}", "rad", f"turn of the {gear.name} in generation", "gen")
+    rolling = Rz(phi) @ translation(x=gear.pitch_radius, y=-gear.pitch_radius * phi)
+    surface, solved = explicit(envelope(tool.cutter, rolling, phi))
+    return Tooth(gear, tool, surface, solved.symbol)
+
+
+def spherical(pinion_form, wheel_form):
+    """The pair of gears of these forms ("convex", "concave", "spur")."""
+    definitions = Definitions()
+    phi_1 = Quantity("phi_pinion", "rad", "angle of the pinion in mesh", "f")
+    error = Quantity("transmission_error", "rad", "wheel angle less ratio times pinion angle", "f")
+    ratio = definitions.let("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "T1/T2")
+    phi_2 = ratio * phi_1 + error
+
+    pinion_tooth = _tooth(PINION, pinion_form, definitions)
+    wheel_tooth = _tooth(WHEEL, wheel_form, definitions)
+
+    # A tooth of the pinion meets a space of the wheel: each is turned by half its tooth to the pitch point.
+    to_pitch_point = [s * gear.half_space.symbol / gear.pitch_radius for gear in (PINION, WHEEL)]
+    pinion = _body(
+        pinion_tooth, Rx(error_horizontal.symbol) @ Ry(error_vertical.symbol) @ Rz(phi_1 - to_pitch_point[0])
+    )
+    wheel = _body(
+        wheel_tooth, translation(x=r_1 + r_2 + error_distance.symbol) @ Rz(sp.pi - phi_2 - to_pitch_point[1])
+    )
+    return Drive(
+        name=_name(pinion_form, wheel_form),
+        family="spherical",
+        title=f"{pinion_form} pinion with a {wheel_form} wheel",
+        parameters=_parameters(pinion_form, wheel_form),
+        rules=RULES,
+        guards=_guards(pinion_tooth) + _guards(wheel_tooth),
+        sizes=_sizes(definitions, pinion_tooth, wheel_tooth),
+        instant=phi_1,
+        error=error,
+        ratio=ratio,
+        wheel_angle=phi_2,
+        pinion=pinion,
+        wheel=wheel,
+        unknowns=(*_unknowns(pinion_tooth), *_unknowns(wheel_tooth), Unknown(error)),
+        residual=contact(pinion.placed, wheel.placed),
+        definitions=definitions,
+        start=_start(pinion_tooth, wheel_tooth, phi_1, error, definitions),
+        guess={},
+        sample=_sample(pinion_form, wheel_form),
+        sample_angle=0.03,
+        variant={"pinion_form": pinion_form, "wheel_form": wheel_form},
+    )
+
+
+def _parameters(pinion_form, wheel_form):
+    return (
+        flank, module, pressure_angle, face_width, edge_offset, half_space,
+        *PINION.parameters(pinion_form), *WHEEL.parameters(wheel_form),
+        error_distance, error_horizontal, error_vertical, separation, limit,
+    )  # fmt: skip
+
+
+def _body(tooth, motion):
+    name, tool = tooth.gear.name, tooth.tool
+    return Body(
+        name,
+        tooth.surface,
+        motion,
+        reference={tool.along: tool.pitch_point, tool.sweep: sp.Integer(0)},
+        point=body_point(name),
+        margins=_margins(tooth),
+        recovered=(tooth.generating_angle,),
+    )
+
+
+def _unknowns(tooth):
+    return Unknown(tooth.tool.along, m), Unknown(tooth.tool.sweep, m * tooth.tool.step)
+
+
+def _start(pinion, wheel, phi_1, error, definitions):
+    """The contact of the aligned pair: it runs along the line of action at mid face."""
+    def reached(tooth, sense):
+        return tooth.tool.pitch_point + sense * s * r_1 * phi_1 * sp.sin(alpha)
+
+    return System(
+        name="start",
+        definitions=definitions,
+        unknowns=(),
+        residual=(),
+        outputs={
+            pinion.tool.along: reached(pinion, 1),
+            pinion.tool.sweep: sp.Integer(0),
+            wheel.tool.along: reached(wheel, -1),
+            wheel.tool.sweep: sp.Integer(0),
+            error: sp.Integer(0),
+        },
+    )
+
+
+def _margins(tooth):
+    gear, tool = tooth.gear, tooth.tool
+    x, y, z = body_point(gear.name)
+    height = gear.tip_addendum.symbol
+    tip_radius = gear.pitch_radius + height - tool.tip_drop(height, z)
+    return (
+        Margin("off_tip", "tip", tip_radius - sp.sqrt(x**2 + y**2)),
+        Margin("off_face", "face", gear.face_width.symbol / 2 - sp.Abs(z)),
+        Margin("off_tool", "tool_end", tool.edge_length - tool.along),
+        Margin("off_tool", "root", tool.along),
+    )
+
+
+def _guards(tooth):
+    gear, radius = tooth.gear, tooth.tool.arc_radius
+    a, b, face = gear.edge_offset.symbol, gear.half_space.symbol, gear.face_width.symbol
+    common = (
+        Guard(
+            gear.pitch_radius - a,
+            f"the root of the {gear.name} lies beyond its axis: the edge offset must be below the pitch radius",
+            (gear.edge_offset.key, module.key, gear.teeth.key),
+        ),
+        Guard(
+            sp.pi * m / 2 - b,
+            f"no cutter is left between two teeth of the {gear.name}: the half space must be below π·m/2",
+            (gear.half_space.key, module.key),
+        ),
+    )
+    if radius is None:
+        return common
+    return (
+        *common,
+        Guard(
+            radius - a - face / 2,
+            f"the arc of the {gear.name} does not reach the face: half the face width plus the edge offset must be "
+            "below the sphere radius",
+            (gear.sphere_radius.key, gear.face_width.key, gear.edge_offset.key),
+        ),
+    )
+
+
+def _sizes(definitions, pinion, wheel):
+    sizes = [("nominal_center_distance_mm", r_1 + r_2, "sum of the pitch radii")]
+    for tooth in (pinion, wheel):
+        gear, name = tooth.gear, tooth.gear.name
+        sizes += [
+            (f"{name}_pitch_radius_mm", gear.pitch_radius, f"pitch radius of the {name}"),
+            (f"{name}_base_radius_mm", gear.pitch_radius * sp.cos(alpha), f"base radius of the {name} at mid face"),
+            (f"{name}_tip_radius_mm", gear.pitch_radius + gear.tip_addendum.symbol, f"tip radius of the {name} at mid face"),
+            (f"{name}_limit_radius_mm", _limit_radius(tooth, definitions), f"flank of the {name} ends at mid face"),
+            (f"{name}_edge_start_mm", sp.Integer(0), f"edge of the {name}'s cutter at the root of the gear"),
+            (f"{name}_edge_end_mm", tooth.tool.edge_length, f"edge of the {name}'s cutter at the tip of the gear"),
+        ]  # fmt: skip
+    return (*sizes, ("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "transmission ratio T1/T2"))
+
+
+def _limit_radius(tooth, definitions):
+    """Distance from the gear axis of the flank point that the root end of the edge cuts at mid face."""
+    x, y, _ = tooth.surface.body_point()
+    at_root = {tooth.tool.along: sp.Integer(0), tooth.tool.sweep: sp.Integer(0)}
+    return definitions.resolve(sp.sqrt(x**2 + y**2)).xreplace(at_root)
+
+
+def catalogue():
+    """Every combination of two forms: name → builder."""
+    return {_name(pinion, wheel): partial(spherical, pinion, wheel) for pinion in SWEEPS for wheel in SWEEPS}
+
+
+def _name(pinion_form, wheel_form):
+    return f"spherical_{pinion_form}_{wheel_form}"
+
+
+def _sample(pinion_form, wheel_form):
+    """A regular design (point contact wherever the forms allow it): pivots are chosen and self-tests made here."""
+    radii = {"pinion_sphere_radius_mm": 72, "wheel_sphere_radius_mm": 150}
+    if pinion_form == "concave":
+        radii = {"pinion_sphere_radius_mm": 150, "wheel_sphere_radius_mm": 72}
+    return {"flank": 1, "module_mm": 4, "pinion_teeth": 36, "wheel_teeth": 72, "pressure_angle_deg": 20,
+            "face_width_mm": 15, **radii}  # fmt: skip

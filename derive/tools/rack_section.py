@@ -1,0 +1,117 @@
+"""A straight-edged rack section that sweeps an arc (convex, concave) or a straight line (spur).
+
+Frame of the section, origin at the pitch point: x radially outwards from the gear axis, y along the rack, z along
+the gear axis. The edge bounds a space of the rack and envelops a tooth of the gear, which is centred on x at rest.
+Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, (2.1) to (2.5).
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import sympy as sp
+
+from derive.chain import swing, translation
+from derive.surface import Surface, swept
+from derive.symbols import Quantity
+
+
+@dataclass(frozen=True)
+class RackBody:
+    """What a rack section needs to know of one gear. Angles in rad, lengths in mm.
+
+    ``edge_offset`` is half the depth of the straight edge, ``half_space`` half the width of the rack's space at the
+    pitch line, ``sphere_radius`` the radius of the arc (not used by a spur gear).
+    """
+
+    name: str
+    pressure_angle: sp.Expr
+    edge_offset: sp.Expr
+    half_space: sp.Expr
+    flank: sp.Expr
+    sphere_radius: sp.Expr
+
+
+@dataclass(frozen=True)
+class RackTool:
+    """The cutting surface and what a gear wants to know of it.
+
+    ``across`` is the position along the face as a function of the two parameters, ``step`` the change of the sweep
+    parameter that moves the section by a millimetre. ``tip_drop(axial)`` is by how much the tip circle of the blank
+    is smaller at an axial position than at mid face for an edge that ends at ``height`` above the pitch point.
+    """
+
+    cutter: Surface
+    edge_length: sp.Expr
+    pitch_point: sp.Expr
+    step: sp.Expr
+    tip_drop: object
+    arc_radius: sp.Expr | None = None
+
+    @property
+    def along(self):
+        """The parameter along the edge, mm from its end at the root of the gear."""
+        return self.cutter.parameters[0]
+
+    @property
+    def sweep(self):
+        """The parameter across the face: angle of the arc in rad, or z in mm."""
+        return self.cutter.parameters[1]
+
+
+def _edge(body):
+    """Parameter and points of the edge from the gear's root (0) to its tip (:func:`_edge_length`), (2.1)."""
+    alpha, a = body.pressure_angle, body.edge_offset
+    along = Quantity(f"l_{body.name}", "mm", f"along the cutter's edge from the root of the {body.name}", body.name)
+    half_width = body.half_space + a * sp.tan(alpha) - along * sp.sin(alpha)
+    return along, (along * sp.cos(alpha) - a, body.flank * half_width, sp.Integer(0))
+
+
+def _tool(body, definitions, sweep, motion, arm, step, tip_drop, arc_radius=None):
+    along, edge = _edge(body)
+    cutter = swept(
+        definitions, edge, motion, along=along, sweep=sweep, outward=body.flank, arm=arm(edge[0])
+    )
+    half_length = body.edge_offset / sp.cos(body.pressure_angle)
+    return RackTool(cutter, 2 * half_length, half_length, step, tip_drop, arc_radius)
+
+
+def on_arc(sense, body, definitions):
+    """The section turns about a far axis parallel to y: on the gear's side (``sense`` +1, convex) or beyond (−1)."""
+    radius = body.sphere_radius
+    theta = Quantity(
+        f"theta_{body.name}", "rad", f"angle of the arc across the face of the {body.name}", body.name,
+        (-sp.pi / 2, sp.pi / 2),
+    )  # fmt: skip
+
+    def tip_drop(height, axial):
+        outer = radius + sense * height
+        return sense * axial**2 / (outer + sp.sqrt(outer**2 - axial**2))
+
+    return _tool(
+        body,
+        definitions,
+        sweep=theta,
+        motion=swing("y", -sense * theta, (-sense * radius, 0, 0)),
+        arm=lambda x: radius + sense * x,
+        step=1 / radius,
+        tip_drop=tip_drop,
+        arc_radius=radius,
+    )
+
+
+def on_line(body, definitions):
+    """The section moves along the gear axis: the limit of both arcs for an infinite radius."""
+    z = Quantity(f"z_{body.name}", "mm", f"position across the face of the {body.name}", body.name)
+    return _tool(
+        body,
+        definitions,
+        sweep=z,
+        motion=translation(z=z),
+        arm=lambda _: sp.Integer(1),
+        step=sp.Integer(1),
+        tip_drop=lambda height, axial: sp.Integer(0),
+    )
+
+
+#: Forms of a gear and the sweep of the rack section that cuts them.
+SWEEPS = {"convex": partial(on_arc, 1), "concave": partial(on_arc, -1), "spur": on_line}
