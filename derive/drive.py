@@ -118,7 +118,8 @@ class Drive:
     ``variant`` are the words of the design file that choose this drive within its family; a key in
     ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
     mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
-    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made.
+    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made,
+    ``excluded`` keys that mean nothing for it.
     """
 
     name: str
@@ -147,6 +148,7 @@ class Drive:
     handed: bool = False
     exclusive: tuple[tuple[str, ...], ...] = ()
     required: tuple[str, ...] = ()
+    excluded: tuple[str, ...] = ()
     systems: tuple[DesignSystem, ...] = ()
     regions: tuple[Region, ...] = ()
 

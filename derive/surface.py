@@ -20,9 +20,10 @@ class Surface:
     ``point``, the two ``tangents`` and ``normal`` are in the section frame and depend on ``parameters`` through
     ``definitions``; ``motion`` takes the section frame into the body frame. ``conditions`` are equations (= 0)
     left implicit: a surface with k conditions has k + 2 parameters. The normal points out of the body, has any
-    positive length, and the tangents, of any length, span its plane. An envelope keeps the tangents of its generating surface,
-    which touch it; they are then not its derivatives. ``pole`` is any other point of the normal's line, section
-    frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed there.
+    positive length, and the tangents, of any length, span its plane. An envelope keeps the tangents of its
+    generating surface, which touch it; they are then not its derivatives. ``pole`` is any other point of the
+    normal's line, section frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed
+    there.
     """
 
     definitions: Definitions

@@ -81,17 +81,16 @@ class Gear:
             name,
             parameter(f"{name}_teeth", f"T_{number}", f"teeth of the {name}", domain=POSITIVE, integer=True,
                       required=True),
-            length("sphere_radius_mm", "R", "radius of the arc of the cutter", required=True),
+            length("sphere_radius_mm", "R", "radius of the cutter's arc (convex or concave)"),
             length("face_width_mm", "F", "face width"),
             length("edge_offset_mm", "a", "edge offset"),
             length("half_space_mm", "b", "half width of the rack's space"),
             length("tip_addendum_mm", "h", "tip of the blank beyond the pitch circle at mid face", Table.BLANK),
         )  # fmt: skip
 
-    def parameters(self, form):
-        """The keys of a gear of this form: a spur gear has no sphere radius."""
-        radius = () if form == "spur" else (self.sphere_radius,)
-        return (self.teeth, *radius, self.face_width, self.edge_offset, self.half_space, self.tip_addendum)
+    @property
+    def parameters(self):
+        return (self.teeth, self.sphere_radius, self.face_width, self.edge_offset, self.half_space, self.tip_addendum)
 
     @property
     def pitch_radius(self):
@@ -108,6 +107,11 @@ class Gear:
 
 
 PINION, WHEEL = Gear.of("pinion", 1), Gear.of("wheel", 2)
+
+PARAMETERS = (
+    flank, module, pressure_angle, face_width, edge_offset, half_space, *PINION.parameters, *WHEEL.parameters,
+    error_distance, error_horizontal, error_vertical, separation, limit,
+)  # fmt: skip
 
 s, m, alpha = flank.symbol, module.symbol, pressure_angle.symbol
 r_1, r_2 = PINION.pitch_radius, WHEEL.pitch_radius
@@ -157,8 +161,10 @@ def spherical(pinion_form, wheel_form):
     ratio = definitions.let("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "T1/T2")
     phi_2 = ratio * phi_1 + error
 
-    pinion_tooth = _tooth(PINION, pinion_form, definitions)
-    wheel_tooth = _tooth(WHEEL, wheel_form, definitions)
+    teeth = pinion_tooth, wheel_tooth = (
+        _tooth(PINION, pinion_form, definitions),
+        _tooth(WHEEL, wheel_form, definitions),
+    )
 
     # A tooth of the pinion meets a space of the wheel: each is turned by half its tooth to the pitch point.
     to_pitch_point = [s * gear.half_space.symbol / gear.pitch_radius for gear in (PINION, WHEEL)]
@@ -172,7 +178,7 @@ def spherical(pinion_form, wheel_form):
         name=_name(pinion_form, wheel_form),
         family="spherical",
         title=f"{pinion_form} pinion with a {wheel_form} wheel",
-        parameters=_parameters(pinion_form, wheel_form),
+        parameters=PARAMETERS,
         rules=RULES,
         guards=_guards(pinion_tooth) + _guards(wheel_tooth),
         sizes=_sizes(definitions, pinion_tooth, wheel_tooth),
@@ -182,23 +188,18 @@ def spherical(pinion_form, wheel_form):
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
-        unknowns=(*_unknowns(pinion_tooth), *_unknowns(wheel_tooth), Unknown(error)),
+        unknowns=(*_unknowns(pinion_tooth, wheel_tooth), *_unknowns(wheel_tooth, pinion_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
         start=_start(pinion_tooth, wheel_tooth, phi_1, error, definitions),
         guess={},
         sample=_sample(pinion_form, wheel_form),
         sample_angle=0.03,
+        pinion_teeth=PINION.teeth.key,
         variant={"pinion_form": pinion_form, "wheel_form": wheel_form},
+        required=tuple(t.gear.sphere_radius.key for t in teeth if t.tool.arc_radius is not None),
+        excluded=tuple(t.gear.sphere_radius.key for t in teeth if t.tool.arc_radius is None),
     )
-
-
-def _parameters(pinion_form, wheel_form):
-    return (
-        flank, module, pressure_angle, face_width, edge_offset, half_space,
-        *PINION.parameters(pinion_form), *WHEEL.parameters(wheel_form),
-        error_distance, error_horizontal, error_vertical, separation, limit,
-    )  # fmt: skip
 
 
 def _body(tooth, motion):
@@ -214,8 +215,11 @@ def _body(tooth, motion):
     )
 
 
-def _unknowns(tooth):
-    return Unknown(tooth.tool.along, m), Unknown(tooth.tool.sweep, m * tooth.tool.step)
+def _unknowns(tooth, mate):
+    """Along the edge a module is a natural step, along an arc the chord on which it falls away by half a module."""
+    radius = tooth.tool.arc_radius
+    chord = sp.sqrt(m * (radius or mate.tool.arc_radius or m))
+    return Unknown(tooth.tool.along, m), Unknown(tooth.tool.sweep, chord / radius if radius else chord)
 
 
 def _start(pinion, wheel, phi_1, error, definitions):
@@ -280,7 +284,7 @@ def _guards(tooth):
 
 
 def _sizes(definitions, pinion, wheel):
-    sizes = [("nominal_center_distance_mm", r_1 + r_2, "sum of the pitch radii")]
+    sizes = [("center_distance_mm", r_1 + r_2, "sum of the pitch radii")]
     for tooth in (pinion, wheel):
         gear, name = tooth.gear, tooth.gear.name
         sizes += [
@@ -312,8 +316,12 @@ def _name(pinion_form, wheel_form):
 
 def _sample(pinion_form, wheel_form):
     """A regular design (point contact wherever the forms allow it): pivots are chosen and self-tests made here."""
-    radii = {"pinion_sphere_radius_mm": 72, "wheel_sphere_radius_mm": 150}
-    if pinion_form == "concave":
-        radii = {"pinion_sphere_radius_mm": 150, "wheel_sphere_radius_mm": 72}
+    inner, outer = 72, 150
+    pinion_radius, wheel_radius = (outer, inner) if pinion_form == "concave" else (inner, outer)
+    radii = {
+        f"{gear.name}_sphere_radius_mm": radius
+        for gear, form, radius in ((PINION, pinion_form, pinion_radius), (WHEEL, wheel_form, wheel_radius))
+        if form != "spur"
+    }
     return {"flank": 1, "module_mm": 4, "pinion_teeth": 36, "wheel_teeth": 72, "pressure_angle_deg": 20,
             "face_width_mm": 15, **radii}  # fmt: skip

@@ -40,6 +40,7 @@ def describe(plan, provenance=None):
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
         "required": list(drive.required),
+        "excluded": list(drive.excluded),
         "sizes": [_size(*entry) for entry in drive.sizes],
         "systems": [
             {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems

@@ -5,6 +5,7 @@ the gear axis. The edge bounds a space of the rack and envelops a tooth of the g
 Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, (2.1) to (2.5).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -35,16 +36,14 @@ class RackBody:
 class RackTool:
     """The cutting surface and what a gear wants to know of it.
 
-    ``across`` is the position along the face as a function of the two parameters, ``step`` the change of the sweep
-    parameter that moves the section by a millimetre. ``tip_drop(axial)`` is by how much the tip circle of the blank
-    is smaller at an axial position than at mid face for an edge that ends at ``height`` above the pitch point.
+    ``tip_drop(height, axial)`` is by how much the tip circle of a blank that ends ``height`` above the pitch point
+    at mid face is smaller at an axial position. ``arc_radius`` is None for a straight sweep.
     """
 
     cutter: Surface
     edge_length: sp.Expr
     pitch_point: sp.Expr
-    step: sp.Expr
-    tip_drop: object
+    tip_drop: Callable[[sp.Expr, sp.Expr], sp.Expr]
     arc_radius: sp.Expr | None = None
 
     @property
@@ -59,20 +58,20 @@ class RackTool:
 
 
 def _edge(body):
-    """Parameter and points of the edge from the gear's root (0) to its tip (:func:`_edge_length`), (2.1)."""
+    """Parameter and points of the edge from the gear's root (0) to its tip (2.1)."""
     alpha, a = body.pressure_angle, body.edge_offset
     along = Quantity(f"l_{body.name}", "mm", f"along the cutter's edge from the root of the {body.name}", body.name)
     half_width = body.half_space + a * sp.tan(alpha) - along * sp.sin(alpha)
     return along, (along * sp.cos(alpha) - a, body.flank * half_width, sp.Integer(0))
 
 
-def _tool(body, definitions, sweep, motion, arm, step, tip_drop, arc_radius=None):
+def _tool(body, definitions, sweep, motion, arm, tip_drop, arc_radius=None):
     along, edge = _edge(body)
     cutter = swept(
         definitions, edge, motion, along=along, sweep=sweep, outward=body.flank, arm=arm(edge[0])
     )
     half_length = body.edge_offset / sp.cos(body.pressure_angle)
-    return RackTool(cutter, 2 * half_length, half_length, step, tip_drop, arc_radius)
+    return RackTool(cutter, 2 * half_length, half_length, tip_drop, arc_radius)
 
 
 def on_arc(sense, body, definitions):
@@ -93,7 +92,6 @@ def on_arc(sense, body, definitions):
         sweep=theta,
         motion=swing("y", -sense * theta, (-sense * radius, 0, 0)),
         arm=lambda x: radius + sense * x,
-        step=1 / radius,
         tip_drop=tip_drop,
         arc_radius=radius,
     )
@@ -107,8 +105,7 @@ def on_line(body, definitions):
         definitions,
         sweep=z,
         motion=translation(z=z),
-        arm=lambda _: sp.Integer(1),
-        step=sp.Integer(1),
+        arm=lambda x: sp.Integer(1),
         tip_drop=lambda height, axial: sp.Integer(0),
     )
 

@@ -1655,7 +1655,7 @@ return (t505 < 0.0 ? -(t505) : t505) + (t475 < 0.0 ? -(t475) : t475) + (t506 < 0
 /* First guess y[cylindrical_worm_zn_zn_NSTART] of the start system. */
 static inline void cylindrical_worm_zn_zn_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[56];
     y[1] = s[57];
 }
@@ -1663,7 +1663,7 @@ static inline void cylindrical_worm_zn_zn_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zn_zn_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zn_zn_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[35];
     y[1] = s[35];
 }
@@ -1671,6 +1671,7 @@ static inline void cylindrical_worm_zn_zn_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_zn_eval. */
 static inline void cylindrical_worm_zn_zn_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * s[1];
     const double t1 = t0 + s[2];
     const double t2 = t1 * t1;
@@ -1770,6 +1771,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zn_zn_NX] from the solved start system. */
 static inline void cylindrical_worm_zn_zn_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] * s[6];
     const double t1 = -t0;
     const double t2 = y[1] * s[4];

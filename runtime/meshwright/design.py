@@ -187,6 +187,9 @@ def _check_needed(description, design):
     for key in description["required"]:
         if design.get(key) is None:
             raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
+    for key in description["excluded"]:
+        if design.get(key) is not None:
+            raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
 
 
 def _vector(description, checked):
