@@ -1440,7 +1440,7 @@ return (t460 < 0.0 ? -(t460) : t460) + (t430 < 0.0 ? -(t430) : t430) + (t461 < 0
 /* First guess y[cylindrical_worm_za_za_NSTART] of the start system. */
 static inline void cylindrical_worm_za_za_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[21];
     y[1] = s[8];
 }
@@ -1448,7 +1448,7 @@ static inline void cylindrical_worm_za_za_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_za_za_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_za_za_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[31];
     y[1] = s[31];
 }
@@ -1456,6 +1456,7 @@ static inline void cylindrical_worm_za_za_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_za_za_eval. */
 static inline void cylindrical_worm_za_za_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * y[1];
@@ -1519,6 +1520,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_za_za_NX] from the solved start system. */
 static inline void cylindrical_worm_za_za_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_za_za_atan2(0.0, y[1]);
     const double t1 = cylindrical_worm_za_za_atan2(0.0, y[0]);
     const double t2 = s[50] + t1;

@@ -1624,7 +1624,7 @@ return (t522 < 0.0 ? -(t522) : t522) + (t492 < 0.0 ? -(t492) : t492) + (t523 < 0
 /* First guess y[cylindrical_worm_za_zi_NSTART] of the start system. */
 static inline void cylindrical_worm_za_zi_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[20];
     y[1] = s[44];
 }
@@ -1632,7 +1632,7 @@ static inline void cylindrical_worm_za_zi_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_za_zi_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_za_zi_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[29];
     y[1] = s[29];
 }
@@ -1640,6 +1640,7 @@ static inline void cylindrical_worm_za_zi_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_za_zi_eval. */
 static inline void cylindrical_worm_za_zi_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * y[1];
@@ -1758,6 +1759,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_za_zi_NX] from the solved start system. */
 static inline void cylindrical_worm_za_zi_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_za_zi_atan2(0.0, y[1]);
     const double t1 = cylindrical_worm_za_zi_atan2(0.0, y[0]);
     const double t2 = s[47] + t1;

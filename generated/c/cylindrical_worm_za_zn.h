@@ -1594,7 +1594,7 @@ return (t493 < 0.0 ? -(t493) : t493) + (t463 < 0.0 ? -(t463) : t463) + (t494 < 0
 /* First guess y[cylindrical_worm_za_zn_NSTART] of the start system. */
 static inline void cylindrical_worm_za_zn_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[21];
     y[1] = s[55];
 }
@@ -1602,7 +1602,7 @@ static inline void cylindrical_worm_za_zn_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_za_zn_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_za_zn_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[37];
     y[1] = s[37];
 }
@@ -1610,6 +1610,7 @@ static inline void cylindrical_worm_za_zn_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_za_zn_eval. */
 static inline void cylindrical_worm_za_zn_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * s[1];
@@ -1700,6 +1701,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_za_zn_NX] from the solved start system. */
 static inline void cylindrical_worm_za_zn_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] * s[3];
     const double t1 = -t0;
     const double t2 = y[1] * s[1];

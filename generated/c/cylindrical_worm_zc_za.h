@@ -2062,7 +2062,7 @@ return (t707 < 0.0 ? -(t707) : t707) + (t677 < 0.0 ? -(t677) : t677) + (t708 < 0
 /* First guess y[cylindrical_worm_zc_za_NSTART] of the start system. */
 static inline void cylindrical_worm_zc_za_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = s[25];
 }
@@ -2070,7 +2070,7 @@ static inline void cylindrical_worm_zc_za_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zc_za_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zc_za_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[44];
     y[1] = s[45];
 }
@@ -2078,6 +2078,7 @@ static inline void cylindrical_worm_zc_za_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_za_eval. */
 static inline void cylindrical_worm_zc_za_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_za_sincos(t0, &s1, &c1);
@@ -2295,6 +2296,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zc_za_NX] from the solved start system. */
 static inline void cylindrical_worm_zc_za_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zc_za_atan2(0.0, y[1]);
     const double t1 = y[0] / 2.0;
     double s2, c2;

@@ -2638,7 +2638,7 @@ return (t917 < 0.0 ? -(t917) : t917) + (t887 < 0.0 ? -(t887) : t887) + (t919 < 0
 /* First guess y[cylindrical_worm_zc_zc_NSTART] of the start system. */
 static inline void cylindrical_worm_zc_zc_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = 0.0;
 }
@@ -2646,7 +2646,7 @@ static inline void cylindrical_worm_zc_zc_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zc_zc_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zc_zc_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[48];
     y[1] = s[49];
 }
@@ -2654,6 +2654,7 @@ static inline void cylindrical_worm_zc_zc_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_zc_eval. */
 static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zc_sincos(t0, &s1, &c1);
@@ -3084,6 +3085,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zc_zc_NX] from the solved start system. */
 static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zc_sincos(t0, &s1, &c1);

@@ -2238,7 +2238,7 @@ return (t769 < 0.0 ? -(t769) : t769) + (t739 < 0.0 ? -(t739) : t739) + (t770 < 0
 /* First guess y[cylindrical_worm_zc_zi_NSTART] of the start system. */
 static inline void cylindrical_worm_zc_zi_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = s[55];
 }
@@ -2246,7 +2246,7 @@ static inline void cylindrical_worm_zc_zi_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zc_zi_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zc_zi_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[41];
     y[1] = s[42];
 }
@@ -2254,6 +2254,7 @@ static inline void cylindrical_worm_zc_zi_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_zi_eval. */
 static inline void cylindrical_worm_zc_zi_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zi_sincos(t0, &s1, &c1);
@@ -2526,6 +2527,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zc_zi_NX] from the solved start system. */
 static inline void cylindrical_worm_zc_zi_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zc_zi_atan2(0.0, y[1]);
     const double t1 = y[0] / 2.0;
     double s2, c2;

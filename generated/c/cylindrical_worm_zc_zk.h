@@ -2387,7 +2387,7 @@ return (t834 < 0.0 ? -(t834) : t834) + (t804 < 0.0 ? -(t804) : t804) + (t836 < 0
 /* First guess y[cylindrical_worm_zc_zk_NSTART] of the start system. */
 static inline void cylindrical_worm_zc_zk_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = 0.0;
 }
@@ -2395,7 +2395,7 @@ static inline void cylindrical_worm_zc_zk_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zc_zk_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zc_zk_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[50];
     y[1] = s[51];
 }
@@ -2403,6 +2403,7 @@ static inline void cylindrical_worm_zc_zk_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_zk_eval. */
 static inline void cylindrical_worm_zc_zk_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zk_sincos(t0, &s1, &c1);
@@ -2741,6 +2742,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zc_zk_NX] from the solved start system. */
 static inline void cylindrical_worm_zc_zk_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zk_sincos(t0, &s1, &c1);

@@ -2208,7 +2208,7 @@ return (t740 < 0.0 ? -(t740) : t740) + (t710 < 0.0 ? -(t710) : t710) + (t741 < 0
 /* First guess y[cylindrical_worm_zc_zn_NSTART] of the start system. */
 static inline void cylindrical_worm_zc_zn_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = s[66];
 }
@@ -2216,7 +2216,7 @@ static inline void cylindrical_worm_zc_zn_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zc_zn_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zc_zn_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[49];
     y[1] = s[50];
 }
@@ -2224,6 +2224,7 @@ static inline void cylindrical_worm_zc_zn_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_zn_eval. */
 static inline void cylindrical_worm_zc_zn_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zc_zn_sincos(t0, &s1, &c1);
@@ -2468,6 +2469,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zc_zn_NX] from the solved start system. */
 static inline void cylindrical_worm_zc_zn_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] * s[20];
     const double t1 = -t0;
     const double t2 = y[1] * s[18];

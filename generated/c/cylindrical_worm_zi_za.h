@@ -1589,7 +1589,7 @@ return (t520 < 0.0 ? -(t520) : t520) + (t490 < 0.0 ? -(t490) : t490) + (t521 < 0
 /* First guess y[cylindrical_worm_zi_za_NSTART] of the start system. */
 static inline void cylindrical_worm_zi_za_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[46];
     y[1] = s[8];
 }
@@ -1597,7 +1597,7 @@ static inline void cylindrical_worm_zi_za_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zi_za_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zi_za_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[31];
     y[1] = s[31];
 }
@@ -1605,6 +1605,7 @@ static inline void cylindrical_worm_zi_za_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zi_za_eval. */
 static inline void cylindrical_worm_zi_za_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * y[1];
@@ -1668,6 +1669,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zi_za_NX] from the solved start system. */
 static inline void cylindrical_worm_zi_za_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zi_za_atan2(0.0, y[1]);
     const double t1 = cylindrical_worm_zi_za_atan2(0.0, y[0]);
     const double t2 = s[49] + t1;

@@ -2172,7 +2172,7 @@ return (t730 < 0.0 ? -(t730) : t730) + (t731 < 0.0 ? -(t731) : t731) + (t733 < 0
 /* First guess y[cylindrical_worm_zi_zc_NSTART] of the start system. */
 static inline void cylindrical_worm_zi_zc_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[50];
     y[1] = 0.0;
 }
@@ -2180,7 +2180,7 @@ static inline void cylindrical_worm_zi_zc_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zi_zc_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zi_zc_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[37];
     y[1] = s[38];
 }
@@ -2188,6 +2188,7 @@ static inline void cylindrical_worm_zi_zc_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zi_zc_eval. */
 static inline void cylindrical_worm_zi_zc_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] / 2.0;
@@ -2464,6 +2465,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zi_zc_NX] from the solved start system. */
 static inline void cylindrical_worm_zi_zc_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zi_zc_sincos(t0, &s1, &c1);

@@ -1765,7 +1765,7 @@ return (t582 < 0.0 ? -(t582) : t582) + (t552 < 0.0 ? -(t552) : t552) + (t583 < 0
 /* First guess y[cylindrical_worm_zi_zi_NSTART] of the start system. */
 static inline void cylindrical_worm_zi_zi_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[41];
     y[1] = s[42];
 }
@@ -1773,7 +1773,7 @@ static inline void cylindrical_worm_zi_zi_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zi_zi_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zi_zi_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[28];
     y[1] = s[28];
 }
@@ -1781,6 +1781,7 @@ static inline void cylindrical_worm_zi_zi_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zi_zi_eval. */
 static inline void cylindrical_worm_zi_zi_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * y[1];
@@ -1899,6 +1900,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zi_zi_NX] from the solved start system. */
 static inline void cylindrical_worm_zi_zi_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zi_zi_atan2(0.0, y[1]);
     const double t1 = cylindrical_worm_zi_zi_atan2(0.0, y[0]);
     const double t2 = s[45] + t1;

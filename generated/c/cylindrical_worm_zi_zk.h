@@ -1915,7 +1915,7 @@ return (t647 < 0.0 ? -(t647) : t647) + (t648 < 0.0 ? -(t648) : t648) + (t650 < 0
 /* First guess y[cylindrical_worm_zi_zk_NSTART] of the start system. */
 static inline void cylindrical_worm_zi_zk_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[50];
     y[1] = 0.0;
 }
@@ -1923,7 +1923,7 @@ static inline void cylindrical_worm_zi_zk_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zi_zk_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zi_zk_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[38];
     y[1] = s[39];
 }
@@ -1931,6 +1931,7 @@ static inline void cylindrical_worm_zi_zk_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zi_zk_eval. */
 static inline void cylindrical_worm_zi_zk_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] / 2.0;
@@ -2115,6 +2116,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zi_zk_NX] from the solved start system. */
 static inline void cylindrical_worm_zi_zk_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zi_zk_sincos(t0, &s1, &c1);

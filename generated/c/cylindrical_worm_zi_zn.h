@@ -1735,7 +1735,7 @@ return (t553 < 0.0 ? -(t553) : t553) + (t523 < 0.0 ? -(t523) : t523) + (t554 < 0
 /* First guess y[cylindrical_worm_zi_zn_NSTART] of the start system. */
 static inline void cylindrical_worm_zi_zn_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[52];
     y[1] = s[53];
 }
@@ -1743,7 +1743,7 @@ static inline void cylindrical_worm_zi_zn_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zi_zn_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zi_zn_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[36];
     y[1] = s[36];
 }
@@ -1751,6 +1751,7 @@ static inline void cylindrical_worm_zi_zn_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zi_zn_eval. */
 static inline void cylindrical_worm_zi_zn_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * y[0];
     const double t1 = sqrt(t0);
     const double t2 = y[1] * s[1];
@@ -1841,6 +1842,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zi_zn_NX] from the solved start system. */
 static inline void cylindrical_worm_zi_zn_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] * s[3];
     const double t1 = -t0;
     const double t2 = y[1] * s[1];

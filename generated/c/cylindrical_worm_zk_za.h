@@ -1821,7 +1821,7 @@ return (t622 < 0.0 ? -(t622) : t622) + (t592 < 0.0 ? -(t592) : t592) + (t623 < 0
 /* First guess y[cylindrical_worm_zk_za_NSTART] of the start system. */
 static inline void cylindrical_worm_zk_za_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = s[24];
 }
@@ -1829,7 +1829,7 @@ static inline void cylindrical_worm_zk_za_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zk_za_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zk_za_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[44];
     y[1] = s[45];
 }
@@ -1837,6 +1837,7 @@ static inline void cylindrical_worm_zk_za_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zk_za_eval. */
 static inline void cylindrical_worm_zk_za_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zk_za_sincos(t0, &s1, &c1);
@@ -1998,6 +1999,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zk_za_NX] from the solved start system. */
 static inline void cylindrical_worm_zk_za_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zk_za_atan2(0.0, y[1]);
     const double t1 = y[0] / 2.0;
     double s2, c2;

@@ -2005,7 +2005,7 @@ return (t684 < 0.0 ? -(t684) : t684) + (t654 < 0.0 ? -(t654) : t654) + (t685 < 0
 /* First guess y[cylindrical_worm_zk_zi_NSTART] of the start system. */
 static inline void cylindrical_worm_zk_zi_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = s[56];
 }
@@ -2013,7 +2013,7 @@ static inline void cylindrical_worm_zk_zi_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zk_zi_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zk_zi_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[42];
     y[1] = s[43];
 }
@@ -2021,6 +2021,7 @@ static inline void cylindrical_worm_zk_zi_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zk_zi_eval. */
 static inline void cylindrical_worm_zk_zi_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zk_zi_sincos(t0, &s1, &c1);
@@ -2237,6 +2238,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zk_zi_NX] from the solved start system. */
 static inline void cylindrical_worm_zk_zi_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zk_zi_atan2(0.0, y[1]);
     const double t1 = y[0] / 2.0;
     double s2, c2;

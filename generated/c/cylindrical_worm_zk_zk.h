@@ -2145,7 +2145,7 @@ return (t749 < 0.0 ? -(t749) : t749) + (t719 < 0.0 ? -(t719) : t719) + (t751 < 0
 /* First guess y[cylindrical_worm_zk_zk_NSTART] of the start system. */
 static inline void cylindrical_worm_zk_zk_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
     y[1] = 0.0;
 }
@@ -2153,7 +2153,7 @@ static inline void cylindrical_worm_zk_zk_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zk_zk_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zk_zk_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[50];
     y[1] = s[51];
 }
@@ -2161,6 +2161,7 @@ static inline void cylindrical_worm_zk_zk_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zk_zk_eval. */
 static inline void cylindrical_worm_zk_zk_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] / 2.0;
     double s1, c1;
     cylindrical_worm_zk_zk_sincos(t0, &s1, &c1);
@@ -2443,6 +2444,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zk_zk_NX] from the solved start system. */
 static inline void cylindrical_worm_zk_zk_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zk_zk_sincos(t0, &s1, &c1);

@@ -1512,7 +1512,7 @@ return (t473 < 0.0 ? -(t473) : t473) + (t445 < 0.0 ? -(t445) : t445) + (t474 < 0
 /* First guess y[cylindrical_worm_zn_za_NSTART] of the start system. */
 static inline void cylindrical_worm_zn_za_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[50];
     y[1] = s[11];
 }
@@ -1520,7 +1520,7 @@ static inline void cylindrical_worm_zn_za_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zn_za_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zn_za_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[30];
     y[1] = s[30];
 }
@@ -1528,6 +1528,7 @@ static inline void cylindrical_worm_zn_za_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_za_eval. */
 static inline void cylindrical_worm_zn_za_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * s[1];
     const double t1 = t0 + s[2];
     const double t2 = t1 * t1;
@@ -1600,6 +1601,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zn_za_NX] from the solved start system. */
 static inline void cylindrical_worm_zn_za_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zn_za_atan2(0.0, y[1]);
     const double t1 = y[0] * s[0];
     const double t2 = -t1;

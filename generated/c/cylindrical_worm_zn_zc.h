@@ -2093,7 +2093,7 @@ return (t683 < 0.0 ? -(t683) : t683) + (t655 < 0.0 ? -(t655) : t655) + (t684 < 0
 /* First guess y[cylindrical_worm_zn_zc_NSTART] of the start system. */
 static inline void cylindrical_worm_zn_zc_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[54];
     y[1] = 0.0;
 }
@@ -2101,7 +2101,7 @@ static inline void cylindrical_worm_zn_zc_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zn_zc_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zn_zc_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[35];
     y[1] = s[36];
 }
@@ -2109,6 +2109,7 @@ static inline void cylindrical_worm_zn_zc_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_zc_eval. */
 static inline void cylindrical_worm_zn_zc_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * s[1];
     const double t1 = t0 + s[2];
     const double t2 = t1 * t1;
@@ -2394,6 +2395,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zn_zc_NX] from the solved start system. */
 static inline void cylindrical_worm_zn_zc_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zn_zc_sincos(t0, &s1, &c1);

@@ -1688,7 +1688,7 @@ return (t535 < 0.0 ? -(t535) : t535) + (t507 < 0.0 ? -(t507) : t507) + (t536 < 0
 /* First guess y[cylindrical_worm_zn_zi_NSTART] of the start system. */
 static inline void cylindrical_worm_zn_zi_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[45];
     y[1] = s[46];
 }
@@ -1696,7 +1696,7 @@ static inline void cylindrical_worm_zn_zi_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zn_zi_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zn_zi_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[27];
     y[1] = s[27];
 }
@@ -1704,6 +1704,7 @@ static inline void cylindrical_worm_zn_zi_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_zi_eval. */
 static inline void cylindrical_worm_zn_zi_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * s[1];
     const double t1 = t0 + s[2];
     const double t2 = t1 * t1;
@@ -1831,6 +1832,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zn_zi_NX] from the solved start system. */
 static inline void cylindrical_worm_zn_zi_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = cylindrical_worm_zn_zi_atan2(0.0, y[1]);
     const double t1 = y[0] * s[0];
     const double t2 = -t1;

@@ -1836,7 +1836,7 @@ return (t600 < 0.0 ? -(t600) : t600) + (t572 < 0.0 ? -(t572) : t572) + (t601 < 0
 /* First guess y[cylindrical_worm_zn_zk_NSTART] of the start system. */
 static inline void cylindrical_worm_zn_zk_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[54];
     y[1] = 0.0;
 }
@@ -1844,7 +1844,7 @@ static inline void cylindrical_worm_zn_zk_guess(const double *s, double *y)
 /* Natural size y[cylindrical_worm_zn_zk_NSTART] of each unknown of the start system. */
 static inline void cylindrical_worm_zn_zk_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = s[36];
     y[1] = s[37];
 }
@@ -1852,6 +1852,7 @@ static inline void cylindrical_worm_zn_zk_start_scale(const double *s, double *y
 /* Start system: residual and Jacobian as in cylindrical_worm_zn_zk_eval. */
 static inline void cylindrical_worm_zn_zk_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     const double t0 = y[0] * s[1];
     const double t1 = t0 + s[2];
     const double t2 = t1 * t1;
@@ -2045,6 +2046,7 @@ if (J == NULL) return;
 /* Start values x[cylindrical_worm_zn_zk_NX] from the solved start system. */
 static inline void cylindrical_worm_zn_zk_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     const double t0 = y[1] / 2.0;
     double s1, c1;
     cylindrical_worm_zn_zk_sincos(t0, &s1, &c1);

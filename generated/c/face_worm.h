@@ -4244,20 +4244,21 @@ return (t676 < 0.0 ? -(t676) : t676) + (t649 < 0.0 ? -(t649) : t649) + (t644 < 0
 /* First guess y[face_worm_NSTART] of the start system. */
 static inline void face_worm_guess(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 0.0;
 }
 
 /* Natural size y[face_worm_NSTART] of each unknown of the start system. */
 static inline void face_worm_start_scale(const double *s, double *y)
 {
-    (void)s;
+    (void)s, (void)y;
     y[0] = 1.0;
 }
 
 /* Start system: residual and Jacobian as in face_worm_eval. */
 static inline void face_worm_start_eval(const double *s, const double *y, double *R, double *J)
 {
+    (void)s, (void)y, (void)R;
     double s0, c0;
     face_worm_sincos(y[0], &s0, &c0);
     const double t2 = s0 * s[52];
@@ -4370,6 +4371,7 @@ if (J == NULL) return;
 /* Start values x[face_worm_NX] from the solved start system. */
 static inline void face_worm_start_solution(const double *s, const double *y, double *x)
 {
+    (void)s, (void)y;
     x[0] = 0.0;
     x[1] = y[0];
     x[2] = s[109];

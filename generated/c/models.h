@@ -24,6 +24,15 @@
 #include "cylindrical_worm_zc_zn.h"
 #include "cylindrical_worm_zc_zk.h"
 #include "cylindrical_worm_zc_zc.h"
+#include "spherical_convex_convex.h"
+#include "spherical_convex_concave.h"
+#include "spherical_convex_spur.h"
+#include "spherical_concave_convex.h"
+#include "spherical_concave_concave.h"
+#include "spherical_concave_spur.h"
+#include "spherical_spur_convex.h"
+#include "spherical_spur_concave.h"
+#include "spherical_spur_spur.h"
 #include "face_worm.h"
 
 static const mw_model *const mw_models[] = {
@@ -52,6 +61,15 @@ static const mw_model *const mw_models[] = {
     &cylindrical_worm_zc_zn_model,
     &cylindrical_worm_zc_zk_model,
     &cylindrical_worm_zc_zc_model,
+    &spherical_convex_convex_model,
+    &spherical_convex_concave_model,
+    &spherical_convex_spur_model,
+    &spherical_concave_convex_model,
+    &spherical_concave_concave_model,
+    &spherical_concave_spur_model,
+    &spherical_spur_convex_model,
+    &spherical_spur_concave_model,
+    &spherical_spur_spur_model,
     &face_worm_model,
     NULL
 };

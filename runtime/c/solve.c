@@ -3,7 +3,11 @@
 #include <string.h>
 #include "newton.h"
 
+enum { MAX_ATTEMPTS = 100 };
+
 static const double FUSED_TOLERANCE = 1e-9;
+static const double SMALLEST_STEP = 1e-8;   /* share of the misalignments */
+static const double SINGULAR_SHARE = 1e-2;  /* of the aligned drive's: a pivot falls as the root of the way left */
 
 static int ended_well(int status)
 {
@@ -79,14 +83,27 @@ static int start(const mw_model *m, const double *s, double *x, mw_info *info)
     return info->status;
 }
 
-/* Raise the misalignments from share `from` to 1, halving the step where Newton fails. */
+/* Smallest over largest pivot at a solution. */
+static double pivot_gap(const mw_model *m, const double *s, const double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    mw_info info = { 0 };
+    for (int i = 0; i < m->nx; i++) at[i] = x[i];
+    m->scale(s, scale);
+    mw_newton(m->eval, m->nx, s, scale, at, &info);
+    return info.rank_gap;
+}
+
+/* Raise the misalignments from share `from` to 1, halving the step where Newton fails. Contact is lost on the way if
+ * the equations become singular where the solutions end. */
 static int raise(const mw_model *m, const double *p, double phi, double from, double *s, double *work, double *x,
                  mw_info *info)
 {
     double good[MW_MAX_UNKNOWNS];
     double share = from, step = 1.0 - from;
+    const double regular = pivot_gap(m, s, x);
     for (int i = 0; i < m->nx; i++) good[i] = x[i];
-    for (int attempt = 0; attempt < 60 && share < 1.0; attempt++) {
+    for (int attempt = 0; attempt < MAX_ATTEMPTS && step > SMALLEST_STEP && share < 1.0; attempt++) {
         const double next = share + step < 1.0 ? share + step : 1.0;
         setup_share(m, p, next, phi, s, work);
         if (ended_well(mw_refine(m, s, x, info))) {
@@ -96,8 +113,11 @@ static int raise(const mw_model *m, const double *p, double phi, double from, do
         } else {
             step *= 0.5;
             for (int i = 0; i < m->nx; i++) x[i] = good[i];
-            if (step < 1.0 / 1024.0) return info->status;
         }
+    }
+    if (share < 1.0 && info->status == MW_DIVERGED) {
+        setup_share(m, p, share, phi, s, work);
+        if (pivot_gap(m, s, good) <= SINGULAR_SHARE * regular) info->status = MW_NO_CONTACT;
     }
     return info->status;
 }

@@ -76,24 +76,27 @@ def test_relative_curvatures_at_the_pitch_point_in_closed_form(pair, pinion, whe
 
 
 def _random_designs(count):
+    """Designs of every size; the axes are tilted by as much as moves contact about a third of the face."""
     rng = np.random.default_rng(20)
+    forms = [("convex", "convex"), ("convex", "concave"), ("convex", "spur"), ("concave", "convex")]
     for _ in range(count):
-        pinion, wheel = [("convex", "convex"), ("convex", "concave"), ("convex", "spur"), ("concave", "convex")][
-            rng.integers(4)
-        ]
-        module, teeth = 10 ** rng.uniform(-1, 1.7), rng.integers(18, 120, 2)
-        small, large = (rng.uniform(10, 60) * module * f for f in (1, 2 + rng.uniform()))
+        pinion, wheel = forms[rng.integers(len(forms))]
+        module, teeth, alpha = 10 ** rng.uniform(-1, 1.7), rng.integers(18, 120, 2), rng.uniform(12, 30)
+        small = rng.uniform(10, 60) * module
+        large = small * rng.uniform(1.2, 3)
         radii = (large, small) if pinion == "concave" else (small, large)
+        senses = [{"convex": 1, "concave": -1, "spur": 0}[form] for form in (pinion, wheel)]
+        across = sum(sense / radius for sense, radius in zip(senses, radii, strict=True))
+        tilt = math.degrees(module * across * math.tan(math.radians(alpha)))
         yield (
             (pinion, wheel),
-            radii,
+            (radii[0], None if wheel == "spur" else radii[1]),
             {
                 "module_mm": module, "pinion_teeth": int(teeth[0]), "wheel_teeth": int(teeth[1]),
-                "pressure_angle_deg": rng.uniform(12, 30), "face_width_mm": 4 * module,
-                "flank": ("left", "right")[rng.integers(2)],
+                "pressure_angle_deg": alpha, "face_width_mm": 4 * module, "flank": ("left", "right")[rng.integers(2)],
                 "misalignment": {
                     "center_distance_mm": rng.uniform(-0.02, 0.1) * module,
-                    "horizontal_deg": rng.uniform(-1, 1), "vertical_deg": rng.uniform(-2, 2),
+                    "horizontal_deg": rng.uniform(-1, 1) * tilt, "vertical_deg": rng.uniform(-1, 1) * tilt,
                 },
             },
         )  # fmt: skip
