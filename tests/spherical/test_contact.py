@@ -5,9 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from formulas import Gear, Pair, involute
 
 from meshwright.results import ARCSEC
+from tests.independent.spherical import Gear, Pair, involute
 
 #: Pairs that touch in a point: (forms, sphere radii).
 POINT_CONTACT = [
