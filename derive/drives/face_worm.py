@@ -281,6 +281,8 @@ def face_worm():
         sample=k.SAMPLE,
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
+        ascending_path=True,
+        flanks_apart=True,
     )  # fmt: skip
 
 

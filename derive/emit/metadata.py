@@ -41,6 +41,8 @@ def describe(plan, provenance=None):
         "exclusive": [list(group) for group in drive.exclusive],
         "required": list(drive.required),
         "excluded": list(drive.excluded),
+        "ascending_path": drive.ascending_path,
+        "flanks_apart": drive.flanks_apart,
         "sizes": [_size(*entry) for entry in drive.sizes],
         "systems": [
             {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems

@@ -121,3 +121,8 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
     c->flags = flags_of(m, o, c->curvature_min, c->line);
     return c->line ? MW_LINE_CONTACT : MW_CONVERGED;
 }
+
+void mw_flank(const mw_body *b, const double *s, const double *q, size_t n, double *o)
+{
+    for (size_t k = 0; k < n; k++, q += b->parameters, o += b->outputs) b->flank(s, q, o);
+}

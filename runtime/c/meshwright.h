@@ -76,6 +76,14 @@ int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
 size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                 mw_info *info);
 
+/* Follow the branch through the solution x0 at phi0 along phi[n], in order, starting near phi0; x[n*nx], info[n].
+ * s is set up. Stops where the branch ends: returns how many points were solved; info of the next one says why. */
+size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
+                 mw_info *info);
+
+/* A flank at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
+void mw_flank(const mw_body *b, const double *s, const double *q, size_t n, double *o);
+
 /* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
 int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);
 

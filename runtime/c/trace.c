@@ -129,3 +129,21 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     }
     return succeeded;
 }
+
+size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
+                 mw_info *info)
+{
+    history h;
+    memset(&h, 0, sizeof h);
+    remember(&h, phi0, x0);
+    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
+        if (phi[k] == h.phi[0]) {
+            memcpy(x, h.x[0], sizeof(double) * (size_t)m->nx);
+            memset(info, 0, sizeof *info);
+            continue;
+        }
+        if (continue_branch(m, &h, phi[k], s, x, info) < 0) return k;
+        remember(&h, phi[k], x);
+    }
+    return n;
+}

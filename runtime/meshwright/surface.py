@@ -1,10 +1,11 @@
 """Generated flanks as functions of their own parameters, body frame."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import ffi, library, model
 from meshwright.errors import UsageError
 
 
@@ -48,6 +49,14 @@ class Flank:
         known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
         raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
 
+    @cached_property
+    def state(self):
+        """State of the compiled model, whatever backend solves the contact: flanks do not depend on it."""
+        compiled = model(self.drive.design.description["name"])
+        s = np.empty(compiled.ns)
+        compiled.setup(ffi.from_buffer("double[]", self.drive.design.parameters), ffi.from_buffer("double[]", s))
+        return s
+
     @property
     def parameters(self):
         """Names of the surface parameters."""
@@ -58,9 +67,8 @@ class Flank:
         q = np.atleast_2d(np.asarray(parameters, dtype=float))
         k, n, c = len(self.parameters), len(q), self.body["conditions"]
         rows = np.empty((n, self.body["outputs"]))
-        s = ffi.from_buffer("double[]", self.drive.state())
-        for i in range(n):
-            self.pointer.flank(s, ffi.from_buffer("double[]", np.ascontiguousarray(q[i])), ffi.from_buffer("double[]", rows[i]))
+        buffers = (ffi.from_buffer("double[]", np.ascontiguousarray(a)) for a in (self.state, q))
+        library().mw_flank(ffi.addressof(self.pointer), *buffers, n, ffi.from_buffer("double[]", rows))
         at = 7 + 3 * k
         margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}
         return FlankPoints(

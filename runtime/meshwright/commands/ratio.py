@@ -1,0 +1,138 @@
+"""Contact ratio: where a pair's contact begins and ends and why, teeth in contact, transmission error, backlash.
+
+Exit status 1 if begin or end does not exist; what does not exist is null.
+"""
+
+import math
+
+import numpy as np
+
+from meshwright.backlash import backlash
+from meshwright.commands import options as common
+from meshwright.files import write_json, write_text
+from meshwright.pairs import Mesh
+from meshwright.results import ARCSEC
+from meshwright.transmission import fourier, transmission_error
+
+#: Tooth orders of the Fourier components that are written.
+ORDERS = 8
+
+
+def add_arguments(parser):
+    common.add_design(parser)
+    common.add_angles(parser)
+    parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.ratio/1)")
+
+
+def run(options):
+    drive = common.drive_of(options)
+    mesh = Mesh.of(drive)
+    document = report(mesh, common.angles_of(options, drive))
+    if options.json:
+        write_json(options.json, document)
+    else:
+        write_text("-", _page(drive, mesh, document))
+    return 0 if mesh.window.complete else 1
+
+
+def report(mesh, angles):
+    """The ``meshwright.ratio/1`` document; contact teeth at the pinion ``angles``, rad."""
+    drive, window = mesh.drive, mesh.window
+    return {
+        "schema": "meshwright.ratio/1",
+        "drive": drive.design.family,
+        "design": drive.design.as_solved(),
+        "status": window.status,
+        "begin": _event(window.begin),
+        "end": _event(window.end),
+        "contact_ratio": _number(mesh.contact_ratio),
+        "average_contact_teeth": {
+            "over_one_pitch": _number(mesh.average_over_pitch()),
+            "begin_to_end": _number(mesh.average_begin_to_end()),
+        },
+        "contact_teeth": [_teeth(mesh, angle) for angle in angles],
+        "transmission_error": _transmission(mesh),
+        "backlash_arcsec": _number(backlash(drive) / ARCSEC),
+    }
+
+
+def _event(event):
+    return {"pinion_angle_deg": _number(math.degrees(event.angle)), "event": event.reason, "member": event.member}
+
+
+def _teeth(mesh, angle):
+    entry = {"pinion_angle_deg": math.degrees(angle), "teeth": None, "separations_mm": []}
+    if mesh.window.complete:
+        entry["teeth"] = mesh.teeth_in_contact(angle)
+        entry["separations_mm"] = [pair.separation for pair in mesh.pairs(angle)]
+    return entry
+
+
+def _transmission(mesh):
+    keys = ("pair_peak_to_peak_arcsec", "envelope_peak_to_peak_arcsec", "envelope", "other_envelope_peak_to_peak_arcsec",
+            "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders")  # fmt: skip
+    if mesh.window.path is None:
+        return dict.fromkeys(keys)
+    found = transmission_error(mesh)
+    values = (
+        _number(found.pair_peak_to_peak / ARCSEC),
+        _number(found.envelope_peak_to_peak / ARCSEC),
+        found.envelope,
+        _number(found.other_envelope_peak_to_peak / ARCSEC),
+        [math.degrees(a) for a in found.transfers] or None,
+        _number(math.degrees(found.vertex)),
+        found.rides_on_edge,
+        _orders(mesh),
+    )
+    return dict(zip(keys, values, strict=True))
+
+
+def _orders(mesh):
+    """Fourier components of the transmitted envelope by tooth order."""
+    if not mesh.window.complete:
+        return None
+    amplitudes, phases = fourier(mesh, ORDERS)
+    if not np.isfinite(amplitudes).all():
+        return None
+    return [
+        {"order": k + 1, "amplitude_arcsec": float(a / ARCSEC), "phase_deg": float(np.degrees(p))}
+        for k, (a, p) in enumerate(zip(amplitudes, phases, strict=True))
+    ]
+
+
+def _number(value):
+    return float(value) if math.isfinite(value) else None
+
+
+def _page(drive, mesh, document):
+    error, average = document["transmission_error"], document["average_contact_teeth"]
+    transfers = error["transfer_angles_deg"] or [None]
+    rows = [
+        ("contact begins at", *_at(document["begin"])),
+        ("contact ends at", *_at(document["end"])),
+        ("contact ratio", _shown(document["contact_ratio"], "")),
+        ("teeth in contact, over one pitch", _shown(average["over_one_pitch"], "")),
+        ("teeth in contact, begin to end", _shown(average["begin_to_end"], "")),
+        ("transmission error of a pair", _shown(error["pair_peak_to_peak_arcsec"], "arcsec peak to peak")),
+        ("  of the drive", _shown(error["envelope_peak_to_peak_arcsec"], "arcsec peak to peak"),
+         f"{error['envelope'] or 'no'} envelope"),
+        ("  of the other envelope", _shown(error["other_envelope_peak_to_peak_arcsec"], "arcsec peak to peak")),
+        ("pairs change at", ", ".join(_shown(a, "deg") for a in transfers)),
+        ("vertex at", _shown(error["vertex_deg"], "deg")),
+        ("backlash", _shown(document["backlash_arcsec"], "arcsec of the wheel")),
+    ]  # fmt: skip
+    lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
+    if mesh.window.status != "converged":
+        lines.append(f"no path of contact: {mesh.window.status}")
+    lines += [f"{name:<34} {', '.join(values)}" for name, *values in rows]
+    if error["rides_on_edge"]:
+        lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")
+    return "\n".join(lines) + "\n"
+
+
+def _at(event):
+    return _shown(event["pinion_angle_deg"], "deg"), " of the ".join(filter(None, (event["event"], event["member"])))
+
+
+def _shown(value, unit):
+    return "–" if value is None else f"{value:.6g} {unit}".strip()

@@ -1,0 +1,196 @@
+"""The window of contact of one tooth pair: where it begins, where it ends, and what limits it there."""
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from meshwright.folds import fold_angle
+from meshwright.path import Path
+from meshwright.roots import bracketed
+
+#: Events are located to this angle, rad.
+ANGLE_TOLERANCE = 1e-10
+
+#: The search goes on this many pitches at a time.
+CHUNK = 2
+
+
+@dataclass(frozen=True)
+class Event:
+    """What limits contact at one end: the pinion ``angle`` (rad, NaN if nothing does), the reason and the member.
+
+    ``reason`` is one of tip, throat, face, root, tool_end, undercut, regression, fold, none.
+    """
+
+    angle: float
+    reason: str
+    member: str | None
+
+    @property
+    def exists(self):
+        return math.isfinite(self.angle)
+
+
+NO_EVENT = Event(math.nan, "none", None)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A function along the path that is negative outside the flanks: where it stands in the observation."""
+
+    member: str
+    reason: str
+    index: int
+
+
+@dataclass(frozen=True)
+class Window:
+    """Contact of one pair from ``begin`` to ``end``, in the order in which the driving pinion turns.
+
+    ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where the flanks touch along lines, or not at all.
+    """
+
+    begin: Event
+    end: Event
+    path: Path | None
+    status: str = "converged"
+
+    @property
+    def complete(self):
+        """Whether both ends exist."""
+        return self.begin.exists and self.end.exists
+
+    @property
+    def span(self):
+        """Pinion angle from begin to end, rad; NaN if an end does not exist."""
+        return abs(self.end.angle - self.begin.angle)
+
+    @property
+    def bounds(self):
+        """Smaller and larger angle of the window, rad, right-hand drive like ``path``; infinite where no event is."""
+        sign = _mirror(self.path.drive)
+        angles = [sign * e.angle for e in (self.begin, self.end)]
+        if _descending(self.path.drive):
+            angles.reverse()
+        return tuple(a if math.isfinite(a) else end for a, end in zip(angles, (-math.inf, math.inf), strict=True))
+
+
+def contact_window(drive):
+    """The :class:`Window` of a drive's tooth pair: the stretch of its path inside every limit, nearest to angle 0."""
+    path, status = Path.start(drive)
+    if path is None:
+        return Window(NO_EVENT, NO_EVENT, None, status)
+    limits = limits_of(drive)
+    path = _searched(path, limits)
+    ends = _ends(path, limits)
+    if ends is None:
+        return Window(NO_EVENT, NO_EVENT, path)
+    path = _with_margin(path, ends)
+    sign = _mirror(drive)
+    begin, end = (Event(sign * e.angle, e.reason, e.member) for e in ends)
+    return Window(end, begin, path) if _descending(drive) else Window(begin, end, path)
+
+
+def limits_of(drive):
+    """Every limit of both members: the margins of the design and the singular lines of the flanks."""
+    limits = []
+    for body in drive.design.description["bodies"]:
+        limits.append(Limit(body["name"], "undercut", body["regular"]))
+        for i, margin in enumerate(body["margins"]):
+            limits.append(Limit(body["name"], _reason(margin["event"]), body["margin"] + i))
+    return limits
+
+
+def _reason(event):
+    """The sheet of an envelope turns over into a spurious one: a fold."""
+    return "fold" if event == "spurious_sheet" else event
+
+
+def _mirror(drive):
+    return -1.0 if drive.design.mirrored else 1.0
+
+
+def _descending(drive):
+    """Whether, in the right-hand drive, begin is the larger angle: the flank that drives for negative angles."""
+    return drive.design.flank < 0 and not drive.design.description["ascending_path"]
+
+
+def _worst(path, limits):
+    """The smallest limit function at every node; limits that the design leaves open do not count."""
+    values = path.observe(path.angles, path.unknowns)[:, [limit.index for limit in limits]]
+    return np.where(np.isnan(values), np.inf, values).min(axis=1)
+
+
+def _searched(path, limits):
+    """The path followed both ways until contact has left the flanks again, but no further than half a wheel turn."""
+    farthest = math.pi / path.drive.ratio
+    for sign in (1.0, -1.0):
+        while _goes_on(path, limits, sign, farthest):
+            here = path.angles[-1 if sign > 0 else 0]
+            path = path.extended(here + sign * min(CHUNK * path.drive.pitch(), farthest - sign * here))
+    return path
+
+
+def _with_margin(path, ends):
+    """The path continued a pitch beyond either end where the branch goes so far: neighbours of a pair are compared there."""
+    for event, sign in zip(ends, (-1.0, 1.0), strict=True):
+        to = event.angle + sign * path.drive.pitch()
+        side = -1 if sign > 0 else 0
+        if event.exists and not path.ended[side] and sign * path.angles[side] < sign * to:
+            path = path.extended(to)
+    return path
+
+
+def _goes_on(path, limits, sign, farthest):
+    side = -1 if sign > 0 else 0
+    if path.ended[side] or sign * path.angles[side] >= farthest * (1.0 - 1e-12):
+        return False
+    worst = _worst(path, limits)
+    return worst[side] >= 0.0 or not (worst >= 0.0).any()
+
+
+def _ends(path, limits):
+    """Lower and upper event of the stretch of valid nodes nearest to angle 0; None if there is none."""
+    stretch = _nearest_stretch(path.angles, _worst(path, limits) >= 0.0)
+    if stretch is None:
+        return None
+    first, last = stretch
+    lower = _locate(path, limits, first, first - 1) if first > 0 else _branch_end(path, 0)
+    upper = _locate(path, limits, last, last + 1) if last + 1 < len(path.angles) else _branch_end(path, -1)
+    return lower, upper
+
+
+def _nearest_stretch(angles, valid):
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], valid, [False])).astype(int)))
+    stretches = [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    if not stretches:
+        return None
+    return min(stretches, key=lambda s: max(angles[s[0]], -angles[s[1]], 0.0))
+
+
+def _locate(path, limits, inside, outside):
+    """The first limit on the way from a valid node to an invalid neighbour."""
+    angles = path.angles[[inside, outside]]
+    values = path.observe(angles, path.unknowns[[inside, outside]])
+    crossed = []
+    for limit in limits:
+        at_ends = values[:, limit.index]
+        if at_ends[1] < 0.0:
+            function = partial(_value, path, limit)
+            crossed.append((bracketed(function, *angles, ANGLE_TOLERANCE, tuple(at_ends)), limit))
+    angle, limit = min(crossed, key=lambda c: abs(c[0] - angles[0]))
+    return Event(float(angle), limit.reason, limit.member)
+
+
+def _value(path, limit, angle):
+    return path.observe([angle])[0, limit.index]
+
+
+def _branch_end(path, side):
+    """What ended the branch itself: a fold, where it turns back, or nothing that can be named."""
+    if not path.ended[side]:
+        return NO_EVENT
+    angle = fold_angle(path, side)
+    return NO_EVENT if angle is None else Event(angle, "fold", None)

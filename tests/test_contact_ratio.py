@@ -1,0 +1,154 @@
+"""Where contact begins and ends, how many teeth share it, and what the drive transmits."""
+
+import json
+
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.pairs import Mesh
+from meshwright.results import ARCSEC
+from meshwright.transmission import envelopes, transmission_error
+
+
+def _errors(case):
+    """Misalignment keys of a published case: the paper turns both axes the other way."""
+    errors = case["errors"]
+    return {
+        "center_distance_mm": float(errors["dC_mm"]),
+        "vertical_deg": -errors["dgv_arcmin"] / 60.0,
+        "horizontal_deg": -errors["dgh_arcmin"] / 60.0,
+    }
+
+
+def _case(reference, name):
+    return next(c for c in reference("recess-action-worm")["cases"] if c["id"] == name)
+
+
+@pytest.mark.parametrize("name", ["2", "3", "4"])
+def test_contact_window_and_kinematic_error_of_the_published_cases(reference, name):
+    case, tolerance = _case(reference, name), reference("recess-action-worm")["cases_tolerance"]
+    mesh = Mesh.of(Drive.load("recess-action-full").with_(misalignment=_errors(case)))
+    begin, end = mesh.window.begin, mesh.window.end
+    assert (begin.reason, begin.member) == ("tip", "wheel")
+    assert (end.reason, end.member) == ("tool_end", "wheel")
+    assert np.degrees(begin.angle) == pytest.approx(case["begin_deg"], abs=tolerance["angle_deg"])
+    assert np.degrees(end.angle) == pytest.approx(case["end_deg"], abs=tolerance["angle_deg"])
+    assert mesh.contact_ratio == pytest.approx(case["cr"], abs=tolerance["cr"])
+    assert mesh.average_begin_to_end() == pytest.approx(case["acr"], abs=tolerance["acr"])
+    counts = {mesh.teeth_in_contact(angle) for angle in np.radians(np.arange(0.0, 360.0, 3.0))}
+    assert sorted(counts) == case["ict"]
+    found = transmission_error(mesh)
+    # the paper takes the lower envelope of a convex curve; rigid flanks transmit the upper one
+    assert found.envelope == "upper"
+    assert found.other_envelope_peak_to_peak / ARCSEC == pytest.approx(
+        case["max_ke_arcsec"], abs=tolerance["max_ke_arcsec"]
+    )
+
+
+@pytest.mark.parametrize("name", ["standard", "semi", "full"])
+def test_contact_of_the_aligned_drives_ends_where_the_paper_says(reference, name):
+    case = _case(reference, f"1 {name}")
+    end = Mesh.of(Drive.load(f"recess-action-{name}")).window.end
+    assert np.degrees(end.angle) == pytest.approx(case["end_deg"], abs=case["tolerance"]["end_deg"])
+
+
+def test_events_lie_on_their_limits():
+    drive = Drive.load("recess-action-full").with_(misalignment={"center_distance_mm": -0.1})
+    window = Mesh.of(drive).window
+    at = drive.tca([window.begin.angle, window.end.angle])
+    tip = drive.design.value("wheel_tip_radius_mm", "blank")
+    assert np.hypot(*at.body_points["wheel"][0, :2]) == pytest.approx(tip, abs=1e-8)
+    blade_end = np.pi * 2.0 / (4.0 * np.sin(np.radians(10.0))) + 4.0 / np.cos(np.radians(10.0))
+    assert at.unknowns["t_hob"][1] == pytest.approx(blade_end, abs=1e-8)
+
+
+def test_the_other_hand_is_the_mirror_image():
+    misalignment = {"center_distance_mm": -0.1, "vertical_deg": 0.05}
+    right = Mesh.of(Drive.load("recess-action-full").with_(misalignment=misalignment))
+    left = Mesh.of(right.drive.with_(design={"hand": "left"}))
+    assert left.window.begin.angle == pytest.approx(-right.window.begin.angle, abs=1e-9)
+    assert left.window.end.angle == pytest.approx(-right.window.end.angle, abs=1e-9)
+    assert (right.envelope, left.envelope) == ("upper", "lower")
+    assert left.errors([-8.0])[0] == pytest.approx(-right.errors([8.0])[0], abs=1e-15)
+
+
+def test_half_a_turn_swaps_the_flanks_and_the_order_of_the_ends():
+    right, left = (Mesh.of(Drive.load("recess-action-standard").with_(flank=f)) for f in ("right", "left"))
+    assert left.window.begin.angle == pytest.approx(-right.window.begin.angle, abs=1e-8)
+    assert left.window.begin.angle > left.window.end.angle
+    assert (right.envelope, left.envelope) == ("upper", "lower")
+
+
+def test_the_average_over_a_pitch_is_the_contact_ratio():
+    mesh = Mesh.of(Drive.load("recess-action-semi"))
+    ratio = mesh.contact_ratio
+    whole, part = np.floor(ratio), ratio - np.floor(ratio)
+    assert mesh.average_over_pitch() == pytest.approx(ratio, abs=1e-10)
+    published = ((whole + 1) ** 2 * part + whole**2 * (1 - part)) / ratio
+    assert mesh.average_begin_to_end() == pytest.approx(published, abs=1e-10)
+
+
+def test_an_elastic_allowance_counts_the_pairs_it_closes():
+    rigid = Mesh.of(Drive.load("recess-action-full"))
+    separations = [pair.separation for pair in rigid.pairs(1.0)]
+    assert separations == sorted(separations) and separations[0] == 0.0
+    allowance = 0.5 * (separations[2] + separations[3])
+    soft = Mesh.of(rigid.drive.with_(contact={"elastic_allowance_mm": allowance}))
+    assert soft.teeth_in_contact(1.0) == 3
+    assert 1.0 < soft.average_over_pitch() < rigid.average_over_pitch()
+
+
+def test_transfer_and_vertex_are_where_neighbours_agree_and_the_curve_is_flat():
+    mesh = Mesh.of(Drive.load("recess-action-full").with_(misalignment={"center_distance_mm": -0.1}))
+    found = transmission_error(mesh)
+    first, second = mesh.errors(found.transfers)
+    assert first == pytest.approx(second, abs=1e-15)
+    assert found.transfers[1] - found.transfers[0] == pytest.approx(mesh.drive.pitch(), abs=1e-12)
+    wide, narrow = (np.diff(mesh.errors(found.vertex + h * np.array([-1.0, 1.0])))[0] / (2 * h) for h in (0.5, 0.25))
+    curvature = np.diff(mesh.errors(found.vertex + np.array([-0.5, 0.0, 0.5])), n=2)[0] / 0.25
+    assert abs(4 * narrow - wide) / 3 < 1e-6 * curvature  # the slope, free of the curve's third derivative
+
+
+def test_the_wheel_follows_the_pair_that_is_ahead():
+    mesh = Mesh.of(Drive.load("recess-action-full"))
+    angles = np.linspace(0.0, mesh.drive.pitch(), 25)
+    found = envelopes(mesh, angles)
+    assert (np.nanmax(found.pairs, axis=0) == found.upper).all()
+    assert [mesh.pairs(a)[0].number for a in angles] == found.leading.tolist()
+
+
+def test_limits_that_are_not_given_do_not_end_contact(tmp_path, capsys):
+    tables = Drive.load("recess-action-full").design.tables
+    open_design = tmp_path / "open.toml"
+    open_design.write_text(
+        'drive = "cylindrical-worm"\n[design]\n'
+        + "\n".join(f"{k} = {json.dumps(v)}" for k, v in tables["design"].items() if v is not None)
+    )
+    assert main(["ratio", str(open_design), "--json", "-"]) == 1
+    document = json.loads(capsys.readouterr().out)
+    assert document["begin"] == {"pinion_angle_deg": None, "event": "none", "member": None}
+    assert document["contact_ratio"] is None
+    assert document["transmission_error"]["envelope"] == "upper"
+
+
+def test_line_contact_has_no_path_but_every_key(capsys):
+    equal = Drive.load("recess-action-full").design.as_solved()["design"]["worm_pitch_radius_mm"]
+    arguments = ["recess-action-full", "--set", f"design.hob_pitch_radius_mm={equal!r}", "--json", "-"]
+    assert main(["ratio", *arguments]) == 1
+    document = json.loads(capsys.readouterr().out)
+    assert document["status"] == "line_contact"
+    assert set(document["transmission_error"]) > {"envelope", "transfer_angles_deg", "vertex_deg"}
+
+
+def test_moving_the_wheel_away_opens_the_backlash(capsys):
+    """Both flanks gain the same: 2 ΔA tan(pressure angle) along the wheel's pitch circle, to the errors of Δ²."""
+    arcsec = []
+    for distance in (0.0, 0.05):
+        assert main(["ratio", "recess-action-full", "--set", f"misalignment.center_distance_mm={distance}", "--json", "-"]) == 0
+        arcsec.append(json.loads(capsys.readouterr().out)["backlash_arcsec"])
+    assert arcsec[0] < 0.0 < arcsec[1]
+    wheel_radius = 277.38
+    expected = 2 * 0.05 * np.tan(np.radians(10.0)) / np.cos(np.radians(3.0)) / wheel_radius / ARCSEC
+    assert arcsec[1] - arcsec[0] == pytest.approx(expected, rel=0.05)
