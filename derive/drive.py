@@ -120,7 +120,6 @@ class Drive:
     mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
     ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made,
     ``excluded`` keys that mean nothing for it.
-    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     """
