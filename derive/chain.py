@@ -35,6 +35,9 @@ class Rotation:
 
     point = direction
 
+    def expressions(self):
+        return (self.angle,)
+
     def inverse(self):
         return Rotation(self.axis, -self.angle)
 
@@ -54,6 +57,9 @@ class Translation:
 
     def point(self, a):
         return v.add(self.offset, a)
+
+    def expressions(self):
+        return self.offset
 
     def inverse(self):
         return Translation(v.scale(-1, self.offset))
@@ -87,6 +93,9 @@ class Swing:
         shift[second] = versine * self.centre[second] - sine * self.centre[first]
         return v.add(tuple(shift), self.direction(a))
 
+    def expressions(self):
+        return (self.angle, *self.centre)
+
     def inverse(self):
         return Swing(self.axis, -self.angle, self.centre)
 
@@ -105,6 +114,9 @@ class Placement:
         return reduce(v.add, (v.scale(c, column) for c, column in zip(a, self.columns, strict=True)))
 
     point = direction
+
+    def expressions(self):
+        return tuple(c for column in self.columns for c in column)
 
     def inverse(self):
         return Placement(tuple(zip(*self.columns, strict=True)))

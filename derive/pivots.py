@@ -1,5 +1,7 @@
 """One fused Newton step: x − J⁻¹R as straight-line operations with a pivot order chosen offline.
 
+The system solved is the one in the unknowns and the angles (see :mod:`derive.linearise`), sparser than J.
+
 The order is found at a sample solution: among the entries that are large enough to be stable, the one that costs
 least fill (Markowitz). The runtime checks the step and falls back on complete pivoting where the order fails.
 """
@@ -12,21 +14,24 @@ STABLE_SHARE = 0.1
 
 def newton_step(plan):
     """Nodes of the updated unknowns and of their changes."""
-    point = newton.sample_solution(plan)
-    order = _pivot_order(plan, point)
-    changes = _solve(plan.tape, plan.jacobian, plan.residual, order)
+    tape, linear = plan.tape, plan.linear
+    order = _pivot_order(plan, newton.sample_solution(plan))
+    right = [*plan.residual, *[tape.constant(0)] * linear.angles]
+    changes = _solve(tape, linear.matrix, right, order)[: linear.unknowns]
     unknowns = [plan.lower(u) for u in plan.unknowns]
-    updated = [plan.tape.sub(x, d) for x, d in zip(unknowns, changes, strict=True)]
+    updated = [tape.sub(x, d) for x, d in zip(unknowns, changes, strict=True)]
     return updated, changes
 
 
 def _pivot_order(plan, inputs):
-    n = len(plan.jacobian)
-    flat = [e for row in plan.jacobian for e in row]
-    numbers = plan.tape.evaluate(flat + plan.scales, inputs)
+    matrix = plan.linear.matrix
+    n = len(matrix)
+    flat = [e for row in matrix for e in row]
+    scales = [*plan.scales, *[plan.tape.constant(1)] * plan.linear.angles]
+    numbers = plan.tape.evaluate(flat + scales, inputs)
     size = numbers[n * n :]
     values = [[numbers[i * n + j] * size[j] for j in range(n)] for i in range(n)]
-    present = [[plan.tape.const_value(e) != 0 for e in row] for row in plan.jacobian]
+    present = [[plan.tape.const_value(e) != 0 for e in row] for row in matrix]
     rows, columns, order = set(range(n)), set(range(n)), []
     while rows:
         pivot = _best(values, present, rows, columns)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive import pivots
+from derive import linearise, pivots
 from derive.completion import SystemTape, lower_system
 from derive.drive import Body, Drive, System
 from derive.limits import singular_function
@@ -57,6 +57,7 @@ class Schedule:
     tape: Tape
     lower: Lowering
     residual: list[int] = field(default_factory=list)
+    linear: linearise.Linear | None = None
     jacobian: list[list[int]] = field(default_factory=list)
     scales: list[int] = field(default_factory=list)
     step: list[int] = field(default_factory=list)
@@ -93,7 +94,8 @@ def schedule(drive):
 
     plan.systems = [lower_system(system, drive.parameters) for system in drive.systems]
     plan.guards = [plan.lower(g.positive) for g in drive.guards]
-    plan.residual, plan.jacobian = _system(plan, drive.residual, plan.unknowns)
+    plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
+    plan.jacobian = linearise.jacobian(tape, plan.linear)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
     plan.step, changes = pivots.newton_step(plan)
@@ -115,8 +117,7 @@ def _system(plan, residual, unknowns, fixed=None):
     nodes = [lower(r) for r in residual]
     if fixed:
         nodes = [_fixed(plan, i, fixed) for i in nodes]
-    jacobian = [[tape.derivative(r, lower(u)) for u in unknowns] for r in nodes]
-    return nodes, jacobian
+    return nodes, linearise.linearise(tape, nodes, [lower(u) for u in unknowns])
 
 
 def _fixed(plan, node, values):
@@ -125,7 +126,8 @@ def _fixed(plan, node, values):
 
 def _start(plan, start: System):
     unknowns = [u.symbol for u in start.unknowns]
-    plan.start_residual, plan.start_jacobian = _system(plan, start.residual, unknowns, start.fixed)
+    plan.start_residual, linear = _system(plan, start.residual, unknowns, start.fixed)
+    plan.start_jacobian = linearise.jacobian(plan.tape, linear)
     plan.start_scales = [plan.lower(u.scale) for u in start.unknowns]
     plan.start_guess = [plan.lower(plan.drive.guess[u]) for u in unknowns]
     solution = (_fixed(plan, plan.lower(start.outputs[u]), start.fixed) for u in plan.unknowns)

@@ -133,7 +133,20 @@ class Tape:
             return self.neg(self.mul(inner, b))
         if (inner := self._negated(b)) is not None:
             return self.neg(self.mul(a, inner))
+        if self.stages[a] > self.stages[b]:
+            a, b = b, a
+        if (split := self._early_factor(b)) is not None and self.stages[a] < self.stages[b]:
+            early, late = split
+            return self.mul(self.mul(a, early), late)
         return self._new("mul", (a, b))
+
+    def _early_factor(self, i):
+        """(early, late) if the node is the product of an early-bound value and a later one."""
+        node = self.nodes[i]
+        if node.op != "mul":
+            return None
+        early, late = sorted(node.args, key=lambda k: self.stages[k])
+        return (early, late) if self.stages[early] < self.stages[late] else None
 
     def div(self, a, b):
         p, q = self.const_value(a), self.const_value(b)
@@ -149,6 +162,8 @@ class Tape:
             return self.neg(self.div(inner, b))
         if (inner := self._negated(b)) is not None:
             return self.neg(self.div(a, inner))
+        if self.stages[b] < self.stages[a]:
+            return self.mul(a, self.div(self.constant(1), b))
         return self._new("div", (a, b))
 
     def sqrt(self, a):
@@ -213,10 +228,14 @@ class Tape:
         return self._derivatives[i, variable]
 
     def _rule(self, i, variable):
-        node = self.nodes[i]
-        if not node.args:
+        if not self.nodes[i].args:
             return self.constant(1 if i == variable else 0)
-        d = [self._derivatives[a, variable] for a in node.args]
+        return self.rule(i, {a: self._derivatives[a, variable] for a in self.nodes[i].args})
+
+    def rule(self, i, derivatives):
+        """The chain rule at one node, given the derivative of each of its arguments."""
+        node = self.nodes[i]
+        d = [derivatives[a] for a in node.args]
         if all(self.const_value(k) == 0 for k in d):
             return self.constant(0)
         a, b = node.args if len(node.args) == 2 else (node.args[0], None)

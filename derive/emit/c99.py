@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from derive.drive import PATH
 from derive.emit import approximation
+from derive.emit.order import latency_order
 from derive.emit.render import render
 from derive.schedule import Schedule
 from derive.tape import Lowering, Stage, Tape
@@ -30,6 +31,26 @@ class Body:
     operations: int
 
 
+def estrin(name, variable, coefficients):
+    """A polynomial (lowest power first) by Estrin's scheme: few operations wait for one another."""
+    statements, terms, power, degree = [], [number(c) for c in coefficients], variable, 1
+    while len(terms) > 1:
+        joined = []
+        for k in range(0, len(terms) - 1, 2):
+            value = f"{terms[k]} + {power} * {terms[k + 1]}"
+            if len(terms) == 2:
+                joined.append(value)
+            else:
+                joined.append(f"{name}{degree}_{k // 2}")
+                statements.append(f"const double {joined[-1]} = {value};")
+        terms = joined + terms[len(terms) - len(terms) % 2 :]
+        if len(terms) > 1:
+            degree *= 2
+            statements.append(f"const double {name}_{variable}{degree} = {power} * {power};")
+            power = f"{name}_{variable}{degree}"
+    return Body(tuple(statements), tuple(terms), 0)
+
+
 class Printer:
     """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read."""
 
@@ -44,7 +65,7 @@ class Printer:
         Returns the body and ``known`` extended by what it computed.
         """
         operands = dict(known or {})
-        order = self.tape.needed(outputs, operands.keys() | self.leaves.keys())
+        order = latency_order(self.tape, self.tape.needed(outputs, operands.keys() | self.leaves.keys()))
         statements = []
         for i in order:
             statements += self._statement(i, operands)
@@ -147,6 +168,7 @@ def header(plan: Schedule, description: dict, model_source: str):
         systems=[_system(system, drive) for system in plan.systems],
         literal=number,
         approximation=approximation,
+        estrin=estrin,
     )
 
 

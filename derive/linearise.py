@@ -1,0 +1,97 @@
+"""Linearisation by way of the angles.
+
+An angle on which several unknowns act (the sum in a rotation) is treated as a variable of its own: everything behind
+it is differentiated by it once, not once for each unknown. The result is a sparse linear system in the changes of the
+unknowns and of these angles; eliminating the angles gives the Jacobian.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The tangent system: ``matrix`` · (changes of the unknowns, changes of the angles) = (−residual, 0).
+
+    The first rows belong to the residual; row k of the rest says what changes angle k, which has −1 there.
+    """
+
+    matrix: list
+    unknowns: int
+
+    @property
+    def angles(self):
+        return len(self.matrix) - self.unknowns
+
+
+def linearise(tape, residual, unknowns):
+    """The :class:`Linear` system of as many residual nodes as unknown (input) nodes."""
+    angles = _angles(tape, residual, unknowns)
+    partial = _Partials(tape, angles)
+    columns = [*unknowns, *angles]
+    matrix = [[partial(row, x) for x in columns] for row in residual]
+    for k, angle in enumerate(angles):
+        later = len(angles) - k - 1
+        row = [partial(angle, x) for x in columns[: len(unknowns) + k]]
+        matrix.append([*row, tape.constant(-1), *[tape.constant(0)] * later])
+    return Linear(matrix, len(unknowns))
+
+
+def jacobian(tape, linear):
+    """Nodes of ∂residual/∂unknowns, row by row: the angles eliminated in the order in which they are computed."""
+    n = linear.unknowns
+    turning = []
+
+    def total(row):
+        values = row[:n]
+        for slope, change in zip(row[n:], turning, strict=False):
+            values = [tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True)]
+        return values
+
+    for row in linear.matrix[n:]:
+        turning.append(total(row))
+    return [total(row) for row in linear.matrix[:n]]
+
+
+def _angles(tape, outputs, inputs):
+    """Arguments of sines and cosines that depend on the inputs and are none, in order of evaluation."""
+    active, found = set(inputs), {}
+    for i in tape.needed(outputs, active):
+        node = tape.nodes[i]
+        if not active & set(node.args):
+            continue
+        active.add(i)
+        if node.op in ("sin", "cos"):
+            found[node.args[0]] = None
+    return [i for i in found if i not in inputs]
+
+
+class _Partials:
+    """Derivatives by a variable while the other angles are held."""
+
+    def __init__(self, tape, angles):
+        self.tape = tape
+        self.angles = set(angles)
+        self._done = {}
+
+    def __call__(self, i, variable):
+        """∂(node i)/∂variable; node i itself may be an angle."""
+        stack = [i]
+        while stack:
+            top = stack[-1]
+            args = self.tape.nodes[top].args
+            missing = [a for a in args if not self._held(a, variable) and (a, variable) not in self._done]
+            if missing:
+                stack.extend(missing)
+                continue
+            slopes = {a: self._slope(a, variable) for a in args}
+            self._done[top, variable] = self.tape.rule(top, slopes) if args else self._slope(top, variable)
+            stack.pop()
+        return self._slope(i, variable) if i == variable else self._done[i, variable]
+
+    def _held(self, i, variable):
+        return i == variable or i in self.angles or not self.tape.nodes[i].args
+
+    def _slope(self, i, variable):
+        if self._held(i, variable):
+            return self.tape.constant(1 if i == variable else 0)
+        return self._done[i, variable]
