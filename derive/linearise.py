@@ -54,15 +54,15 @@ def jacobian(tape, linear):
 
 def _angles(tape, outputs, inputs):
     """Arguments of sines and cosines that depend on the inputs and are none, in order of evaluation."""
-    active, found = set(inputs), {}
-    for i in tape.needed(outputs, active):
+    active, turned = set(inputs), set()
+    order = tape.needed(outputs, active)
+    for i in order:
         node = tape.nodes[i]
-        if not active & set(node.args):
-            continue
-        active.add(i)
-        if node.op in ("sin", "cos"):
-            found[node.args[0]] = None
-    return [i for i in found if i not in inputs]
+        if active & set(node.args):
+            active.add(i)
+            if node.op in ("sin", "cos"):
+                turned.add(node.args[0])
+    return [i for i in order if i in turned]
 
 
 class _Partials:
