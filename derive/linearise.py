@@ -53,15 +53,15 @@ def jacobian(tape, linear):
 
 
 def _angles(tape, outputs, inputs):
-    """Arguments of sines and cosines that depend on the inputs and are none, in order of evaluation."""
-    active, turned = set(inputs), set()
-    order = tape.needed(outputs, active)
+    """Arguments of sines and cosines that depend on more than one input, in order of evaluation."""
+    acting = {i: {i} for i in inputs}
+    turned = set()
+    order = tape.needed(outputs, set(inputs))
     for i in order:
         node = tape.nodes[i]
-        if active & set(node.args):
-            active.add(i)
-            if node.op in ("sin", "cos"):
-                turned.add(node.args[0])
+        acting[i] = set().union(*(acting.get(a, ()) for a in node.args))
+        if node.op in ("sin", "cos") and len(acting[i]) > 1:
+            turned.add(node.args[0])
     return [i for i in order if i in turned]
 
 
