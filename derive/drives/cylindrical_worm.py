@@ -192,6 +192,29 @@ def _threaded_body(name, radius, lead, angle, disc, arc):
     )
 
 
+def cutting(phi_h):
+    """Hob body to wheel body: the hob turns by φ_h, the blank by T_h/T2·φ_h about minus its axis."""
+    return Rz(T_h / T_2 * phi_h) @ Rx(Sigma_gen) @ translation(x=-A_gen) @ Rz(phi_h)
+
+
+def mounting(phi_2):
+    """Wheel body to the fixed frame in mesh, with the errors of assembly."""
+    return (
+        translation(x=A + error_distance.symbol)
+        @ Rx(-(Sigma + error_horizontal.symbol))
+        @ Ry(error_vertical.symbol)
+        @ translation(z=error_axial.symbol)
+        @ Rz(-phi_2)
+    )
+
+
+def helicoids(worm_profile, hob_profile, definitions):
+    """The worm and the hob: flanks of the same kind, each with its own data."""
+    worm = _threaded_body("worm", r_1, lam, alpha, wheel_radius, arc_radius)
+    hob = _threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius)
+    return TOOLS[worm_profile](worm, definitions), TOOLS[hob_profile](hob, definitions)
+
+
 def cylindrical_worm(worm_profile, hob_profile):
     """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC")."""
     definitions = Definitions()
@@ -200,14 +223,9 @@ def cylindrical_worm(worm_profile, hob_profile):
     ratio = definitions.let("ratio", T_1 / T_2, "T1/T2")
     phi_2 = ratio * phi_1 + error
 
-    # The worm and the hob are helicoids of the same kind.
-    worm = TOOLS[worm_profile](_threaded_body("worm", r_1, lam, alpha, wheel_radius, arc_radius), definitions)
-    hob = TOOLS[hob_profile](_threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius), definitions)
-
-    # The hob turns by φ_h, the blank by T_h/T2·φ_h about minus its axis.
+    worm, hob = helicoids(worm_profile, hob_profile, definitions)
     phi_h = Quantity("phi_hob", "rad", "angle of the hob in cutting", "gen")
-    cutting = Rz(T_h / T_2 * phi_h) @ Rx(Sigma_gen) @ translation(x=-A_gen) @ Rz(phi_h)
-    wheel = envelope(hob.flank, cutting, phi_h)
+    wheel = envelope(hob.flank, cutting(phi_h), phi_h)
     psi_h = hob.flank.parameters[1]
     wheel, psi = merge_sum(wheel, psi_h, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
     wheel, _ = explicit(wheel)
@@ -223,17 +241,10 @@ def cylindrical_worm(worm_profile, hob_profile):
         point=body_point("pinion"),
         margins=_worm_margins(body_point("pinion"), worm),
     )
-    mounting = (
-        translation(x=A + error_distance.symbol)
-        @ Rx(-(Sigma + error_horizontal.symbol))
-        @ Ry(error_vertical.symbol)
-        @ translation(z=error_axial.symbol)
-        @ Rz(-phi_2)
-    )
     wheel_body = Body(
         "wheel",
         wheel,
-        mounting,
+        mounting(phi_2),
         reference={t_h: hob.pitch_point, psi: sp.Integer(0)},
         point=body_point("wheel"),
         margins=_wheel_margins(body_point("wheel"), hob, psi, definitions),
