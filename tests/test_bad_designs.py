@@ -1,0 +1,97 @@
+"""Bad input: an error that names key, value, reason and remedy; exit status 2; nothing already written is lost."""
+
+import subprocess
+import sys
+
+import pytest
+
+from meshwright import DesignError, Drive, design
+from meshwright.cli import main
+
+CASES = [
+    ({"design.normal_module_mm": 0.0}, ("normal_module_mm", "0", "greater than 0")),
+    ({"design.normal_module_mm": -2.0}, ("normal_module_mm", "-2", "greater than 0")),
+    ({"design.normal_module_mm": float("nan")}, ("normal_module_mm", "nan", "finite")),
+    ({"design.normal_module_mm": float("inf")}, ("normal_module_mm", "inf", "finite")),
+    ({"design.normal_module_mm": "2"}, ("normal_module_mm", "'2'", "number")),
+    ({"design.normal_module_mm": True}, ("normal_module_mm", "True", "number")),
+    ({"design.worm_threads": 1.5}, ("worm_threads", "1.5", "whole number")),
+    ({"design.worm_threads": 0}, ("worm_threads", "0", "greater than 0")),
+    ({"design.worm_lead_angle_deg": 90.0}, ("worm_lead_angle_deg", "90", "less than 90")),
+    ({"design.worm_lead_angle_deg": 0.0}, ("worm_lead_angle_deg", "greater than 0")),
+    ({"design.shaft_angle_deg": 180.0}, ("shaft_angle_deg", "180", "less than 180")),
+    ({"design.shaft_angle_deg": 178.0}, ("shaft_angle_deg", "178", "lead angle", "below 180")),
+    ({"design.worm_pitch_radius_mm": 19.0}, ("worm_pitch_radius_mm", "determine each other", "exactly one")),
+    ({"design.axial_module_mm": 2.0}, ("axial_module_mm", "determine each other", "exactly one")),
+    ({"design.hob_pitch_radius_mm": 0.9}, ("hob_pitch_radius_mm", "0.9", "too thin", "m_n")),
+    ({"design.pitch_line_shift_mm": 10.0}, ("pitch_line_shift_mm", "10", "groove", "change")),
+    ({"design.worm_profile": "ZX"}, ("worm_profile", "ZX", "use")),
+    ({"design.worm_profile": "ZK"}, ("grinding_wheel_radius_mm", "without it", "add")),
+    ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
+    ({"misalignment.tilt_deg": 2.0}, ("tilt_deg", "unknown key", "remove it")),
+    ({"flank": "top"}, ("flank", "top", "right", "left")),
+    ({"drive": "cylindrical-wurm"}, ("drive", "cylindrical-wurm", "cylindrical-worm")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "words"), CASES)
+def test_a_bad_design_is_refused_with_key_value_reason_and_remedy(changes, words):
+    tables = design.changed(design.read("recess-action-full"), changes)
+    with pytest.raises(DesignError) as caught:
+        Drive.from_tables(tables)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_missing_keys_are_named():
+    tables = design.read("recess-action-full")
+    del tables["design"]["wheel_teeth"]
+    with pytest.raises(DesignError, match=r"design\.wheel_teeth: the key is missing; add it"):
+        Drive.from_tables(tables)
+    tables = design.read("recess-action-full")
+    del tables["design"]["normal_module_mm"]
+    with pytest.raises(DesignError, match="normal_module_mm and axial_module_mm.*exactly one"):
+        Drive.from_tables(tables)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["tca", "no-such-design"],
+        ["tca", "recess-action-full", "--phi-deg", "0:10"],
+        ["tca", "recess-action-full", "--phi-deg", "10:0:1"],
+        ["tca", "recess-action-full", "--set", "design.normal_module_mm"],
+        ["tca", "recess-action-full", "--set", "design.normal_module_mm=0"],
+        ["tca", "recess-action-full", "--phi-deg", "500", "--json", "/no/such/folder/out.json"],
+    ],
+)
+def test_the_command_line_answers_bad_input_with_status_two_and_no_traceback(arguments, capsys):
+    assert main(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("meshwright: ")
+    assert "Traceback" not in captured.err
+
+
+def test_a_file_that_is_not_toml_is_refused(tmp_path, capsys):
+    path = tmp_path / "broken.toml"
+    path.write_text("drive = \n", encoding="utf-8")
+    assert main(["tca", str(path)]) == 2
+    assert "not a TOML file" in capsys.readouterr().err
+
+
+def test_a_failed_command_keeps_the_file_already_there(tmp_path):
+    out = tmp_path / "out.json"
+    assert main(["tca", "recess-action-full", "--phi-deg", "500", "--json", str(out)]) == 0
+    before = out.read_text(encoding="utf-8")
+    assert main(["tca", "recess-action-full", "--set", "design.worm_threads=0", "--json", str(out)]) == 2
+    assert out.read_text(encoding="utf-8") == before
+    assert [p.name for p in tmp_path.iterdir()] == ["out.json"]
+
+
+def test_the_program_starts_as_a_process():
+    done = subprocess.run(
+        [sys.executable, "-m", "meshwright.cli", "tca", "nothing"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
