@@ -28,7 +28,7 @@ CASES = [
     ({"design.worm_profile": "ZX"}, ("worm_profile", "ZX", "use")),
     ({"design.worm_profile": "ZK"}, ("grinding_wheel_radius_mm", "without it", "add")),
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
-    ({"misalignment.tilt_deg": 2.0}, ("tilt_deg", "unknown key", "remove it")),
+    ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),
     ({"drive": "cylindrical-wurm"}, ("drive", "cylindrical-wurm", "cylindrical-worm")),
 ]  # fmt: skip

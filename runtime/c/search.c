@@ -67,7 +67,7 @@ void mw_search(const mw_model *m, const double *s, const double *x0, double *x, 
 {
     double scale[MW_MAX_UNKNOWNS], trial[MW_MAX_UNKNOWNS];
     const mw_body *wheel = &m->bodies[1];
-    int best = worth(m, s, x, info);
+    int best = worth(m, s, x, info), left = !mw_within_bounds(m, x);
     if (best >= OFF_LIMITS || 3 + m->bodies[0].conditions > m->nx || wheel->parameters != 2) return;
     m->scale(s, scale);
     for (size_t a = 0; a < sizeof ACROSS / sizeof ACROSS[0]; a++)
@@ -80,6 +80,7 @@ void mw_search(const mw_model *m, const double *s, const double *x0, double *x, 
             if (!match(m, s, scale, trial)) continue;
             mw_refine(m, s, trial, &attempt);
             attempt.iterations += info->iterations;
+            left |= attempt.status == MW_LEFT_FLANK;
             if (!(fabs(trial[along] - x0[along]) <= REACH_ALONG * scale[along]) ||
                 !(fabs(trial[across] - x0[across]) <= REACH_ACROSS * scale[across])) continue;
             const int found = worth(m, s, trial, &attempt);
@@ -90,4 +91,5 @@ void mw_search(const mw_model *m, const double *s, const double *x0, double *x, 
             }
             if (best == REGULAR) return;
         }
+    if (best == FAILED && info->status == MW_DIVERGED) info->status = left ? MW_LEFT_FLANK : MW_NO_CONTACT;
 }

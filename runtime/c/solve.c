@@ -134,7 +134,7 @@ int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *
         if (ended_well(start(m, s, x, info))) raise(m, p, phi, 0.0, s, work, x, info);
         setup_share(m, p, 1.0, phi, s, work);
     }
-start_values(m, s, near, &started);
+    start_values(m, s, near, &started);
     mw_search(m, s, near, x, info);
     return info->status;
 }
