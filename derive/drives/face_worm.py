@@ -314,6 +314,7 @@ def _wheel_margins(point, u_g, cutter):
     radius = sp.sqrt(x**2 + y**2)
     return (
         Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in)),
+        Margin("off_tip", "tip", k.addendum.symbol - u_g * sp.cos(alpha_g)),
         Margin("off_root", "root", u_g - cutter.junction),
     )
 

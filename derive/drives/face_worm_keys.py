@@ -47,6 +47,11 @@ blade_angle = parameter(
 fillet_radius = parameter("fillet_radius_mm", "rho_f", "edge radius of the blade", domain=POSITIVE)
 blade_depth = parameter("blade_depth_mm", "h_d", "depth of the blade below P", domain=POSITIVE)
 
+addendum = parameter(
+    "gear_addendum_mm", "h_a", "height of the gear tooth above P, along the head-cutter's axis", table=Table.BLANK,
+    domain=POSITIVE,
+)  # fmt: skip
+
 hob_phase = parameter(
     "hob_phase_deg", "theta_0", "phase of the reference hob: it cuts at mid profile in the section of L at angle 0",
     table=Table.PLACEMENT,
@@ -102,11 +107,12 @@ PARAMETERS = (
     profile_angle, plunge, blade_parabola, pitch_rule, cutter_radius, tilt_change, blade_angle, fillet_radius, blade_depth,
     hob_phase, *hob_at_pitch_point, *hob_at_inner, *hob_at_outer, *inner_point, *pitch_point, *outer_point,
     *axis_x, *axis_y, *axis_z, *origin,
-    error_offset, error_axial, error_angle, separation,
+    error_offset, error_axial, error_angle, addendum, separation,
 )  # fmt: skip
 
-#: The tip of the blade of a standard design: 0.4 mm rounding at an axial module of 1.334 mm, depth 1.25 modules.
+#: A standard design: 0.4 mm rounding at an axial module of 1.334 mm, depth 1.25 modules, addendum 1 module.
 RULES = (
+    Rule(addendum.symbol, axial_module.symbol),
     Rule(fillet_radius.symbol, sp.Rational(400, 1334) * axial_module.symbol),
     Rule(blade_depth.symbol, sp.Rational(5, 4) * axial_module.symbol),
 )

@@ -26,6 +26,9 @@ typedef struct mw_name {
     double factor, lower, upper;
 } mw_name;
 
+/* A surface: q[parameters] -> point, unit outward normal, tangents (3 each), regular, margins, conditions with slopes. */
+typedef void (*mw_surface)(const double *s, const double *q, double *o);
+
 /* A member. In the observation o of a solution: its point, body frame, at o[point]; at o[at], for each surface
  * parameter, d(point)/d(parameter) and the tangential part of d(unit normal)/d(parameter), 3 numbers each, fixed
  * frame; then the slopes of each implicit condition; o[regular] < 0 beyond a singular line; its margins, negative
@@ -38,8 +41,7 @@ typedef struct mw_body {
     const char *const *flags;    /* flag of each margin */
     const char *const *events;   /* event of each margin */
     int outputs;                 /* length of what flank() writes */
-    /* q[parameters] -> point, unit outward normal, tangents (3 each), regular, margins, conditions with slopes */
-    void (*flank)(const double *s, const double *q, double *o);
+    mw_surface flank;
 } mw_body;
 
 /* Equations solved once per design: their solution y[n] fills in open parameters. q[np + 1] are the parameters followed
@@ -55,11 +57,11 @@ typedef struct mw_system {
     void (*fill)(const double *y, double *q);
 } mw_system;
 
-/* A surface of a member beside its flank, or a surface from which the design was derived; flank() as in mw_body. */
+/* A surface of a member beside its flank, or a surface from which the design was derived. */
 typedef struct mw_region {
     const char *member, *name;
     int parameters, conditions, outputs;
-    void (*flank)(const double *s, const double *q, double *o);
+    mw_surface flank;
 } mw_region;
 
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,

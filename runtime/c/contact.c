@@ -122,7 +122,7 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
     return c->line ? MW_LINE_CONTACT : MW_CONVERGED;
 }
 
-void mw_flank(const mw_body *b, const double *s, const double *q, size_t n, double *o)
+void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o)
 {
-    for (size_t k = 0; k < n; k++, q += b->parameters, o += b->outputs) b->flank(s, q, o);
+    for (size_t k = 0; k < n; k++, q += parameters, o += outputs) flank(s, q, o);
 }

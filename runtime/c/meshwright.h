@@ -81,8 +81,8 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
-/* A flank at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
-void mw_flank(const mw_body *b, const double *s, const double *q, size_t n, double *o);
+/* The flank of a body, or of a region, at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
+void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o);
 
 /* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
 int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);

@@ -68,7 +68,8 @@ class Flank:
         k, n, c = len(self.parameters), len(q), self.body["conditions"]
         rows = np.empty((n, self.body["outputs"]))
         buffers = (ffi.from_buffer("double[]", np.ascontiguousarray(a)) for a in (self.state, q))
-        library().mw_flank(ffi.addressof(self.pointer), *buffers, n, ffi.from_buffer("double[]", rows))
+        results = ffi.from_buffer("double[]", rows)
+        library().mw_flank(self.pointer.flank, k, self.body["outputs"], *buffers, n, results)
         at = 7 + 3 * k
         margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}
         return FlankPoints(
