@@ -143,7 +143,7 @@ def _merged(left, right):
 
 def _normal_form(factors):
     """Merge and reorder neighbours until nothing changes; translations only move left, so this ends."""
-    factors = list(factors)
+    factors = [f for f in factors if not (isinstance(f, Rotation) and f.angle == 0)]
     at = 0
     while at + 1 < len(factors):
         merged = _merged(factors[at], factors[at + 1])

@@ -1,0 +1,74 @@
+"""The chain language: products, merging, velocities, and the equation of meshing as a sum of powers."""
+
+import mpmath
+import pytest
+import sympy as sp
+
+from derive import vectors as v
+from derive.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, swing, translation
+
+a, b, p, q, t = sp.symbols("a b p q t", real=True)
+POINT = sp.symbols("x y z", real=True)
+NUMBERS = dict(
+    zip((a, b, p, q, t, *POINT), map(sp.Rational, ("0.7", "-1.3", "2.5", "0.4", "0.9", "1.1", "-2.2", "3.3")), strict=True)
+)
+
+
+def _close(left, right):
+    for lhs, rhs in zip(left, right, strict=True):
+        assert mpmath.almosteq(sp.N(lhs.subs(NUMBERS), 30), sp.N(rhs.subs(NUMBERS), 30), abs_eps=1e-25)
+
+
+CHAINS = [
+    Rz(a) @ Rz(b) @ translation(z=p * b),
+    Rx(a) @ translation(q, p * a, 0) @ Ry(b) @ screw(t, p),
+    translation(x=-p) @ swing("y", a * b, (p, 0, q)) @ Rz(b),
+    Rz(-a) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, b)) @ Rx(b),
+]
+
+
+@pytest.mark.parametrize("motion", CHAINS)
+@pytest.mark.parametrize("variable", [a, b])
+def test_local_velocity_is_the_derivative_turned_into_the_body(motion, variable):
+    moved = motion.point(POINT)
+    derivative = tuple(sp.diff(c, variable) for c in moved)
+    _close(motion.direction(motion.local_velocity(variable, POINT)), derivative)
+
+
+@pytest.mark.parametrize("motion", CHAINS)
+def test_power_is_the_normal_component_of_the_velocity(motion):
+    normal = (sp.Rational(1, 3), q, sp.Integer(2))
+    derivative = tuple(sp.diff(c, b) for c in motion.point(POINT))
+    _close([motion.power(b, POINT, normal)], [v.dot(motion.direction(normal), derivative)])
+
+
+@pytest.mark.parametrize("motion", CHAINS)
+def test_the_inverse_undoes_a_motion(motion):
+    _close(motion.inverse().point(motion.point(POINT)), POINT)
+
+
+def test_rotations_about_one_axis_merge_through_a_translation_along_it():
+    motion = Rz(a) @ translation(z=p) @ Rz(b)
+    assert [f.angle for f in motion.factors if isinstance(f, Rotation)] == [a + b]
+
+
+def test_opposite_rotations_vanish():
+    assert (Rz(a) @ Rz(-a)) == Motion()
+
+
+def test_substitution_merges_what_becomes_equal():
+    motion = Rz(a) @ Rx(t) @ Rz(b)
+    assert len(motion.substitute({t: sp.Integer(0)}).factors) == 3
+    assert len((Rz(a) @ Rz(b)).substitute({b: -a}).factors) == 0
+
+
+def test_a_swing_about_a_far_axis_keeps_its_digits():
+    radius, point = 1e12, (0.5, 0.0, 0.0)
+    r = sp.Symbol("r", real=True)
+    moved = swing("y", sp.Float(2) / r, (-r, 0, 0)).point(tuple(map(sp.sympify, point)))
+    function = sp.lambdify(r, moved, "math")
+    x, _, z = function(radius)
+    with mpmath.workdps(50):
+        exact = (mpmath.mpf(radius) + 0.5) * mpmath.cos(2 / mpmath.mpf(radius)) - mpmath.mpf(radius)
+        assert x == pytest.approx(float(exact), abs=1e-15)
+        assert z == pytest.approx(float(-(mpmath.mpf(radius) + 0.5) * mpmath.sin(2 / mpmath.mpf(radius))), abs=1e-15)
