@@ -8,7 +8,7 @@ SHIP   := runtime/meshwright/_generated
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate build check run test solver test-fe
+.PHONY: setup generate build check run lint test solver test-fe
 
 setup: $(READY)
 
@@ -46,6 +46,10 @@ run: setup
 	$(MAKE) --no-print-directory generate
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
+
+# Style and unused names.
+lint: setup
+	$(PY) -m ruff check derive runtime tests
 
 test: build check solver
 	$(PY) -m pytest -m 'not slow'

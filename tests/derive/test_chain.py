@@ -16,7 +16,8 @@ NUMBERS = dict(
 
 def _close(left, right):
     for lhs, rhs in zip(left, right, strict=True):
-        assert mpmath.almosteq(sp.N(lhs.subs(NUMBERS), 30), sp.N(rhs.subs(NUMBERS), 30), abs_eps=1e-25)
+        difference = sp.sympify(lhs).subs(NUMBERS) - sp.sympify(rhs).subs(NUMBERS)
+        assert abs(sp.N(difference, 30, chop=1e-28)) < 1e-25
 
 
 CHAINS = [
@@ -58,8 +59,8 @@ def test_opposite_rotations_vanish():
 
 def test_substitution_merges_what_becomes_equal():
     motion = Rz(a) @ Rx(t) @ Rz(b)
-    assert len(motion.substitute({t: sp.Integer(0)}).factors) == 3
-    assert len((Rz(a) @ Rz(b)).substitute({b: -a}).factors) == 0
+    assert motion.substitute({t: sp.Integer(0)}) == Rz(a + b)
+    assert (Rz(a) @ Rz(b)).substitute({b: -a}) == Motion()
 
 
 def test_a_swing_about_a_far_axis_keeps_its_digits():
