@@ -186,6 +186,7 @@ class Drive:
             semi_axes=semi_axes,
             flags=tuple(flags),
             margins=margins,
+            solutions=np.array([row.x for row in rows]).reshape(n, m.nx),
         )
 
 

@@ -1,8 +1,8 @@
-"""Where the members stand: body frames in the fixed frame, read off a solved contact.
+"""Where the members stand: body frames in the fixed frame, read off any point of their flanks.
 
 A flank's point, normal and first tangent are known in its body frame (from the flank itself) and in the fixed frame
-(from the observation of the contact); the rigid motion between the two is the placement. No drive's motion is
-written down a second time.
+(from the observation); the rigid motion between the two is the placement. No drive's motion is written down a
+second time.
 """
 
 from dataclasses import dataclass
@@ -24,16 +24,23 @@ class Placements:
 
 
 def placements(drive, angles):
-    """:class:`Placements` of both members at ascending input angles (rad); line contact is placed as well."""
+    """:class:`Placements` of both members in contact at ascending input angles (rad); line contact is placed as well."""
     angles = np.asarray(angles, dtype=float)
     unknowns, _ = drive.trace(angles)
+    return placements_at(drive, angles, unknowns)
+
+
+def placements_at(drive, angles, unknowns):
+    """:class:`Placements` of both members at input angles (N,) with the wheel angle, whether in contact or not, of
+    ``unknowns`` (N, nx).
+    """
     matrices = {}
     for number, body in enumerate(drive.design.description["bodies"]):
         at_contact = drive.flank(body["name"])(unknowns[:, body["unknowns"]])
         in_body = _frames(at_contact.points, at_contact.normals, at_contact.tangents[:, 0])
         in_fixed = _frames(*_observed(drive, angles, unknowns, number, body))
-        matrices[body["name"]] = in_fixed @ _inverse(in_body)
-    return Placements(angles, matrices)
+        matrices[body["name"]] = in_fixed @ inverse(in_body)
+    return Placements(np.asarray(angles), matrices)
 
 
 def _observed(drive, angles, unknowns, number, body):
@@ -57,11 +64,11 @@ def _frames(points, normals, tangents):
     return frames
 
 
-def _inverse(frames):
-    """Inverse rigid motions."""
-    rotation = np.swapaxes(frames[:, :3, :3], 1, 2)
-    inverse = np.zeros_like(frames)
-    inverse[:, :3, :3] = rotation
-    inverse[:, :3, 3] = -np.einsum("nij,nj->ni", rotation, frames[:, :3, 3])
-    inverse[:, 3, 3] = 1.0
-    return inverse
+def inverse(motions):
+    """Inverse rigid motions (…, 4, 4)."""
+    rotation = np.swapaxes(motions[..., :3, :3], -1, -2)
+    result = np.zeros_like(motions)
+    result[..., :3, :3] = rotation
+    result[..., :3, 3] = -np.einsum("...ij,...j->...i", rotation, motions[..., :3, 3])
+    result[..., 3, 3] = 1.0
+    return result

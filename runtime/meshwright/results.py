@@ -20,7 +20,8 @@ class TCA:
     Angles in rad, lengths in mm. ``points``, ``normals`` (out of the pinion) and ``major`` in the fixed frame,
     ``body_points[name]`` in the frame of each body: (N, 3). ``unknowns[name]``: (N,). ``curvatures``: (N, 2), relative,
     smaller first, 1/mm. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
-    ``reference_error`` is the transmission error at the reference angle.
+    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of the
+    right-hand model in its own order, NaN where there is no solution.
     """
 
     angles: np.ndarray
@@ -41,6 +42,7 @@ class TCA:
     semi_axes: np.ndarray
     flags: tuple[tuple[str, ...], ...]
     margins: dict[str, np.ndarray]
+    solutions: np.ndarray
 
     @property
     def relative_error(self):

@@ -3,21 +3,33 @@
 Exit status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
 """
 
+import numpy as np
+
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
+from meshwright.errors import UsageError
 from meshwright.files import write_csv, write_json, write_text
+from meshwright.pattern import contour
 
 
 def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
+    parser.add_argument(
+        "--contour", type=int, metavar="N", help="add the contact patch by separation in N directions, 3 or more (JSON)"
+    )
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE", help="write as CSV")
 
 
 def run(options):
     drive = common.drive_of(options)
+    if options.contour is not None and (options.contour < 3 or not options.json):
+        raise UsageError(f"--contour {options.contour}: needs 3 or more directions and --json; for example --contour 72 --json -")
     result = drive.tca(common.angles_of(options, drive))
     points = result.to_points()
+    if options.contour is not None:
+        _add_contours(points, drive, result, options.contour)
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -26,6 +38,22 @@ def run(options):
     if not options.json and not options.csv:
         write_text("-", _table(drive, points))
     return 0 if result.complete else 1
+
+
+def _add_contours(points, drive, result, count):
+    """One-sided radii at the design's separation; ``radius_on_flank_mm`` stops at the edges of the flanks."""
+    with progress(len(points)) as step:
+        for point, angle in zip(points, result.angles, strict=True):
+            step(f"contact patch at {np.degrees(angle):.1f}°")
+            patch = contour(drive, angle, count, result=result)
+            point["contour"] = [] if patch is None else _radii(patch)
+
+
+def _radii(patch):
+    return [
+        {"direction_deg": float(d), "radius_mm": float(r) if np.isfinite(r) else None, "radius_on_flank_mm": float(e)}
+        for d, r, e in zip(np.degrees(patch.directions), patch.radii, patch.radii_on_flank, strict=True)
+    ]
 
 
 def _columns(points):
@@ -40,6 +68,8 @@ def _flat(point):
     for key, value in point.items():
         if isinstance(value, dict):
             flat |= {f"{key}.{inner}": v for inner, v in _flat(value).items()}
+        elif key == "contour":
+            continue
         elif key == "flags":
             flat[key] = " ".join(value)
         elif isinstance(value, list):
