@@ -14,123 +14,27 @@ import sympy as sp
 from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions
-from derive.drive import Body, Drive, Margin, System, body_point
+from derive.drive import Body, Drive, Margin, Region, System, body_point
+from derive.drives import spherical_keys as k
+from derive.drives.spherical_keys import PINION, WHEEL, Gear
 from derive.envelope import envelope, explicit
 from derive.surface import Surface
-from derive.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
+from derive.symbols import Guard, Quantity, Unknown
 from derive.tools.rack_section import SWEEPS, RackBody, RackTool
 
-POSITIVE = (0, sp.oo)
-
-flank = parameter("flank", "s", "cutting edge", table=Table.FLANK, choices=(("left", 1), ("right", -1)), default=1)
-module = parameter("module_mm", "m", "module", domain=POSITIVE, required=True)
-pressure_angle = parameter(
-    "pressure_angle_deg", "alpha", "pressure angle of the cutter", domain=(0, sp.pi / 2), required=True
-)
-face_width = parameter("face_width_mm", "F", "face width", domain=POSITIVE, required=True)
-edge_offset = parameter(
-    "edge_offset_mm", "a", "the straight edge reaches this far to both sides of the pitch line", domain=POSITIVE
-)
-half_space = parameter("half_space_mm", "b", "half width of the rack's space at the pitch line", domain=POSITIVE)
-
-error_distance = parameter(
-    "center_distance_mm", "dC", "centre distance error", table=Table.MISALIGNMENT, default=0
-)
-error_horizontal = parameter(
-    "horizontal_deg", "dh", "turn of the pinion axis about x", table=Table.MISALIGNMENT, default=0
-)
-error_vertical = parameter("vertical_deg", "dv", "turn of the pinion axis about y", table=Table.MISALIGNMENT, default=0)
-
-separation = parameter(
-    "separation_mm",
-    "delta",
-    "separation for contact ellipses",
-    table=Table.CONTACT,
-    domain=POSITIVE,
-    default=sp.Rational(632, 100000),
-)
-limit = parameter(
-    "limit",
-    "limit",
-    "what ends contact at the tips: the blanks of the gears, or the straight part of the cutter alone",
-    table=Table.CONTACT,
-    choices=(("tip", 1), ("cutter", -1)),
-    default=1,
-)
-
-
-@dataclass(frozen=True)
-class Gear:
-    """The design keys of one member."""
-
-    name: str
-    teeth: Parameter
-    sphere_radius: Parameter
-    face_width: Parameter
-    edge_offset: Parameter
-    half_space: Parameter
-    tip_addendum: Parameter
-
-    @classmethod
-    def of(cls, name, number):
-        def length(key, symbol, meaning, table=Table.DESIGN, **kind):
-            return parameter(f"{name}_{key}", f"{symbol}_{name}", f"{meaning} of the {name}", table=table,
-                             domain=POSITIVE, **kind)  # fmt: skip
-
-        return cls(
-            name,
-            parameter(f"{name}_teeth", f"T_{number}", f"teeth of the {name}", domain=POSITIVE, integer=True,
-                      required=True),
-            length("sphere_radius_mm", "R", "radius of the cutter's arc (convex or concave)"),
-            length("face_width_mm", "F", "face width"),
-            length("edge_offset_mm", "a", "edge offset"),
-            length("half_space_mm", "b", "half width of the rack's space"),
-            length("tip_addendum_mm", "h", "tip of the blank beyond the pitch circle at mid face", Table.BLANK),
-        )  # fmt: skip
-
-    @property
-    def parameters(self):
-        return (self.teeth, self.sphere_radius, self.face_width, self.edge_offset, self.half_space, self.tip_addendum)
-
-    @property
-    def pitch_radius(self):
-        return module.symbol * self.teeth.symbol / 2
-
-    def rules(self):
-        """What the pair shares unless a gear says otherwise; no tip where the cutter alone limits contact."""
-        return (
-            Rule(self.face_width.symbol, face_width.symbol),
-            Rule(self.edge_offset.symbol, edge_offset.symbol),
-            Rule(self.half_space.symbol, half_space.symbol),
-            Rule(self.tip_addendum.symbol, self.edge_offset.symbol * sp.sqrt(limit.symbol)),
-        )
-
-
-PINION, WHEEL = Gear.of("pinion", 1), Gear.of("wheel", 2)
-
-PARAMETERS = (
-    flank, module, pressure_angle, face_width, edge_offset, half_space, *PINION.parameters, *WHEEL.parameters,
-    error_distance, error_horizontal, error_vertical, separation, limit,
-)  # fmt: skip
-
-s, m, alpha = flank.symbol, module.symbol, pressure_angle.symbol
+s, m, alpha = k.flank.symbol, k.module.symbol, k.pressure_angle.symbol
+dC, dh, dv = k.error_distance.symbol, k.error_horizontal.symbol, k.error_vertical.symbol
 r_1, r_2 = PINION.pitch_radius, WHEEL.pitch_radius
-
-RULES = (
-    Rule(edge_offset.symbol, m),
-    Rule(half_space.symbol, sp.pi * m / 4),
-    *PINION.rules(),
-    *WHEEL.rules(),
-)
 
 
 @dataclass(frozen=True)
 class Tooth:
-    """A generated tooth flank: explicit in the parameters of its cutter."""
+    """A generated tooth: flank and fillet, explicit in the parameters of their cutter."""
 
     gear: Gear
     tool: RackTool
     surface: Surface
+    fillet: Surface
     generating_angle: sp.Expr
 
 
@@ -142,15 +46,23 @@ def _tooth(gear, form, definitions):
             pressure_angle=alpha,
             edge_offset=gear.edge_offset.symbol,
             half_space=gear.half_space.symbol,
+            tip_radius=gear.cutter_tip_radius.symbol,
             flank=s,
             sphere_radius=gear.sphere_radius.symbol,
         ),
         definitions,
     )
-    phi = Quantity(f"phi_gen_{gear.name}", "rad", f"turn of the {gear.name} in generation", "gen")
+    surface, phi = _rolled(tool.cutter, gear, f"phi_gen_{gear.name}")
+    fillet, _ = _rolled(tool.rounding, gear, f"phi_fillet_{gear.name}")
+    return Tooth(gear, tool, surface, fillet, phi)
+
+
+def _rolled(cutter, gear, angle):
+    """The envelope of a cutter's surface on the gear that rolls on it, and the turn of the gear in generation."""
+    phi = Quantity(angle, "rad", f"turn of the {gear.name} in generation", "gen")
     rolling = Rz(phi) @ translation(x=gear.pitch_radius, y=-gear.pitch_radius * phi)
-    surface, solved = explicit(envelope(tool.cutter, rolling, phi))
-    return Tooth(gear, tool, surface, solved.symbol)
+    surface, solved = explicit(envelope(cutter, rolling, phi))
+    return surface, solved.symbol
 
 
 def spherical(pinion_form, wheel_form):
@@ -168,18 +80,14 @@ def spherical(pinion_form, wheel_form):
 
     # A tooth of the pinion meets a space of the wheel: each is turned by half its tooth to the pitch point.
     to_pitch_point = [s * gear.half_space.symbol / gear.pitch_radius for gear in (PINION, WHEEL)]
-    pinion = _body(
-        pinion_tooth, Rx(error_horizontal.symbol) @ Ry(error_vertical.symbol) @ Rz(phi_1 - to_pitch_point[0])
-    )
-    wheel = _body(
-        wheel_tooth, translation(x=r_1 + r_2 + error_distance.symbol) @ Rz(sp.pi - phi_2 - to_pitch_point[1])
-    )
+    pinion = _body(pinion_tooth, Rx(dh) @ Ry(dv) @ Rz(phi_1 - to_pitch_point[0]))
+    wheel = _body(wheel_tooth, translation(x=r_1 + r_2 + dC) @ Rz(sp.pi - phi_2 - to_pitch_point[1]))
     return Drive(
         name=_name(pinion_form, wheel_form),
         family="spherical",
         title=f"{pinion_form} pinion with a {wheel_form} wheel",
-        parameters=PARAMETERS,
-        rules=RULES,
+        parameters=k.PARAMETERS,
+        rules=k.RULES,
         guards=_guards(pinion_tooth) + _guards(wheel_tooth),
         sizes=_sizes(definitions, pinion_tooth, wheel_tooth),
         instant=phi_1,
@@ -188,6 +96,7 @@ def spherical(pinion_form, wheel_form):
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
+        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s) for t in teeth),
         unknowns=(*_unknowns(pinion_tooth, wheel_tooth), *_unknowns(wheel_tooth, pinion_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
@@ -262,12 +171,17 @@ def _guards(tooth):
         Guard(
             gear.pitch_radius - a,
             f"the root of the {gear.name} lies beyond its axis: the edge offset must be below the pitch radius",
-            (gear.edge_offset.key, module.key, gear.teeth.key),
+            (gear.edge_offset.key, k.module.key, gear.teeth.key),
         ),
         Guard(
             sp.pi * m / 2 - b,
             f"no cutter is left between two teeth of the {gear.name}: the half space must be below π·m/2",
-            (gear.half_space.key, module.key),
+            (gear.half_space.key, k.module.key),
+        ),
+        Guard(
+            gear.full_rounding - gear.cutter_tip_radius.symbol + m / 10**9,
+            f"the cutter of the {gear.name} is not wide enough for its rounding: at most the radius of a fully round tip",
+            (gear.cutter_tip_radius.key, gear.edge_offset.key, gear.half_space.key),
         ),
     )
     if radius is None:
@@ -292,10 +206,17 @@ def _sizes(definitions, pinion, wheel):
             (f"{name}_base_radius_mm", gear.pitch_radius * sp.cos(alpha), f"base radius of the {name} at mid face"),
             (f"{name}_tip_radius_mm", gear.pitch_radius + gear.tip_addendum.symbol, f"tip radius of the {name} at mid face"),
             (f"{name}_limit_radius_mm", _limit_radius(tooth, definitions), f"flank of the {name} ends at mid face"),
+            (f"{name}_root_radius_mm", _root_radius(tooth), f"root radius of the {name} at mid face"),
             (f"{name}_edge_start_mm", sp.Integer(0), f"edge of the {name}'s cutter at the root of the gear"),
             (f"{name}_edge_end_mm", tooth.tool.edge_length, f"edge of the {name}'s cutter at the tip of the gear"),
         ]  # fmt: skip
     return (*sizes, ("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "transmission ratio T1/T2"))
+
+
+def _root_radius(tooth):
+    """The cutter's rounding ends where its normal is radial."""
+    (turn, _), (x, _, _) = tooth.tool.rounding.parameters, tooth.tool.rounding.point
+    return tooth.gear.pitch_radius + x.xreplace({turn: sp.pi / 2 - alpha})
 
 
 def _limit_radius(tooth, definitions):

@@ -21,26 +21,29 @@ class RackBody:
     """What a rack section needs to know of one gear. Angles in rad, lengths in mm.
 
     ``edge_offset`` is half the depth of the straight edge, ``half_space`` half the width of the rack's space at the
-    pitch line, ``sphere_radius`` the radius of the arc (not used by a spur gear).
+    pitch line, ``tip_radius`` the rounding between the edge and the tip of the cutter, ``sphere_radius`` the radius
+    of the arc (not used by a spur gear).
     """
 
     name: str
     pressure_angle: sp.Expr
     edge_offset: sp.Expr
     half_space: sp.Expr
+    tip_radius: sp.Expr
     flank: sp.Expr
     sphere_radius: sp.Expr
 
 
 @dataclass(frozen=True)
 class RackTool:
-    """The cutting surface and what a gear wants to know of it.
+    """The cutting surfaces and what a gear wants to know of them: the edge cuts the flank, the rounding the fillet.
 
     ``tip_drop(height, axial)`` is by how much the tip circle of a blank that ends ``height`` above the pitch point
     at mid face is smaller at an axial position. ``arc_radius`` is None for a straight sweep.
     """
 
     cutter: Surface
+    rounding: Surface
     edge_length: sp.Expr
     pitch_point: sp.Expr
     tip_drop: Callable[[sp.Expr, sp.Expr], sp.Expr]
@@ -57,21 +60,41 @@ class RackTool:
         return self.cutter.parameters[1]
 
 
-def _edge(body):
-    """Parameter and points of the edge from the gear's root (0) to its tip (2.1)."""
+def _edge_point(body, along):
+    """Point of the straight edge, (2.1): from the gear's root (0) to its tip."""
     alpha, a = body.pressure_angle, body.edge_offset
-    along = Quantity(f"l_{body.name}", "mm", f"along the cutter's edge from the root of the {body.name}", body.name)
     half_width = body.half_space + a * sp.tan(alpha) - along * sp.sin(alpha)
-    return along, (along * sp.cos(alpha) - a, body.flank * half_width, sp.Integer(0))
+    return along * sp.cos(alpha) - a, body.flank * half_width, sp.Integer(0)
+
+
+def _rounding_point(body, turn):
+    """Point of the rounding, which touches the edge where that ends; ``turn`` is that of its normal, 0 there."""
+    x, y, z = _edge_point(body, sp.Integer(0))
+    alpha, radius = body.pressure_angle, body.tip_radius
+    x -= radius * (sp.sin(alpha + turn) - sp.sin(alpha))
+    y -= body.flank * radius * (sp.cos(alpha + turn) - sp.cos(alpha))
+    return x, y, z
 
 
 def _tool(body, definitions, sweep, motion, arm, tip_drop, arc_radius=None):
-    along, edge = _edge(body)
-    cutter = swept(
-        definitions, edge, motion, along=along, sweep=sweep, outward=body.flank, arm=arm(edge[0])
-    )
+    name = body.name
+    along = Quantity(f"l_{name}", "mm", f"along the cutter's edge from the root of the {name}", name)
+    turn = Quantity(f"xi_{name}", "rad", f"turn of the normal along the rounding of the {name}'s cutter", name)
+
+    def surface(section, parameter, outward):
+        return swept(
+            definitions, section, motion, along=parameter, sweep=sweep, outward=outward, arm=arm(section[0])
+        )
+
     half_length = body.edge_offset / sp.cos(body.pressure_angle)
-    return RackTool(cutter, 2 * half_length, half_length, tip_drop, arc_radius)
+    return RackTool(
+        cutter=surface(_edge_point(body, along), along, body.flank),
+        rounding=surface(_rounding_point(body, turn), turn, -body.flank),
+        edge_length=2 * half_length,
+        pitch_point=half_length,
+        tip_drop=tip_drop,
+        arc_radius=arc_radius,
+    )
 
 
 def on_arc(sense, body, definitions):
