@@ -154,7 +154,7 @@ class NoRoot(Exception):
 
 
 class Exact:
-    """A rational point with exactly rational cosines and sines; bare angles, pi and roots to 1e-30."""
+    """A rational point with exactly rational cosines and sines; bare angles, pi, roots and dependent angles to 1e-25."""
 
     def __init__(self, equation: dict, point: dict):
         self.equation, self.memo = equation, {}
@@ -162,8 +162,8 @@ class Exact:
         self.tangents = {name: Fraction(text) for name, text in point["half_tangents"].items()}
         require(all(abs(self.symbols.get(name, 1)) == 1 for name in equation["signs"]), "a sign is neither +1 nor -1")
         for symbol, name in equation["angles"].items():
-            divisor = int(name.rpartition("/")[2]) if "/" in name else 1
-            self.symbols[symbol] = 2 * divisor * arctangent(self.tangents[name])
+            if symbol not in equation["definitions"]:
+                self.symbols[symbol] = 2 * divisor_of(name) * arctangent(self.tangents[name])
         self.symbols["pi"] = 4 * arctangent(Fraction(1))
 
     def constant(self, number: int):
@@ -173,6 +173,9 @@ class Exact:
         return self.symbols[name]
 
     def circle(self, name: str):
+        symbol = name.partition("/")[0]
+        if symbol in self.equation["definitions"]:
+            return cosine_and_sine(evaluate(symbol, self) / divisor_of(name), self.symbols["pi"])
         t = self.tangents[name]
         return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
 
@@ -198,11 +201,11 @@ class Moving:
         return Dual(self.rest.generator(name), self.rates.get(name, 0))
 
     def circle(self, name: str):
-        symbol, _, divisor = name.partition("/")
+        symbol = name.partition("/")[0]
         cosine, sine = self.rest.circle(name)
-        turning = self.rates.get(symbol, 0)
-        if divisor:
-            turning = mul(turning, inverse(self.constant(int(divisor))))
+        turning = parts(evaluate(symbol, self))[1] if symbol in self.equation["definitions"] else self.rates.get(symbol, 0)
+        if divisor_of(name) > 1:
+            turning = mul(turning, inverse(self.constant(divisor_of(name))))
         return Dual(cosine, neg(mul(sine, turning))), Dual(sine, mul(cosine, turning))
 
     def jet(self, name: str, orders: tuple):
@@ -219,16 +222,35 @@ class Moving:
         return Dual(value, mul(rate, inverse(add(value, value))))
 
 
+def divisor_of(name: str) -> int:
+    return int(name.partition("/")[2] or 1)
+
+
 def arctangent(t: Fraction) -> Fraction:
     """arctan t for 0 < t <= 1, to better than 1e-30."""
     square = t * t / (1 + t * t)
     term = total = t / (1 + t * t)
     n = 1
     while term > Fraction(1, 100 * SCALE):
-        term = Fraction(int(term * square * 2 * n / (2 * n + 1) * SCALE * 1000), SCALE * 1000)
+        term = shortened(term * square * 2 * n / (2 * n + 1))
         total += term
         n += 1
     return total
+
+
+def cosine_and_sine(angle: Fraction, pi: Fraction) -> tuple:
+    """Taylor series after taking off full turns."""
+    x = shortened(angle - 2 * pi * round(angle / (2 * pi)))
+    totals, term, n = [Fraction(0), Fraction(0)], Fraction(1), 0
+    while n < 4 or abs(term) > Fraction(1, 100 * SCALE):
+        totals[n % 2] += term * (-1) ** (n // 2)
+        n += 1
+        term = shortened(term * x / n)
+    return totals[0], totals[1]
+
+
+def shortened(value: Fraction) -> Fraction:
+    return Fraction(int(value * SCALE * 1000), SCALE * 1000)
 
 
 # ---- trees --------------------------------------------------------------------------------------------------------------------
@@ -336,11 +358,11 @@ def rotation(axis: int, cosine, sine):
 
 def turn(tree, env):
     """Cosine and sine of a rational combination of angles, by complex multiplication."""
-    form = linear(tree, env.equation["definitions"])
+    form = linear(tree, env.equation)
     cosine, sine = env.constant(1), env.constant(0)
     for symbol in sorted(set(form) - {"pi"}):
         name = env.equation["angles"][symbol]
-        times = form[symbol] * (int(name.partition("/")[2]) if "/" in name else 1)
+        times = form[symbol] * divisor_of(name)
         require(times.denominator == 1, f"no base angle divides {symbol}")
         c, s = env.circle(name)
         s = s if times > 0 else neg(s)
@@ -353,22 +375,24 @@ def turn(tree, env):
     return cosine, sine
 
 
-def linear(tree, definitions: dict) -> dict:
+def linear(tree, equation: dict) -> dict:
+    """Base angle or "pi" -> rational factor. A defined name that is listed as a base angle stands for itself."""
     if type(tree) is str:
-        return linear(definitions[tree], definitions) if tree in definitions else {tree: Fraction(1)}
+        opaque = tree in equation["angles"] or tree not in equation["definitions"]
+        return {tree: Fraction(1)} if opaque else linear(equation["definitions"][tree], equation)
     if tree == 0:
         return {}
     require(type(tree) is list, "not an angle")
     if tree[0] == "+":
         total = {}
         for term in tree[1:]:
-            for symbol, factor in linear(term, definitions).items():
+            for symbol, factor in linear(term, equation).items():
                 total[symbol] = total.get(symbol, Fraction(0)) + factor
         return {symbol: factor for symbol, factor in total.items() if factor}
     scale = {"-": lambda: (Fraction(-1), tree[1]), "/": lambda: (Fraction(1, tree[2]), tree[1]), "*": lambda: (Fraction(tree[1]), tree[2])}
     require(tree[0] in scale and len(tree) <= 3, "not an angle")
     factor, rest = scale[tree[0]]()
-    return {symbol: factor * value for symbol, value in linear(rest, definitions).items()}
+    return {symbol: factor * value for symbol, value in linear(rest, equation).items()}
 
 
 # ---- polynomials: text `2*0^2*4+-1*1`, coefficient * generator^power ----------------------------------------------------------
@@ -433,7 +457,7 @@ def scope_of(certificate: dict, equation: dict, definitions: dict) -> dict:
     roots = {canonical(root["radicand"]): (root["generator"], root["divisor"]) for root in certificate["roots"]}
     require(len(roots) == len(certificate["roots"]), "one root has two names")
     require(all(divisor > 0 for _, divisor in roots.values()), "a root has a divisor that is not positive")
-    taken = [*angles, *{name for name, _ in roots.values()}, *equation["signs"], *definitions]
+    taken = [*(set(angles) - set(definitions)), *{name for name, _ in roots.values()}, *equation["signs"], *definitions]
     require(len(taken) == len(set(taken)), "one name means two things")
     return {"angles": angles, "roots": roots, "signs": equation["signs"], "jets": equation["jets"], "definitions": definitions}
 
@@ -527,9 +551,12 @@ def check_refutation(certificate: dict, equation: dict, definitions: dict) -> No
 
 def check_number(certificate: dict, equation: dict, definitions: dict) -> None:
     """A printed number against its formula: within half a unit of its last digit, or not, as recorded."""
-    value, printed = number_of(equation["lhs"], definitions), Fraction(equation["rhs"])
+    value, printed = number_of(equation["lhs"], definitions), equation["rhs"]
     require(abs(value - float(certificate["value"])) <= 1e-8 * max(1.0, abs(value)), "the recorded value is not that of the formula")
-    within = abs(value - printed) <= Fraction(certificate["half_unit"]) + Fraction(1, 10**9)
+    if printed in (">0", "<0"):
+        within = (value > 0) == (printed == ">0")
+    else:
+        within = abs(value - Fraction(printed)) <= Fraction(certificate["half_unit"]) + Fraction(1, 10**9)
     require(within == (certificate["outcome"] == "proved"), "a printed number is not judged by half a unit of its last digit")
 
 
@@ -600,10 +627,10 @@ def check_certificate(certificate: dict, objects: dict[str, dict]) -> None:
         raise Rejected(f"{equation['id']}: {error}") from error
 
 
-def status_of(readings: list[str], corrected: list[str], contradiction: list[str]) -> str:
+def status_of(readings: list[str], corrected: list[str], contradiction: list[str], damaged: bool) -> str:
     """The status that outcomes imply. Several readings stand for several ways in which a text can be read."""
     if contradiction:
-        return "false" if contradiction == ["proved"] else "undecided"
+        return "undecided" if contradiction != ["proved"] else "ambiguous" if damaged else "false"
     if len(set(readings)) > 1:
         return "ambiguous"
     if readings[0] != "refuted":
@@ -626,7 +653,7 @@ def check_verdict(verdict: dict, objects: dict[str, dict]) -> None:
     roles = ("readings", "corrected", "contradiction")
     outcomes = [[outcome_of(reading, verdict, objects) for reading in verdict[role]] for role in roles]
     if outcomes[0] or outcomes[2]:
-        require(verdict["status"] == status_of(*outcomes), f"{verdict['id']}: the status does not follow from the certificates")
+        require(verdict["status"] == status_of(*outcomes, bool(verdict["damage"])), f"{verdict['id']}: the status does not follow from the certificates")
     else:
         judged_by_words = ("not_mathematical", "definition") + (("ambiguous",) if verdict["missing"] else ())
         require(verdict["status"] in judged_by_words, f"{verdict['id']}: nothing is judged")

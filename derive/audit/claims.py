@@ -100,7 +100,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Figure:
-    """A printed number and the formula it should come from, evaluated in double precision."""
+    """A printed number and the formula it should come from, evaluated in double precision; or only its sign, ">0" or "<0"."""
 
     formula: str
     printed: str
@@ -120,7 +120,13 @@ class Figure:
         return f"5/{10 ** (self.decimals + 1)}"
 
     @property
+    def is_sign(self) -> bool:
+        return self.printed in (">0", "<0")
+
+    @property
     def holds(self) -> bool:
+        if self.is_sign:
+            return (self.value > 0) == (self.printed == ">0")
         return abs(self.value - float(self.printed)) <= 0.5 / 10**self.decimals + 1e-9
 
     def amended(self) -> Figure:
@@ -130,7 +136,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class FigureClaim:
-    """Printed numbers judged against their formulas."""
+    """Printed numbers judged against their formulas. `final` if what the formula gives is not what should be printed instead."""
 
     key: str
     where: str
@@ -138,6 +144,7 @@ class FigureClaim:
     plain: str
     figures: Sequence[Figure]
     corrected: Sequence[Figure] = ()
+    final: bool = False
     kind: str = "claim"
 
 

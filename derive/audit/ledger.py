@@ -119,12 +119,12 @@ def _judge(ledger: Ledger, document: Document, claim: Claim, source: str) -> Ver
     readings = tuple(_reading(ledger, claim, identifier, label, texts, source) for label, texts in claim.read().items())
     if claim.contradiction:
         against = _reading(ledger, claim, identifier, "contradiction", as_list(claim.contradiction), source)
-        return Verdict(claim, status_of([], [], [str(against.outcome)]), contradiction=against)
+        return Verdict(claim, status_of([], [], [str(against.outcome)], bool(claim.damage)), contradiction=against)
     if not readings:
         return Verdict(claim, "ambiguous" if claim.missing else claim.kind)
     outcomes = [str(reading.outcome) for reading in readings]
     corrected, change = _correct(ledger, claim, identifier, readings[0], source) if set(outcomes) == {"refuted"} else (None, "")
-    status = status_of(outcomes, [str(corrected.outcome)] if corrected else [], [])
+    status = status_of(outcomes, [str(corrected.outcome)] if corrected else [], [], bool(claim.damage))
     return Verdict(claim, status, readings, corrected, change=change)
 
 
@@ -192,11 +192,13 @@ def _judge_figures(ledger: Ledger, document: Document, claim: FigureClaim, sourc
     reading = Reading(AS_PRINTED, parts)
     if reading.outcome is Outcome.PROVED:
         return Verdict(claim, "proved", (reading,))
+    if claim.final or any(part.figure.is_sign for part in parts):
+        return Verdict(claim, "false", (reading,))
     amended = claim.corrected or [part.figure if part.outcome is Outcome.PROVED else part.figure.amended() for part in parts]
     corrected = Reading(
         "corrected", tuple(_judge_figure(ledger, f"{identifier}/corrected/{k}", figure, "corrected", source) for k, figure in enumerate(amended, 1))
     )
-    return Verdict(claim, status_of(["refuted"], [str(corrected.outcome)], []), (reading,), corrected)
+    return Verdict(claim, status_of(["refuted"], [str(corrected.outcome)], [], damaged=False), (reading,), corrected)
 
 
 def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, source: str) -> Judged:
@@ -228,6 +230,7 @@ def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
         "contradiction": [_reading_body(verdict.contradiction)] if verdict.contradiction else [],
         "change": verdict.change,
         "missing": getattr(verdict.claim, "missing", ""),
+        "damage": getattr(verdict.claim, "damage", ""),
         "drops": getattr(verdict.claim, "drops", ""),
     }
 

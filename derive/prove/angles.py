@@ -1,4 +1,8 @@
-"""Angles: integer combinations of base angles, plus quarter turns."""
+"""Angles: integer combinations of base angles, plus quarter turns.
+
+A base angle is a symbol, or a defined name whose definition is no such combination (a rolling length over a radius, say): its
+cosine and sine are then generators of their own, moving at the rate of its value.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +39,9 @@ class BaseAngle:
 def linear_form(tree: Tree, definitions: Mapping[str, Tree]) -> dict[str, Fraction]:
     """An angle as rational multiples of symbols and of pi."""
     if isinstance(tree, str):
-        return linear_form(definitions[tree], definitions) if tree in definitions else {tree: Fraction(1)}
+        if tree in definitions and (form := _form_of(definitions[tree], definitions)) is not None:
+            return form
+        return {tree: Fraction(1)}
     if tree == 0:
         return {}
     if isinstance(tree, tuple):
@@ -49,6 +55,13 @@ def linear_form(tree: Tree, definitions: Mapping[str, Tree]) -> dict[str, Fracti
             case "*" if isinstance(tree[1], int) and len(tree) == 3:
                 return _scaled(linear_form(tree[2], definitions), Fraction(tree[1]))
     raise NotationError(f"not an angle (a rational combination of symbols): {tree!r}")
+
+
+def _form_of(tree: Tree, definitions: Mapping[str, Tree]) -> dict[str, Fraction] | None:
+    try:
+        return linear_form(tree, definitions)
+    except NotationError:
+        return None
 
 
 def _sum(forms) -> dict[str, Fraction]:

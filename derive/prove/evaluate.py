@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import TypeAlias
 
-from derive.prove.angles import PI, linear_form, quarter_turns
+from derive.prove.angles import PI, BaseAngle, linear_form, quarter_turns
 from derive.prove.fraction import Quotient
 from derive.prove.normal_form import Relation
 from derive.prove.polynomial import BACKENDS, PolynomialRing
@@ -43,14 +43,15 @@ class Evaluator:
             for orders in product(range(highest + 1), repeat=len(statement.jets[name]))
             if sum(orders) <= highest
         }
-        names = [f"sqrt{k}" for k in range(len(statement.radicands))]
+        radicands = [tree for kind, tree in statement.dependent_generators if kind == "root"]
+        names = [f"sqrt{k}" for k in range(len(radicands))]
         names += statement.free_symbols + list(self._jets)
         names += [name for angle in statement.angles for name in (angle.cosine, angle.sine)]
         self.ring = PolynomialRing(tuple(names), backend)
         self.relations = self._circle_and_sign_relations()
         self._known: dict[Tree, Value] = {}
         self._angles = {angle.symbol: angle for angle in statement.angles}
-        for radicand in statement.radicands:
+        for radicand in radicands:
             self._adjoin_root(radicand)
 
     def value(self, tree: Tree) -> Value:
@@ -167,22 +168,27 @@ class Evaluator:
         rates = dict(moving)
         for symbol, rate in moving.items():
             if symbol in self._angles:
-                angle = self._angles[symbol]
-                turning = rate if angle.divisor == 1 else rate / self.constant(angle.divisor)
-                rates[angle.cosine] = -self.generator(angle.sine) * turning
-                rates[angle.sine] = self.generator(angle.cosine) * turning
+                self._turn(self._angles[symbol], rate, rates)
         for name, (function, orders) in self._jets.items():
             for position, variable in enumerate(self.statement.jets[function]):
                 raised = jet_name(function, tuple(n + (k == position) for k, n in enumerate(orders)))
                 if variable in moving and raised in self._jets:
                     slope = self.generator(raised) * moving[variable]
                     rates[name] = rates[name] + slope if name in rates else slope
-        for root in self.roots:
-            slope = self.value(root.radicand).derivative(rates)
-            if slope.numerator:
+        for kind, tree in self.statement.dependent_generators:
+            rate = self.value(tree).derivative(rates)
+            if rate.numerator and kind == "angle":
+                self._turn(self._angles[tree], rate, rates)
+            elif rate.numerator:
+                root = next(root for root in self.roots if root.radicand == tree)
                 scale = self.constant(root.divisor**2)
-                rates[root.generator] = slope * scale / (self.constant(2) * self.generator(root.generator))
+                rates[root.generator] = rate * scale / (self.constant(2) * self.generator(root.generator))
         return rates
+
+    def _turn(self, angle: BaseAngle, rate: Quotient, rates: dict[str, Quotient]) -> None:
+        turning = rate if angle.divisor == 1 else rate / self.constant(angle.divisor)
+        rates[angle.cosine] = -self.generator(angle.sine) * turning
+        rates[angle.sine] = self.generator(angle.cosine) * turning
 
 
 def _map(function: Callable[[Quotient], Quotient], value: Value) -> Value:

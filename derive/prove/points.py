@@ -1,8 +1,8 @@
 """Points at which statements are evaluated: rational cosines and sines, small rational parameters.
 
 A polynomial identity in an angle and its cosine and sine that held on all real points would hold as a polynomial identity, so a
-point with an exactly rational cosine and sine refutes exactly. Where the bare angle, pi or a root also occurs, their values are
-rational to 1e-30 and a difference counts only above 1e-9.
+point with an exactly rational cosine and sine refutes exactly. Where the bare angle, pi, a root or an angle that depends on other
+values also occurs, their values are rational to 1e-25 and a difference counts only above 1e-9.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from math import isqrt
 from derive.prove.angles import PI
 from derive.prove.evaluate import Evaluator
 from derive.prove.fraction import Quotient
-from derive.prove.normal_form import Relation
 from derive.prove.polynomial import Terms
 
 HALF_TANGENTS = tuple(Fraction(*pair) for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7)))
@@ -50,7 +49,9 @@ def value_at(part: Quotient, point: Point) -> Fraction | None:
 
 def is_rounded(evaluator: Evaluator, parts: list[Quotient]) -> bool:
     """Does a value depend on a bare angle, on pi or on a root, which are rational only to 1e-30?"""
-    inexact = {angle.symbol for angle in evaluator.statement.angles} | {PI} | {root.generator for root in evaluator.roots}
+    statement = evaluator.statement
+    inexact = {angle.symbol for angle in statement.angles} | {PI} | {root.generator for root in evaluator.roots}
+    inexact |= {name for angle in statement.angles if angle.symbol in statement.used for name in (angle.cosine, angle.sine)}
     positions = [i for i, name in enumerate(evaluator.ring.names) if name in inexact]
     polys = [poly for part in parts for poly in (part.numerator, *(factor for factor, _ in part.factors))]
     return any(powers[i] for poly in polys for powers in evaluator.ring.terms(poly) for i in positions)
@@ -58,29 +59,49 @@ def is_rounded(evaluator: Evaluator, parts: list[Quotient]) -> bool:
 
 def _point(evaluator: Evaluator, attempt: int) -> Point | None:
     statement = evaluator.statement
-    bases = {angle.name: HALF_TANGENTS[(k + attempt) % len(HALF_TANGENTS)] for k, angle in enumerate(statement.angles)}
+    angles = [angle for angle in statement.angles if angle.symbol not in statement.used]
+    bases = {angle.name: HALF_TANGENTS[(k + attempt) % len(HALF_TANGENTS)] for k, angle in enumerate(angles)}
     values: dict[str, Fraction] = {PI: arctangent(Fraction(1)) * 4}
-    for angle in statement.angles:
+    for angle in angles:
         t = bases[angle.name]
         values[angle.cosine], values[angle.sine] = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
         values[angle.symbol] = 2 * angle.divisor * arctangent(t)
-    free = [name for name in evaluator.ring.names if name not in values and not name.startswith("sqrt")]
+    dependent = {root.generator for root in evaluator.roots}
+    dependent |= {name for angle in statement.angles for name in (angle.cosine, angle.sine)}
+    free = [name for name in evaluator.ring.names if name not in values and name not in dependent and not name.startswith("sqrt")]
     for k, name in enumerate(free):
         if name in statement.signs:
             values[name] = Fraction((-1) ** (attempt + k))
         else:
             values[name] = LENGTHS[(k + 3 * attempt) % len(LENGTHS)] / (1 if attempt < 4 else 1 + (attempt + k) % 3)
-    for relation in reversed([relation for relation in evaluator.relations if relation.kind == "root"]):
-        root = _root(relation, evaluator.ring.names, values)
-        if root is None:
+    by_symbol = {angle.symbol: angle for angle in statement.angles}
+    point = Point({name: values[name] for name in free}, bases, values)
+    for kind, tree in statement.dependent_generators:
+        value = value_at(evaluator.value(tree), point)
+        if value is None or (kind == "root" and value < 0):
             return None
-        values[relation.generator] = root
-    return Point({name: values[name] for name in free}, bases, values)
+        if kind == "angle":
+            angle = by_symbol[tree]
+            values[angle.cosine], values[angle.sine] = cosine_and_sine(value / angle.divisor, values[PI])
+        else:
+            root = next(root for root in evaluator.roots if root.radicand == tree)
+            values[root.generator] = root.divisor * square_root(value)
+    return point
 
 
-def _root(relation: Relation, names: tuple[str, ...], values: dict[str, Fraction]) -> Fraction | None:
-    square = _sum(relation.square, names, values)
-    return None if square < 0 else Fraction(isqrt(square.numerator * SCALE**2 // square.denominator), SCALE)
+def square_root(value: Fraction) -> Fraction:
+    return Fraction(isqrt(value.numerator * SCALE**2 // value.denominator), SCALE)
+
+
+def cosine_and_sine(angle: Fraction, pi: Fraction) -> tuple[Fraction, Fraction]:
+    """By Taylor series after taking off full turns, to better than 1e-25."""
+    x = _rounded(angle - 2 * pi * round(angle / (2 * pi)))
+    totals, term, n = [Fraction(0), Fraction(0)], Fraction(1), 0
+    while n < 4 or abs(term) > Fraction(1, 100 * SCALE):
+        totals[n % 2] += term * (-1) ** (n // 2)
+        n += 1
+        term = _rounded(term * x / n)
+    return totals[0], totals[1]
 
 
 def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> Fraction:

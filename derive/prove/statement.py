@@ -83,11 +83,14 @@ class Statement:
         return below + (isinstance(tree, tuple) and tree[0] == "d")
 
     @cached_property
-    def radicands(self) -> list[Tree]:
-        """The arguments of square roots, innermost first."""
-        found: list[Tree] = []
-        for tree in (*self.used.values(), self.lhs, self.rhs):
+    def dependent_generators(self) -> list[tuple[str, Tree]]:
+        """("root", radicand) and ("angle", defined name), each after those that its value contains."""
+        opaque = {angle.symbol for angle in self.angles} & set(self.used)
+        found: list[tuple[str, Tree]] = []
+        for name, tree in (*self.used.items(), ("", self.lhs), ("", self.rhs)):
             for node in reversed(list(walk(tree))):
-                if isinstance(node, tuple) and node[0] == "sqrt" and node[1] not in found:
-                    found.append(node[1])
+                if isinstance(node, tuple) and node[0] == "sqrt" and ("root", node[1]) not in found:
+                    found.append(("root", node[1]))
+            if name in opaque:
+                found.append(("angle", name))
         return found

@@ -1,0 +1,1 @@
+"""Identities about our own derivations, for generic profiles and angles wherever possible."""

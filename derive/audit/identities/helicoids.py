@@ -1,0 +1,133 @@
+"""Helicoids: one identity for every profile, then the flank forms of ISO 10828 as they are generated."""
+
+from derive.audit.claims import Document, scope
+from derive.audit.identities.conventions import identity
+from derive.audit.ledger import Chapter
+
+DOCUMENT = Document(
+    key="helicoids",
+    name="worm and hob flanks",
+    file="derive/tools",
+    sha256="",
+    about="A flank is a profile P(t) in screw motion about z. The profile is left generic where possible; the types A, I, N, K, C then only fill it in.",
+    symbols={
+        "t": ("t", "mm or rad", "profile parameter"), "psi": ("ψ", "rad", "screw angle"), "p": ("p", "mm/rad", "screw parameter"),
+        "alpha": ("α", "rad", "pressure angle of the generating profile"), "lam": ("λ", "rad", "lead angle"), "S": ("S", "mm", "normal groove width"),
+        "r": ("r", "mm", "reference radius"), "rc": ("rc", "mm", "grinding wheel radius"), "s": ("s", "-", "flank sign"), "theta": ("θ", "rad", "angle on the grinding wheel"),
+        "rho": ("ρ", "mm", "radius"), "xi": ("ξ", "rad", "angle on the arc of the grinding wheel"), "rho_c": ("ρc", "mm", "radius of that arc"),
+    },
+)
+
+GENERIC = scope(
+    "helicoids",
+    """
+k = vec(0, 0, 1)
+P = vec(Px, Py, Pz)
+R = Rz(psi)@P + vec(0, 0, p*psi)
+normal = cross(d(R, t), d(R, psi))
+section = cross(d(P, t), vec(-Py, Px, p))
+""",
+    jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
+)
+
+STRAIGHT = scope(
+    "helicoids.straight-blade",
+    """
+k = vec(0, 0, 1)
+rt = sqrt(r**2 - (S*sin(lam)/2)**2) - S/(2*tan(alpha))
+P = vec(rt + t*cos(alpha), -s*t*sin(alpha)*sin(lam), s*t*sin(alpha)*cos(lam))
+pitch = S/(2*sin(alpha))
+in_section = Rx(-lam)@P
+""",
+    signs=["s"],
+)
+
+AXIAL = scope(
+    "helicoids.axial-blade",
+    """
+P = vec(rho, 0, s*(S/(2*cos(lam)) + (rho - r)*tan(alpha)/cos(lam)))
+slope = s*tan(alpha)/cos(lam)
+n = vec(-slope*rho, -p, rho)
+""",
+    signs=["s"],
+)
+
+INVOLUTE = scope(
+    "helicoids.involute",
+    """
+rho = rb/cos(at)
+P = vec(rho, 0, z0 + s*p*(tan(at) - at))
+n = vec(-s*p*tan(at), -p, rho)
+""",
+    signs=["s"],
+)
+
+GROUND = scope(
+    "helicoids.grinding-wheel",
+    """
+k = vec(0, 0, 1)
+p = r*tan(lam)
+E = r + rc
+b1 = rc*tan(alpha) + S/2
+u = b1*sin(alpha) + cos(alpha)*(E - p*cos(lam)/sin(lam))/cos(theta) - s*sin(alpha)*tan(theta)*(p + E*cos(lam)/sin(lam))
+tau = vec(0, cos(lam), sin(lam))
+k_w = vec(0, -sin(lam), cos(lam))
+radius = u*cos(alpha)
+width = b1 - u*sin(alpha)
+P = vec(E - radius*cos(theta), 0, 0) + radius*sin(theta)*tau + s*width*k_w
+n = vec(sin(alpha)*cos(theta), 0, 0) - sin(alpha)*sin(theta)*tau - s*cos(alpha)*k_w
+""",
+    signs=["s"],
+)
+
+ARC = scope(
+    "helicoids.arc",
+    """
+k = vec(0, 0, 1)
+E = r + rc
+tau = vec(0, cos(lam), sin(lam))
+k_w = vec(0, -sin(lam), cos(lam))
+radius = rc + rho_c*(sin(xi) - sin(alpha))
+width = S/2 + rho_c*(cos(xi) - cos(alpha))
+P = vec(E - radius*cos(theta), 0, 0) + radius*sin(theta)*tau + s*width*k_w
+n = vec(sin(xi)*cos(theta), 0, 0) - sin(xi)*sin(theta)*tau - s*cos(xi)*k_w
+""",
+    signs=["s"],
+)
+
+CLAIMS = (
+    identity("helicoid", "any profile", "A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.", "dot(normal, cross(k, R) + p*k) = 0", GENERIC),
+    identity("normal", "any profile", "The normal is that of the section, turned by ψ: it need be formed only once.", "normal = Rz(psi)@section", GENERIC),
+    identity(
+        "zn-width", "ZN", "The straight edge crosses the reference cylinder where the groove is S wide.",
+        "(rt + pitch*cos(alpha))**2 + (pitch*sin(alpha)*sin(lam))**2 = r**2", STRAIGHT, conditions=["r ≥ S sin λ / 2"],
+    ),
+    identity("zn-straight", "ZN", "Turned back by λ the edge lies in a plane and is straight.", ["in_section.y = 0", "d(d(P, t), t) = vec(0, 0, 0)", "dot(d(P, t), d(P, t)) = 1"], STRAIGHT),
+    identity(
+        "za-normal", "ZA", "(-z′ρ, -p, ρ) with z′ = s tan α / cos λ is normal to the helicoid of the straight axial edge.",
+        ["dot(n, d(P, rho)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0"], AXIAL,
+    ),
+    identity(
+        "zi-normal", "ZI", "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
+        ["dot(n, d(P, at)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0", "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)"], INVOLUTE, conditions=["ρ ≥ r_b"],
+    ),
+    identity(
+        "zk-normal", "ZK", "The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's normal, no derivative needed.",
+        ["dot(n, d(P, theta)) = 0", "dot(n, cross(k, P) + p*k) = 0", "dot(n, n) = 1"], GROUND, conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
+    ),
+    identity(
+        "zk-radius", "ZK", "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
+        "(E - (b1*sin(alpha) + cos(alpha)*rc)*cos(alpha))**2 + ((b1 - (b1*sin(alpha) + cos(alpha)*rc)*sin(alpha))*sin(lam))**2"
+        " = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2", GROUND,
+    ),
+    identity(
+        "zc-normal", "ZC", "The arc's unit normal is perpendicular to the grinding wheel in both directions.",
+        ["dot(n, d(P, theta)) = 0", "dot(n, d(P, xi)) = 0", "dot(n, n) = 1"], ARC,
+    ),
+    identity(
+        "zc-limit", "ZC", "At ξ = α arc and cone agree in radius, width and normal.",
+        ["rc + rho_c*(sin(alpha) - sin(alpha)) = rc", "S/2 + rho_c*(cos(alpha) - cos(alpha)) = S/2"], ARC,
+    ),
+)
+
+CHAPTER = Chapter(DOCUMENT, CLAIMS)
