@@ -122,9 +122,15 @@ class Free:
     def jet(self, name: str, orders: tuple):
         return self.generator(f"{name}[{','.join(map(str, orders))}]")
 
+    def divisor(self, polynomial: dict):
+        return at_point(polynomial, [self.generator(name) for name in self.equation["generators"]])
+
     def root(self, radicand):
         name, divisor = self.equation["roots"][canonical(radicand)]
-        return mul(self.generator(name), inverse(divisor))
+        return mul(self.generator(name), inverse(self.divisor(divisor)))
+
+    def arc(self, tree):
+        return self.generator(self.equation["arcs"][canonical(tree)])
 
 
 class Variety(Free):
@@ -142,10 +148,11 @@ class Variety(Free):
     def root(self, radicand):
         name, divisor = self.equation["roots"][canonical(radicand)]
         if name not in self.known:
-            square = mul(evaluate(radicand, self), divisor**2)
-            self.known[name] = pow(square, (PRIME + 1) // 4, PRIME)
-            if self.known[name] ** 2 % PRIME != square:
+            square = evaluate(radicand, self)
+            value = pow(square, (PRIME + 1) // 4, PRIME)
+            if value**2 % PRIME != square:
                 raise NoRoot
+            self.known[name] = mul(value, self.divisor(divisor))
         return super().root(radicand)
 
 
@@ -185,7 +192,12 @@ class Exact:
     def root(self, radicand):
         square = evaluate(radicand, self)
         require(square >= 0, "the root of a negative number")
-        return Fraction(isqrt(square.numerator * SCALE**2 // square.denominator), SCALE)
+        return square_root(square)
+
+    def arc(self, tree):
+        y, x = (evaluate(part, self) for part in tree[1:])
+        require(x > 0, "an arc leaves the right half plane")
+        return arctangent(y / x)
 
 
 class Moving:
@@ -221,13 +233,22 @@ class Moving:
         _, rate = parts(evaluate(radicand, self))
         return Dual(value, mul(rate, inverse(add(value, value))))
 
+    def arc(self, tree):
+        (y, dy), (x, dx) = (parts(evaluate(part, self)) for part in tree[1:])
+        turning = add(mul(x, dy), neg(mul(y, dx)))
+        return Dual(self.rest.arc(tree), mul(turning, inverse(add(mul(x, x), mul(y, y)))))
+
 
 def divisor_of(name: str) -> int:
     return int(name.partition("/")[2] or 1)
 
 
 def arctangent(t: Fraction) -> Fraction:
-    """arctan t for 0 < t <= 1, to better than 1e-30."""
+    """arctan t to better than 1e-25, after one halving of the angle where t is large."""
+    if t < 0:
+        return -arctangent(-t)
+    if t > 1:
+        return 2 * arctangent(t / (1 + square_root(1 + t * t)))
     square = t * t / (1 + t * t)
     term = total = t / (1 + t * t)
     n = 1
@@ -236,6 +257,10 @@ def arctangent(t: Fraction) -> Fraction:
         total += term
         n += 1
     return total
+
+
+def square_root(value: Fraction) -> Fraction:
+    return Fraction(isqrt(value.numerator * SCALE**2 // value.denominator), SCALE)
 
 
 def cosine_and_sine(angle: Fraction, pi: Fraction) -> tuple:
@@ -282,6 +307,8 @@ def _node(tree: list, env):
         return env.jet(arguments[0], tuple(arguments[1:]))
     if operation == "sqrt":
         return env.root(arguments[0])
+    if operation == "atan2":
+        return env.arc(tree)
     if operation == "d":
         rates = {symbol: evaluate(rate, env) for symbol, rate in arguments[1:]}
         require(not set(rates) & set(env.equation["definitions"]), "a derivative is taken along a defined name")
@@ -454,12 +481,16 @@ def scope_of(certificate: dict, equation: dict, definitions: dict) -> dict:
     """What an evaluation needs, after checking that angles, roots, signs and definitions are named once and apart."""
     angles = {entry["symbol"]: entry["symbol"] + (f"/{entry['divisor']}" if entry["divisor"] > 1 else "") for entry in certificate["angles"]}
     require(len(angles) == len(certificate["angles"]), "one angle has two names")
-    roots = {canonical(root["radicand"]): (root["generator"], root["divisor"]) for root in certificate["roots"]}
-    require(len(roots) == len(certificate["roots"]), "one root has two names")
-    require(all(divisor > 0 for _, divisor in roots.values()), "a root has a divisor that is not positive")
-    taken = [*(set(angles) - set(definitions)), *{name for name, _ in roots.values()}, *equation["signs"], *definitions]
+    roots = {
+        canonical(root["radicand"]): (root["generator"], read_polynomial(root["divisor"])) for root in certificate["roots"] if "generator" in root
+    }
+    require(len(roots) == sum("generator" in root for root in certificate["roots"]), "one root has two names")
+    arcs = {canonical(arc["tree"]): arc["generator"] for arc in certificate["arcs"]}
+    require(len(arcs) == len(set(arcs.values())) == len(certificate["arcs"]), "arcs and their names do not match")
+    taken = [*arcs.values(), *(set(angles) - set(definitions)), *{name for name, _ in roots.values()}, *equation["signs"], *definitions]
     require(len(taken) == len(set(taken)), "one name means two things")
-    return {"angles": angles, "roots": roots, "signs": equation["signs"], "jets": equation["jets"], "definitions": definitions}
+    return {"angles": angles, "roots": roots, "arcs": arcs, "signs": equation["signs"], "jets": equation["jets"],
+            "definitions": definitions, "generators": certificate.get("generators", [])}
 
 
 def relations_of(certificate: dict, scope: dict) -> list:
@@ -522,7 +553,7 @@ def check_point(env: Free, certificate: dict, equation: dict, polynomials: list,
         if relation["kind"] == "root":
             for root in certificate["roots"]:
                 if root["generator"] == certificate["generators"][generator]:
-                    expected = mul(evaluate(root["radicand"], env), root["divisor"] ** 2)
+                    expected = mul(evaluate(root["radicand"], env), power(at_point(read_polynomial(root["divisor"]), values), 2))
                     require(expected == at_point(square, values), "a root is not of its radicand")
     for a, b, (numerator, denominators) in zip(left, right, polynomials, strict=True):
         below = 1

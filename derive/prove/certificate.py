@@ -16,14 +16,15 @@ def certificate(decision: Decision) -> dict:
     body = {
         "outcome": str(decision.outcome),
         "angles": [{"symbol": angle.symbol, "divisor": angle.divisor} for angle in decision.statement.angles],
-        "roots": [{"radicand": root.radicand, "generator": root.generator, "divisor": root.divisor} for root in decision.roots],
+        "arcs": [{"tree": tree, "generator": name} for tree, name in decision.arcs.items()],
         **instance_body(decision.instance),
     }
     match decision.outcome:
         case Outcome.PROVED:
             return {"kind": "ring_nf", **body, **_proof(decision)}
         case Outcome.REFUTED:
-            return {"kind": "exact_point", **body, "differs": _differing(decision)}
+            roots = [{"radicand": radicand} for radicand, _, _ in decision.roots]
+            return {"kind": "exact_point", **body, "roots": roots, "differs": _differing(decision)}
         case Outcome.UNDECIDED:
             return {"kind": "undecided", **body}
 
@@ -75,12 +76,13 @@ def _differing(decision: Decision) -> list[int]:
 def _proof(decision: Decision) -> dict:
     kept = [k for k in range(len(decision.relations)) if any(component.cofactors[k] for component in decision.components)]
     relations = [decision.relations[k] for k in kept]
-    polynomials = [relation.square for relation in relations]
+    polynomials = [relation.square for relation in relations] + [divisor for _, _, divisor in decision.roots]
     for component in decision.components:
         polynomials += [component.numerator, *(factor for factor, _ in component.denominators), *component.cofactors]
-    used = sorted({i for terms in polynomials for powers in terms for i, e in enumerate(powers) if e} | {decision.names.index(r.generator) for r in relations})
+    used = sorted({decision.names.index(name) for _, name, _ in decision.roots} | {i for terms in polynomials for powers in terms for i, e in enumerate(powers) if e} | {decision.names.index(r.generator) for r in relations})
     return {
         "generators": [decision.names[i] for i in used],
+        "roots": [{"radicand": radicand, "generator": name, "divisor": text_of(_restricted(divisor, used))} for radicand, name, divisor in decision.roots],
         "relations": [{"kind": r.kind, "generator": r.generator, "square": text_of(_restricted(r.square, used))} for r in relations],
         "components": [_component(component, kept, used) for component in decision.components],
         "degree": max(_degree_bound(component) for component in decision.components),

@@ -10,9 +10,9 @@ from typing import TypeAlias
 from derive.prove.angles import PI, BaseAngle, linear_form, quarter_turns
 from derive.prove.fraction import Quotient
 from derive.prove.normal_form import Relation
-from derive.prove.polynomial import BACKENDS, PolynomialRing
+from derive.prove.polynomial import BACKENDS, Poly, PolynomialRing
 from derive.prove.statement import Statement
-from derive.prove.tree import NotationError, Tree, canonical
+from derive.prove.tree import Tree
 
 Vector: TypeAlias = "tuple[Quotient, ...]"
 Value: TypeAlias = "Quotient | Vector | tuple[Vector, ...]"
@@ -20,11 +20,11 @@ Value: TypeAlias = "Quotient | Vector | tuple[Vector, ...]"
 
 @dataclass(frozen=True)
 class Root:
-    """sqrt(radicand) = generator / divisor."""
+    """sqrt(radicand) = generator / divisor; the divisor, a polynomial, clears the radicand's denominators."""
 
     radicand: Tree
     generator: str
-    divisor: int
+    divisor: Poly
 
 
 def jet_name(name: str, orders: tuple[int, ...]) -> str:
@@ -45,7 +45,8 @@ class Evaluator:
         }
         radicands = [tree for kind, tree in statement.dependent_generators if kind == "root"]
         names = [f"sqrt{k}" for k in range(len(radicands))]
-        names += statement.free_symbols + list(self._jets)
+        self.arcs = {tree: f"arc{k}" for k, tree in enumerate(tree for kind, tree in statement.dependent_generators if kind == "arc")}
+        names += [*self.arcs.values(), *statement.free_symbols, *self._jets]
         names += [name for angle in statement.angles for name in (angle.cosine, angle.sine)]
         self.ring = PolynomialRing(tuple(names), backend)
         self.relations = self._circle_and_sign_relations()
@@ -78,25 +79,15 @@ class Evaluator:
     def _adjoin_root(self, radicand: Tree) -> None:
         """Name sqrt(radicand), reusing the generator of an equal radicand."""
         square = self.value(radicand)
-        divisor = self._positive_divisor(radicand, square)
-        terms = {powers: factor * divisor for powers, factor in self.ring.terms(square.numerator).items()}
-        for relation in self.relations:
-            if relation.kind == "root" and relation.square == terms:
-                self.roots.append(Root(radicand, relation.generator, divisor))
-                return
-        name = f"sqrt{sum(relation.kind == 'root' for relation in self.relations)}"
-        self.relations = (Relation("root", name, terms), *self.relations)
-        self.roots.append(Root(radicand, name, divisor))
-
-    def _positive_divisor(self, radicand: Tree, square: Quotient) -> int:
-        """The denominator of a radicand, which has to be a positive integer."""
-        divisor = 1
+        divisor = self.ring.constant(1)
         for factor, times in square.factors:
-            terms = self.ring.terms(factor)
-            if set(terms) != {(0,) * len(self.ring.names)} or min(terms.values()) < 0:
-                raise NotationError(f"write the root of a quotient as a quotient of roots: {canonical(radicand)}")
-            divisor *= terms[(0,) * len(self.ring.names)] ** times
-        return divisor
+            divisor *= factor**times
+        terms = self.ring.terms(square.numerator * divisor)
+        known = next((relation for relation in self.relations if relation.kind == "root" and relation.square == terms), None)
+        if known is None:
+            known = Relation("root", f"sqrt{sum(relation.kind == 'root' for relation in self.relations)}", terms)
+            self.relations = (known, *self.relations)
+        self.roots.append(Root(radicand, known.generator, divisor))
 
     def _evaluate(self, tree: Tree) -> Value:
         if isinstance(tree, int):
@@ -118,6 +109,8 @@ class Evaluator:
                 return self.value(arguments[0]) ** arguments[1]
             case "sqrt":
                 return self._root(next(root for root in self.roots if root.radicand == arguments[0]))
+            case "atan2":
+                return self.generator(self.arcs[tree])
             case "jet":
                 return self.generator(jet_name(arguments[0], tuple(arguments[1:])))
             case "cos" | "sin" | "tan":
@@ -137,8 +130,7 @@ class Evaluator:
         return ALGEBRA[operation](*map(self.value, arguments))
 
     def _root(self, root: Root) -> Quotient:
-        generator = self.generator(root.generator)
-        return generator if root.divisor == 1 else generator / self.constant(root.divisor)
+        return self.generator(root.generator) / Quotient(self.ring, root.divisor)
 
     def _cosine_and_sine(self, tree: Tree) -> tuple[Quotient, Quotient]:
         """By complex multiplication over the base angles, then by quarter turns."""
@@ -176,14 +168,29 @@ class Evaluator:
                     slope = self.generator(raised) * moving[variable]
                     rates[name] = rates[name] + slope if name in rates else slope
         for kind, tree in self.statement.dependent_generators:
-            rate = self.value(tree).derivative(rates)
-            if rate.numerator and kind == "angle":
+            rate = self._arc_rate(tree, rates) if kind == "arc" else self.value(tree).derivative(rates)
+            if not rate.numerator:
+                continue
+            if kind == "angle":
                 self._turn(self._angles[tree], rate, rates)
-            elif rate.numerator:
+            elif kind == "arc":
+                rates[self.arcs[tree]] = rate
+            else:
                 root = next(root for root in self.roots if root.radicand == tree)
-                scale = self.constant(root.divisor**2)
-                rates[root.generator] = rate * scale / (self.constant(2) * self.generator(root.generator))
+                rates[root.generator] = self._root_rate(root, rate, rates)
         return rates
+
+    def _arc_rate(self, tree: Tree, rates: Mapping[str, Quotient]) -> Quotient:
+        y, x = self.value(tree[1]), self.value(tree[2])
+        turning = x * y.derivative(rates) - y * x.derivative(rates)
+        return turning / (x * x + y * y) if turning.numerator else turning
+
+    def _root_rate(self, root: Root, rate: Quotient, rates: Mapping[str, Quotient]) -> Quotient:
+        """Rate of generator = divisor * root of a radicand with this rate."""
+        divisor = Quotient(self.ring, root.divisor)
+        total = rate * divisor * divisor / (self.constant(2) * self.generator(root.generator))
+        slope = divisor.derivative(rates)
+        return total + slope * self._root(root) if slope.numerator else total
 
     def _turn(self, angle: BaseAngle, rate: Quotient, rates: dict[str, Quotient]) -> None:
         turning = rate if angle.divisor == 1 else rate / self.constant(angle.divisor)

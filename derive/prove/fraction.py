@@ -43,10 +43,8 @@ class Quotient:
         """Divide by a numerator that is not identically zero; it becomes a side condition."""
         if not other.numerator:
             raise ZeroDivisionError("division by an expression that is identically zero")
-        inverse = Quotient(self.ring, self._product(other.factors), ())
-        one = self.ring.constant(1)
-        factors = () if other.numerator == one else ((other.numerator, 1),)
-        return Quotient(self.ring, self.numerator * inverse.numerator, _merged(self.factors, factors))
+        factors = () if other.numerator == self.ring.constant(1) else ((other.numerator, 1),)
+        return Quotient(self.ring, self.numerator * self._product(other.factors), _merged(self.factors, factors))
 
     def __pow__(self, power: int) -> Quotient:
         if power < 0:

@@ -50,7 +50,7 @@ def value_at(part: Quotient, point: Point) -> Fraction | None:
 def is_rounded(evaluator: Evaluator, parts: list[Quotient]) -> bool:
     """Does a value depend on a bare angle, on pi or on a root, which are rational only to 1e-30?"""
     statement = evaluator.statement
-    inexact = {angle.symbol for angle in statement.angles} | {PI} | {root.generator for root in evaluator.roots}
+    inexact = {angle.symbol for angle in statement.angles} | {PI} | {root.generator for root in evaluator.roots} | set(evaluator.arcs.values())
     inexact |= {name for angle in statement.angles if angle.symbol in statement.used for name in (angle.cosine, angle.sine)}
     positions = [i for i, name in enumerate(evaluator.ring.names) if name in inexact]
     polys = [poly for part in parts for poly in (part.numerator, *(factor for factor, _ in part.factors))]
@@ -66,7 +66,7 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
         t = bases[angle.name]
         values[angle.cosine], values[angle.sine] = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
         values[angle.symbol] = 2 * angle.divisor * arctangent(t)
-    dependent = {root.generator for root in evaluator.roots}
+    dependent = {root.generator for root in evaluator.roots} | set(evaluator.arcs.values())
     dependent |= {name for angle in statement.angles for name in (angle.cosine, angle.sine)}
     free = [name for name in evaluator.ring.names if name not in values and name not in dependent and not name.startswith("sqrt")]
     for k, name in enumerate(free):
@@ -77,6 +77,12 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
     by_symbol = {angle.symbol: angle for angle in statement.angles}
     point = Point({name: values[name] for name in free}, bases, values)
     for kind, tree in statement.dependent_generators:
+        if kind == "arc":
+            y, x = (value_at(evaluator.value(part), point) for part in tree[1:])
+            if x is None or y is None or x <= 0:
+                return None
+            values[evaluator.arcs[tree]] = arctangent(y / x)
+            continue
         value = value_at(evaluator.value(tree), point)
         if value is None or (kind == "root" and value < 0):
             return None
@@ -85,7 +91,7 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
             values[angle.cosine], values[angle.sine] = cosine_and_sine(value / angle.divisor, values[PI])
         else:
             root = next(root for root in evaluator.roots if root.radicand == tree)
-            values[root.generator] = root.divisor * square_root(value)
+            values[root.generator] = _sum(evaluator.ring.terms(root.divisor), evaluator.ring.names, values) * square_root(value)
     return point
 
 
@@ -116,7 +122,11 @@ def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> F
 
 
 def arctangent(t: Fraction) -> Fraction:
-    """arctan t for 0 < t <= 1, to 1e-30: Euler's series."""
+    """arctan t to 1e-30: Euler's series, after one halving of the angle where t is large."""
+    if t < 0:
+        return -arctangent(-t)
+    if t > 1:
+        return 2 * arctangent(t / (1 + square_root(1 + t * t)))
     square = t * t / (1 + t * t)
     term = total = t / (1 + t * t)
     n = 1

@@ -16,7 +16,7 @@ from derive.prove.normal_form import Relation, reduce
 from derive.prove.points import THRESHOLD, Point, is_rounded, sample_points, value_at
 from derive.prove.polynomial import BACKENDS, Terms, text_of
 from derive.prove.statement import Statement
-from derive.prove.tree import canonical
+from derive.prove.tree import Tree, canonical
 
 ATTEMPTS = 24
 
@@ -58,7 +58,8 @@ class Decision:
     statement: Statement
     names: tuple[str, ...]
     relations: tuple[Relation, ...]
-    roots: tuple
+    roots: tuple[tuple[Tree, str, Terms], ...]
+    arcs: dict[Tree, str]
     components: tuple[Component, ...]
     instance: Instance | None
 
@@ -89,7 +90,8 @@ def decide(statement: Statement, backend: str = BACKENDS[0]) -> Decision:
         Component(_outcome(part, k in refuted), part.numerator, part.denominators, part.cofactors, part.remainder)
         for k, part in enumerate(reduced)
     )
-    return Decision(statement, evaluator.ring.names, evaluator.relations, tuple(evaluator.roots), parts, instance)
+    roots = tuple((root.radicand, root.generator, evaluator.ring.terms(root.divisor)) for root in evaluator.roots)
+    return Decision(statement, evaluator.ring.names, evaluator.relations, roots, evaluator.arcs, parts, instance)
 
 
 def _reduced(evaluator: Evaluator, difference: Quotient) -> Component:

@@ -84,13 +84,15 @@ class Statement:
 
     @cached_property
     def dependent_generators(self) -> list[tuple[str, Tree]]:
-        """("root", radicand) and ("angle", defined name), each after those that its value contains."""
+        """("root", radicand), ("arc", atan2 node) and ("angle", defined name), each after those that its value contains."""
         opaque = {angle.symbol for angle in self.angles} & set(self.used)
         found: list[tuple[str, Tree]] = []
         for name, tree in (*self.used.items(), ("", self.lhs), ("", self.rhs)):
             for node in reversed(list(walk(tree))):
-                if isinstance(node, tuple) and node[0] == "sqrt" and ("root", node[1]) not in found:
-                    found.append(("root", node[1]))
+                if isinstance(node, tuple) and node[0] in ("sqrt", "atan2"):
+                    entry = ("root", node[1]) if node[0] == "sqrt" else ("arc", node)
+                    if entry not in found:
+                        found.append(entry)
             if name in opaque:
                 found.append(("angle", name))
         return found

@@ -4,8 +4,8 @@ A tree is a nested tuple whose first entry names the node; a symbol is a string,
 ordered or collapsed: a tree is what was printed, term by term.
 
     scalar   int, symbol, ("+", a, b, ...), ("-", a), ("*", a, b, ...), ("/", a, b), ("^", a, n), ("sqrt", a),
-             ("cos" | "sin" | "tan", angle), ("jet", name, order, ...), ("dot", u, v), ("triple", u, v, w),
-             ("at", u, i), ("entry", A, i, j)
+             ("cos" | "sin" | "tan", angle), ("atan2", y, x), ("jet", name, order, ...), ("dot", u, v),
+             ("triple", u, v, w), ("at", u, i), ("entry", A, i, j)
     vector   ("vec", a, b, c), ("cross", u, v), sums, multiples and quotients of vectors, ("@", A, u)
     matrix   ("mat", (row), (row), (row)), ("Rx" | "Ry" | "Rz", angle), ("@", A, B), ("T", A)
     any      ("d", expression, (symbol, rate), ...): derivative when every listed symbol moves at its rate
@@ -28,7 +28,7 @@ FUNCTIONS = ("cos", "sin", "tan", "sqrt")
 ROTATIONS = ("Rx", "Ry", "Rz")
 FIXED_ARITY = {
     **dict.fromkeys(FUNCTIONS + ROTATIONS, 1),
-    "-": 1, "/": 2, "T": 1, "@": 2, "dot": 2, "cross": 2, "triple": 3, "vec": 3,
+    "-": 1, "/": 2, "T": 1, "@": 2, "dot": 2, "cross": 2, "atan2": 2, "triple": 3, "vec": 3,
 }
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 NUMERIC_FUNCTIONS = ("asin", "acos", "atan", "degrees", "radians")

@@ -151,7 +151,7 @@ def test_zero_denominator(proof):
 def test_vacuous_statement_is_rejected():
     """1/(cos^2 + sin^2 - 1) never exists on the circle."""
     certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "generators": [], "relations": [],
+        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "arcs": [], "generators": [], "relations": [],
         "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
     zero = ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2], -1]
@@ -171,7 +171,7 @@ def test_refutation_needs_sides_that_differ(objects):
 def test_wrong_derivative_is_caught_by_dual_numbers(objects):
     """d(sin)/da = -cos passed off as true."""
     certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "generators": [], "relations": [],
+        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "arcs": [], "generators": [], "relations": [],
         "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
     equation = {"lhs": ["d", ["sin", "a"], ["a", 1]], "rhs": ["-", ["cos", "a"]], "signs": [], "jets": {}}
@@ -183,8 +183,8 @@ def test_wrong_derivative_is_caught_by_dual_numbers(objects):
 def test_second_derivatives_of_jets_and_roots():
     """xi(u)^2 twice, and sqrt(u^2 + 1) once, by nested dual numbers."""
     certificate = {
-        "angles": [], "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": 1}],
-        "generators": [], "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+        "angles": [], "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": "1"}],
+        "arcs": [], "generators": [], "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
     xi = lambda n: ["jet", "xi", n]
     twice = {

@@ -1,0 +1,225 @@
+"""The record as pages to read: self-contained HTML with MathML, and one LaTeX file. No network, no script, no date."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+import jinja2
+from markupsafe import Markup
+
+from derive.audit.claims import Claim, Document
+from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
+from derive.audit.render import LaTeX, MathML, difference, symbol_text
+from derive.audit.validation import NOT_VERIFIED, VERIFIED
+from derive.prove.certificate import decimal
+from derive.prove.points import arctangent
+from derive.prove.polynomial import Terms
+from derive.prove.prover import Instance
+
+STATUS_TEXT = {
+    "proved": "proved",
+    "proved_with_correction": "misprint, correction proved",
+    "false": "false",
+    "ambiguous": "ambiguous",
+    "undecided": "undecided",
+    "definition": "definition",
+    "not_mathematical": "not mathematical",
+}
+SHOWN_TERMS = 6
+
+_ENVIRONMENT = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+    undefined=jinja2.StrictUndefined,
+    autoescape=lambda name: bool(name) and ".html" in name,
+    trim_blocks=True,
+    lstrip_blocks=True,
+    keep_trailing_newline=True,
+)
+
+
+@dataclass(frozen=True)
+class Part:
+    """One equation as shown: printed, its definitions, the evidence, a worked point."""
+
+    equation: Markup
+    latex: str
+    outcome: str
+    definitions: tuple[Markup, ...]
+    evidence: str
+    conditions: tuple[str, ...]
+    instance: dict | None
+    identifier: str
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One verdict as shown."""
+
+    key: str
+    verdict: Verdict
+    status: str
+    status_text: str
+    readings: tuple[tuple[str, str, tuple[Part, ...]], ...]
+    corrected: tuple[Part, ...]
+    contradiction: tuple[Part, ...]
+    conditions: tuple[str, ...]
+    evidence: str
+    damage: str
+    missing: str
+
+
+def pages(ledger: Ledger, chapters: list[Chapter], functions: Mapping[str, Mapping[str, list[str]]] | None = None) -> dict[str, str]:
+    """File name -> text of every page. `functions` maps generated headers to their functions and equation ids."""
+    shown = [(chapter.document, [_entry(chapter.document, verdict) for verdict in ledger.verdicts[chapter.document.key]]) for chapter in chapters]
+    sources = [(document, entries) for document, entries in shown if document.sha256]
+    common = {
+        "root": ledger.root,
+        "navigation": [(document.key, document.name, bool(document.sha256)) for document, _ in shown],
+        "status_text": STATUS_TEXT,
+    }
+    corrections = [(document, entry) for document, entries in sources for entry in entries if entry.status in ("proved_with_correction", "false", "ambiguous")]
+    counts = {document.key: Counter(entry.status for entry in entries) for document, entries in shown}
+    texts = {
+        "index.html": _render("index.html.jinja", **common, shown=shown, counts=counts, corrections=corrections),
+        "validation.html": _render(
+            "validation.html.jinja", **common, verified=VERIFIED, not_verified=NOT_VERIFIED, corrections=corrections, functions=functions or {}, ledger=ledger,
+            kinds=Counter(item["object"] for item in ledger.objects.values()),
+        ),
+        "audit.tex": _render("audit.tex.jinja", **common, shown=shown, tex=_tex),
+    }
+    for document, entries in shown:
+        texts[f"{document.key}.html"] = _render(
+            "chapter.html.jinja", **common, document=document, entries=entries, symbols=_symbols(document), counts=counts[document.key]
+        )
+    return texts
+
+
+def _render(template: str, **values) -> str:
+    return _ENVIRONMENT.get_template(template).render(**values)
+
+
+def _symbols(document: Document) -> list[tuple[Markup, str, str]]:
+    """Symbol, unit and meaning, in the letters of the source."""
+    return [(Markup(f"<i>{Markup.escape(shown)}</i>"), unit, meaning) for shown, unit, meaning in document.symbols.values()]
+
+
+def _entry(document: Document, verdict: Verdict) -> Entry:
+    mathml = MathML()
+    first = verdict.readings[0] if verdict.readings else None
+    readings = tuple((reading.label, str(reading.outcome), _parts(mathml, reading)) for reading in verdict.readings)
+    corrected = _parts(mathml, verdict.corrected, first) if verdict.corrected else ()
+    contradiction = _parts(mathml, verdict.contradiction) if verdict.contradiction else ()
+    conditions = tuple(getattr(verdict.claim, "conditions", ()))
+    drops = getattr(verdict.claim, "drops", "")
+    return Entry(
+        verdict.claim.key, verdict, verdict.status, STATUS_TEXT[verdict.status], readings, corrected, contradiction,
+        conditions + ((f"step: divided by {symbol_text(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
+        getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
+    )  # fmt: skip
+
+
+def _evidence_of(verdict: Verdict) -> str:
+    reading = verdict.corrected or verdict.contradiction or (verdict.readings[-1] if verdict.readings else None)
+    return reading.parts[0].certificate[:12] if reading else "–"
+
+
+def _parts(mathml: MathML, reading: Reading, other: Reading | None = None) -> tuple[Part, ...]:
+    against = other.parts if other and len(other.parts) == len(reading.parts) else (None,) * len(reading.parts)
+    return tuple(_part(mathml, part, previous) for part, previous in zip(reading.parts, against, strict=True))
+
+
+def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
+    if part.figure is not None:
+        return _figure_part(mathml, part)
+    statement = part.statement
+    left, right = statement.lhs, statement.rhs
+    if previous is not None and previous.statement is not None:
+        left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
+    definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())
+    return Part(
+        Markup(mathml.equation(left, right)), LaTeX().equation(left, right), str(part.outcome), definitions, _evidence(part), _denominators(part),
+        _instance(part.decision.instance, statement.signs), statement.id,
+    )  # fmt: skip
+
+
+def _figure_part(mathml: MathML, part: Judged) -> Part:
+    from derive.prove.tree import parse_formula
+
+    figure = part.figure
+    tree = parse_formula(figure.formula)
+    if figure.is_sign:
+        sign = {">0": ">", "<0": "<"}[figure.printed]
+        shown = f'<math display="block"><mrow>{mathml.write(tree)}<mo>=</mo><mn>{figure.value:.6g}</mn><mo>{escape_sign(sign)}</mo><mn>0</mn></mrow></math>'
+    else:
+        shown = f'<math display="block"><mrow>{mathml.write(tree)}<mo>=</mo><mn>{figure.value:.7g}</mn><mspace width="1em"/><mtext>printed {figure.printed} {figure.unit}</mtext></mrow></math>'
+    return Part(Markup(shown), rf"{LaTeX().write(tree)} = {figure.value:.7g}", str(part.outcome), (), f"numeric, certificate {part.certificate[:12]}", (), None, part.equation[:12])
+
+
+def escape_sign(sign: str) -> str:
+    return {"<": "&lt;", ">": "&gt;"}[sign]
+
+
+def _evidence(part: Judged) -> str:
+    decision = part.decision
+    name = f"certificate {part.certificate[:12]}"
+    if str(part.outcome) == "proved":
+        terms = sum(len(component.numerator) for component in decision.components)
+        used = sorted({r.generator for component in decision.components for r, cofactor in zip(decision.relations, component.cofactors, strict=True) if cofactor})
+        how = f"{terms} terms cancel" + (f" by the relations of {', '.join(map(_pretty, used))}" if used else " without any relation") if terms else "both sides expand to the same polynomial"
+        return f"{name}: {how}"
+    if str(part.outcome) == "refuted":
+        return f"{name}: the sides differ at the point below"
+    return f"{name}: neither proved nor refuted"
+
+
+def _pretty(generator: str) -> str:
+    head, _, rest = generator.partition("(")
+    return f"{head} {symbol_text(rest.rstrip(')'))}" if rest else symbol_text(generator)
+
+
+def _denominators(part: Judged) -> tuple[str, ...]:
+    """Denominators that must not vanish, readable where short."""
+    decision = part.decision
+    found: dict[str, None] = {}
+    for component in decision.components:
+        for factor, _ in component.denominators:
+            if any(any(powers) for powers in factor):
+                found.setdefault(_polynomial(factor, decision.names))
+    return tuple(f"{text} ≠ 0" for text in found)
+
+
+def _polynomial(terms: Terms, names: tuple[str, ...]) -> str:
+    if len(terms) > SHOWN_TERMS:
+        return f"a denominator of {len(terms)} terms (in the certificate)"
+    parts = []
+    for powers, factor in sorted(terms.items(), reverse=True):
+        body = " ".join(_pretty(name) + (f"^{power}" if power > 1 else "") for name, power in zip(names, powers, strict=True) if power)
+        number = str(abs(factor)) if abs(factor) != 1 or not body else ""
+        parts.append(("− " if factor < 0 else "+ ") + " ".join(filter(None, (number, body))))
+    return " ".join(parts).removeprefix("+ ")
+
+
+def _instance(instance: Instance | None, signs: frozenset[str]) -> dict | None:
+    if instance is None:
+        return None
+    point = instance.point
+    values = [(symbol_text(name), str(value)) for name, value in sorted(point.symbols.items())]
+    angles = []
+    for name, t in sorted(point.half_tangents.items()):
+        degrees = 360 * arctangent(t) / (4 * arctangent(Fraction(1)))
+        angles.append((symbol_text(name), decimal(Fraction(round(degrees * 10**6), 10**6)), str((1 - t * t) / (1 + t * t)), str(2 * t / (1 + t * t))))
+    return {"values": values, "angles": angles, "lhs": [decimal(v) for v in instance.lhs], "rhs": [decimal(v) for v in instance.rhs]}
+
+
+_TEX = str.maketrans({
+    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "_": r"\_", "#": r"\#", "^": r"\^{}", "{": r"\{", "}": r"\}", "$": r"\$", "~": r"\~{}",
+})  # fmt: skip
+
+
+def _tex(text: str) -> str:
+    """Plain text for LaTeX."""
+    return text.translate(_TEX)

@@ -1,0 +1,292 @@
+"""Trees as MathML and LaTeX. Terms stand in the order of the tree; nothing is rewritten but a - b for a + (-b).
+
+A pseudo node ("mark", tree) sets off the part in which two expressions differ.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from html import escape
+
+from derive.prove.tree import Tree
+
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "zeta": "ζ", "eta": "η", "theta": "θ", "lam": "λ", "lambda": "λ", "mu": "μ", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "Sigma": "Σ", "tau": "τ", "phi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "epsilon": "ε", "kappa": "κ", "shaft": "Σ",
+    "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh", "dv": "Δv", "slope": "slope",
+}  # fmt: skip
+SUM, PRODUCT, UNARY, POWER, ATOM = range(5)
+
+
+def symbol_text(name: str) -> str:
+    """A plain Unicode name: phi_hob -> φ_hob, r1 -> r1, phi3p -> φ3′."""
+    base, index, prime = _split(name)
+    return base + (f"{'_' if index and not index.isdigit() else ''}{index}") + prime
+
+
+def _split(name: str) -> tuple[str, str, str]:
+    """Letter, index and prime of a name."""
+    if name in GREEK:
+        return GREEK[name], "", ""
+    match = re.fullmatch(r"([A-Za-z]+?)(\d+)(p?)", name)
+    if match:
+        return GREEK.get(match[1], match[1]), match[2], "′" * bool(match[3])
+    head, _, tail = name.partition("_")
+    head_text = "".join(_split(head)[:2]) if re.fullmatch(r"[A-Za-z]+\d+", head) else GREEK.get(head, head)
+    return head_text, ", ".join(GREEK.get(part, part) for part in tail.split("_")) if tail else "", ""
+
+
+class Format:
+    """How the parts of an expression are written; subclasses say it for MathML and LaTeX."""
+
+    def __init__(self, names: Mapping[str, str] | None = None):
+        self.names = names or {}
+
+    def write(self, tree: Tree) -> str:
+        return self._write(tree)[0]
+
+    def _write(self, tree: Tree) -> tuple[str, int]:
+        if isinstance(tree, int):
+            return self.number(str(tree)), ATOM
+        if isinstance(tree, str):
+            return self.name(tree), ATOM
+        operation, *arguments = tree
+        handler: Callable | None = getattr(self, f"_{HANDLERS[operation]}", None) if operation in HANDLERS else None
+        if handler is None:
+            raise KeyError(operation)
+        return handler(operation, arguments)
+
+    def _within(self, tree: Tree, level: int) -> str:
+        text, own = self._write(tree)
+        return self.parens(text) if own < level else text
+
+    def _sum(self, _, arguments) -> tuple[str, int]:
+        parts = []
+        for position, term in enumerate(arguments):
+            marked = isinstance(term, tuple) and term[0] == "mark"
+            inner = term[1] if marked else term
+            negative = isinstance(inner, tuple) and inner[0] == "-"
+            body = self._within(inner[1] if negative else inner, PRODUCT)
+            sign = self.operator("−") if negative else (self.operator("+") if position else "")
+            parts.append(self.mark(sign + body) if marked else sign + body)
+        return self.row("".join(parts)), SUM
+
+    def _negative(self, _, arguments) -> tuple[str, int]:
+        return self.row(self.operator("−") + self._within(arguments[0], PRODUCT)), SUM
+
+    def _product(self, _, arguments) -> tuple[str, int]:
+        return self.row(self.times().join(self._within(argument, UNARY) for argument in arguments)), PRODUCT
+
+    def _quotient(self, _, arguments) -> tuple[str, int]:
+        return self.fraction(self.write(arguments[0]), self.write(arguments[1])), UNARY
+
+    def _power(self, _, arguments) -> tuple[str, int]:
+        base, exponent = arguments
+        if isinstance(base, tuple) and base[0] in ("cos", "sin", "tan"):
+            return self.row(self.power(self.function(base[0]), self.number(str(exponent))) + self._argument(base[1])), UNARY
+        return self.power(self._within(base, ATOM), self.number(str(exponent))), POWER
+
+    def _argument(self, tree: Tree) -> str:
+        text, level = self._write(tree)
+        return self.space() + text if level == ATOM else self.parens(text)
+
+    def _function(self, operation, arguments) -> tuple[str, int]:
+        return self.row(self.function(operation) + self._argument(arguments[0])), UNARY
+
+    def _call(self, operation, arguments) -> tuple[str, int]:
+        return self.row(self.function(operation) + self.parens(self.comma().join(map(self.write, arguments)))), UNARY
+
+    def _root(self, _, arguments) -> tuple[str, int]:
+        return self.root(self.write(arguments[0])), ATOM
+
+    def _jet(self, _, arguments) -> tuple[str, int]:
+        name, *orders = arguments
+        text = self.name(name)
+        if len(orders) == 1:
+            return (self.row(text + self.operator("′") * orders[0]) if orders[0] else text), ATOM
+        return (self.index(text, ",".join(map(str, orders))) if any(orders) else text), ATOM
+
+    def _rotation(self, operation, arguments) -> tuple[str, int]:
+        return self.row(self.index(self.function("R"), operation[1]) + self.parens(self.write(arguments[0]))), UNARY
+
+    def _infix(self, operation, arguments) -> tuple[str, int]:
+        sign = {"dot": "·", "cross": "×", "@": "\u2062"}[operation]
+        return self.row(self.operator(sign).join(self._within(argument, UNARY) for argument in arguments)), PRODUCT
+
+    def _triple(self, _, arguments) -> tuple[str, int]:
+        u, v, w = (self._within(argument, UNARY) for argument in arguments)
+        return self.row(self.parens(u + self.operator("×") + v) + self.operator("·") + w), PRODUCT
+
+    def _vector(self, _, arguments) -> tuple[str, int]:
+        return self.matrix([[self.write(argument)] for argument in arguments]), ATOM
+
+    def _matrix(self, _, arguments) -> tuple[str, int]:
+        return self.matrix([[self.write(entry) for entry in row] for row in arguments]), ATOM
+
+    def _transpose(self, _, arguments) -> tuple[str, int]:
+        return self.power(self._within(arguments[0], ATOM), self.function("T")), POWER
+
+    def _at(self, _, arguments) -> tuple[str, int]:
+        return self.index(self._within(arguments[0], ATOM), "xyz"[arguments[1]]), ATOM
+
+    def _entry(self, _, arguments) -> tuple[str, int]:
+        return self.index(self._within(arguments[0], ATOM), f"{arguments[1] + 1}{arguments[2] + 1}"), ATOM
+
+    def _derivative(self, _, arguments) -> tuple[str, int]:
+        body, *directions = arguments
+        if len(directions) == 1 and directions[0][1] == 1:
+            return self.row(self.fraction(self.operator("∂"), self.operator("∂") + self.name(directions[0][0])) + self._within(body, UNARY)), PRODUCT
+        parts = []
+        for symbol, rate in directions:
+            factor = "" if rate == 1 else self._within(rate, UNARY) + self.times()
+            parts.append(factor + self.fraction(self.operator("∂"), self.operator("∂") + self.name(symbol)))
+        return self.row(self.parens(self.operator("+").join(parts)) + self._within(body, UNARY)), PRODUCT
+
+    def _mark(self, _, arguments) -> tuple[str, int]:
+        text, level = self._write(arguments[0])
+        return self.mark(text), level
+
+
+HANDLERS = {
+    "+": "sum", "-": "negative", "*": "product", "/": "quotient", "^": "power", "sqrt": "root", "jet": "jet", "mark": "mark", "d": "derivative",
+    "vec": "vector", "mat": "matrix", "T": "transpose", "at": "at", "entry": "entry", "triple": "triple", "atan2": "call",
+    **dict.fromkeys(("cos", "sin", "tan", "asin", "acos", "atan", "degrees", "radians"), "function"),
+    **dict.fromkeys(("Rx", "Ry", "Rz"), "rotation"), **dict.fromkeys(("dot", "cross", "@"), "infix"),
+}  # fmt: skip
+
+
+class MathML(Format):
+    def name(self, name: str) -> str:
+        if name in self.names:
+            return f"<mi>{escape(self.names[name])}</mi>"
+        base, index, prime = _split(name)
+        if prime:
+            return f"<msubsup><mi>{base}</mi><mn>{index}</mn><mo>′</mo></msubsup>"
+        return f"<msub><mi>{base}</mi><mi>{index}</mi></msub>" if index else f"<mi>{base}</mi>"
+
+    def number(self, text: str) -> str:
+        return f"<mn>{text}</mn>"
+
+    def operator(self, sign: str) -> str:
+        return f"<mo>{sign}</mo>"
+
+    def function(self, name: str) -> str:
+        return f'<mi mathvariant="normal">{name}</mi>'
+
+    def row(self, text: str) -> str:
+        return f"<mrow>{text}</mrow>"
+
+    def parens(self, text: str) -> str:
+        return f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
+
+    def times(self) -> str:
+        return '<mspace width="0.17em"/>'
+
+    space = times
+
+    def comma(self) -> str:
+        return "<mo>,</mo>"
+
+    def fraction(self, above: str, below: str) -> str:
+        return f"<mfrac><mrow>{above}</mrow><mrow>{below}</mrow></mfrac>"
+
+    def power(self, base: str, exponent: str) -> str:
+        return f"<msup>{base}{exponent}</msup>"
+
+    def index(self, base: str, index: str) -> str:
+        return f"<msub>{base}<mi>{index}</mi></msub>"
+
+    def root(self, text: str) -> str:
+        return f"<msqrt>{text}</msqrt>"
+
+    def matrix(self, rows: list[list[str]]) -> str:
+        body = "".join("<mtr>" + "".join(f"<mtd>{entry}</mtd>" for entry in row) + "</mtr>" for row in rows)
+        return f"<mrow><mo>(</mo><mtable>{body}</mtable><mo>)</mo></mrow>"
+
+    def mark(self, text: str) -> str:
+        return f'<mrow class="mark">{text}</mrow>'
+
+    def equation(self, left: Tree, right: Tree) -> str:
+        """A displayed equation."""
+        return f'<math display="block"><mrow>{self.write(left)}<mo>=</mo>{self.write(right)}</mrow></math>'
+
+    def inline(self, tree: Tree) -> str:
+        return f"<math>{self.write(tree)}</math>"
+
+
+class LaTeX(Format):
+    def name(self, name: str) -> str:
+        base, index, prime = _split(name)
+        text = LATEX_GREEK.get(base, base if len(base) == 1 else rf"\mathrm{{{base}}}")
+        body = f"{text}_{{{index}}}" if index else text
+        return body + (r"^{\prime}" if prime else "")
+
+    def number(self, text: str) -> str:
+        return text
+
+    def operator(self, sign: str) -> str:
+        return LATEX_SIGNS.get(sign, sign)
+
+    def function(self, name: str) -> str:
+        return rf"\{name}" if name in ("cos", "sin", "tan") else rf"\mathrm{{{name}}}"
+
+    def row(self, text: str) -> str:
+        return text
+
+    def parens(self, text: str) -> str:
+        return rf"\left({text}\right)"
+
+    def times(self) -> str:
+        return r"\,"
+
+    def space(self) -> str:
+        return " "
+
+    def comma(self) -> str:
+        return ", "
+
+    def fraction(self, above: str, below: str) -> str:
+        return rf"\frac{{{above}}}{{{below}}}"
+
+    def power(self, base: str, exponent: str) -> str:
+        return f"{{{base}}}^{{{exponent}}}"
+
+    def index(self, base: str, index: str) -> str:
+        return f"{{{base}}}_{{{index}}}"
+
+    def root(self, text: str) -> str:
+        return rf"\sqrt{{{text}}}"
+
+    def matrix(self, rows: list[list[str]]) -> str:
+        return r"\begin{pmatrix}" + r" \\ ".join(" & ".join(row) for row in rows) + r"\end{pmatrix}"
+
+    def mark(self, text: str) -> str:
+        return rf"\boxed{{{text}}}"
+
+    def equation(self, left: Tree, right: Tree) -> str:
+        return f"{self.write(left)} = {self.write(right)}"
+
+
+LATEX_GREEK = {
+    "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ": r"\lambda", "μ": r"\mu", "ξ": r"\xi",
+    "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ": r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon",
+    "κ": r"\kappa", "Δγh": r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
+}  # fmt: skip
+LATEX_SIGNS = {"−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ", "′": "'"}
+
+
+def difference(tree: Tree, other: Tree) -> Tree:
+    """The tree with the smallest parts marked in which it differs from the other."""
+    if tree == other:
+        return tree
+    alike = isinstance(tree, tuple) and isinstance(other, tuple) and tree[0] == other[0] and len(tree) == len(other)
+    if not alike or tree[0] in ("jet", "d", "mat", "entry", "at"):
+        return _marked_matrix(tree, other) if alike and tree[0] == "mat" else ("mark", tree)
+    if tree[0] == "^":
+        return ("^", difference(tree[1], other[1]), tree[2]) if tree[2] == other[2] else ("mark", tree)
+    return (tree[0], *(difference(a, b) for a, b in zip(tree[1:], other[1:], strict=True)))
+
+
+def _marked_matrix(tree: tuple, other: tuple) -> Tree:
+    return ("mat", *(tuple(difference(a, b) for a, b in zip(row, others, strict=True)) for row, others in zip(tree[1:], other[1:], strict=True)))
