@@ -8,7 +8,7 @@ SHIP   := runtime/meshwright/_generated
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate build check run lint test solver test-fe
+.PHONY: setup generate audit build check run lint test solver test-fe
 
 setup: $(READY)
 
@@ -27,6 +27,10 @@ solver:
 # Regenerate generated/ from the drives.
 generate: setup
 	$(PY) -m derive
+
+# Prove everything anew, write generated/audit/index.html and re-check the record with its own checker.
+audit: generate
+	$(PY) generated/audit/check.py
 
 # The shared library and the data that the Python package ships.
 build: $(SHIP)/libmeshwright.so

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from derive import compiler, drives
+from derive.audit import record
 from derive.files import replace_text
 
 
@@ -29,13 +30,17 @@ def main(arguments=None):
     if unknown:
         print(f"no drive {unknown[0]!r}; known: {', '.join(known)}", file=sys.stderr)
         return 2
+    with log("prove", "audit record"):
+        ledger = record.ledger()
     files = {}
     for name in options.drive or known:
         with log("define", name):
             drive = known[name]()
-        files |= compiler.compile_drive(drive, log)
+        files |= compiler.compile_drive(drive, ledger, log)
     if not options.drive:
         files["c/models.h"] = compiler.table_of_models(known)
+        with log("emit", "audit record"):
+            files |= record.files(ledger, files)
         files["manifest.json"] = compiler.manifest(files)
         _remove_superseded(options.output, files)
     for path, text in files.items():
@@ -44,7 +49,7 @@ def main(arguments=None):
 
 
 def _remove_superseded(folder, files):
-    for path in folder.glob("[!a]*/*"):
+    for path in folder.glob("*/*"):
         if path.relative_to(folder).as_posix() not in files:
             path.unlink()
 

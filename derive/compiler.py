@@ -3,7 +3,7 @@
 define    ``derive.drives``            → :class:`~derive.drive.Drive`: chains, symbols, parameters, limits
 derive    ``derive.surface, envelope`` → locus, normal, equation of meshing
 reduce    ``derive.envelope``          → explicit surfaces, fewer unknowns
-prove     ``derive.prove``             → certificates for the identities behind them
+prove     ``derive.prove, audit``      → certificates for the identities behind them, and the record that holds them
 schedule  ``derive.schedule``          → one tape with derivatives, binding times and pivot order
 emit      ``derive.emit``              → C99, CasADi, JSON
 
@@ -15,6 +15,7 @@ import hashlib
 import json
 from pathlib import Path
 
+from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, metadata
 from derive.schedule import schedule
 
@@ -22,12 +23,14 @@ ROOT = Path(__file__).resolve().parent.parent
 MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
 
 
-def compile_drive(drive, log):
-    """All generated files of one drive: relative path → text."""
+def compile_drive(drive, record, log):
+    """All generated files of one drive: relative path → text. ``record`` is the audit record it is checked against."""
+    with log("prove", drive.name):
+        origin = provenance(record, drive.family, drive.variant)
     with log("schedule", drive.name):
         plan = schedule(drive)
     with log("emit", drive.name):
-        description = metadata.describe(plan)
+        description = metadata.describe(plan, origin)
         return {
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",

@@ -695,16 +695,21 @@ def check_step(step: dict, objects: dict[str, dict]) -> None:
         linked(objects, key, "step")
 
 
-def check_files(folder: Path, root: str) -> int:
-    """The generated files that the record names, and the root hash that they carry."""
-    seal = json.loads((folder / "artifacts.json").read_text(encoding="utf-8"))
+def check_files(folder: Path, root: str, objects: dict[str, dict]) -> int:
+    """The generated files that the record names, the root hash they carry, and the equations they rest on."""
+    try:
+        seal = json.loads((folder / "artifacts.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Rejected(f"artifacts.json cannot be read: {error}") from error
     require(seal["root"] == root, "artifacts.json carries another root hash")
+    judged = {item["id"] for item in objects.values() if item["object"] == "verdict"}
     for name, expected in seal["files"].items():
         path = folder.parent / name
         require(path.is_file(), f"{name} is missing")
         data = path.read_bytes()
-        require(hashlib.sha256(data).hexdigest() == expected, f"{name} has been changed")
-        require(path.suffix != ".h" or root.encode() in data, f"{name} does not carry the root hash")
+        require(hashlib.sha256(data).hexdigest() == expected["sha256"], f"{name} has been changed")
+        require(not expected["equations"] or root.encode() in data, f"{name} does not carry the root hash")
+        require(judged.issuperset(expected["equations"]), f"{name} names an equation that the record does not hold")
     return len(seal["files"])
 
 
@@ -724,7 +729,7 @@ def verify(folder: Path) -> dict[str, int | str]:
             require(kind in ("source", "equation"), f"unknown object {kind!r}")
     root = root_of(objects)
     kinds = [item["object"] for item in objects.values()]
-    return {**{kind: kinds.count(kind) for kind in sorted(set(kinds))}, "file": check_files(folder, root), "root": root}
+    return {**{kind: kinds.count(kind) for kind in sorted(set(kinds))}, "file": check_files(folder, root, objects), "root": root}
 
 
 def main(arguments: list[str]) -> int:
@@ -734,9 +739,6 @@ def main(arguments: list[str]) -> int:
     except Rejected as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
-    except FileNotFoundError as error:
-        print(f"nothing to check: {error}", file=sys.stderr)
-        return 2
     print(", ".join(f"{count} {kind}{'' if count == 1 else 's'}" for kind, count in report.items() if kind != "root"), "hold")
     print("root", report["root"])
     return 0

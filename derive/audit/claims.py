@@ -15,6 +15,7 @@ from derive.prove.statement import Statement
 from derive.prove.tree import Tree, parse, parse_formula
 
 AS_PRINTED = "as printed"
+DERIVED = "derived"
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ class Claim:
         if isinstance(self.readings, Mapping):
             return {label: as_list(texts) for label, texts in self.readings.items()}
         texts = as_list(self.readings)
-        return {AS_PRINTED: texts} if texts else {}
+        return {DERIVED if self.kind == "identity" else AS_PRINTED: texts} if texts else {}
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -70,6 +71,7 @@ class Entry:
     evidence: str
     damage: str
     missing: str
+    change: str
 
 
 def pages(ledger: Ledger, chapters: list[Chapter], functions: Mapping[str, Mapping[str, list[str]]] | None = None) -> dict[str, str]:
@@ -108,7 +110,8 @@ def _symbols(document: Document) -> list[tuple[Markup, str, str]]:
 
 
 def _entry(document: Document, verdict: Verdict) -> Entry:
-    mathml = MathML()
+    names = {name: shown for name, (shown, _, _) in document.symbols.items()}
+    mathml = MathML(names)
     first = verdict.readings[0] if verdict.readings else None
     readings = tuple((reading.label, str(reading.outcome), _parts(mathml, reading)) for reading in verdict.readings)
     corrected = _parts(mathml, verdict.corrected, first) if verdict.corrected else ()
@@ -119,6 +122,7 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
         verdict.claim.key, verdict, verdict.status, STATUS_TEXT[verdict.status], readings, corrected, contradiction,
         conditions + ((f"step: divided by {symbol_text(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
         getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
+        re.sub(r"\w+", lambda word: names.get(word[0], word[0]), verdict.change),
     )  # fmt: skip
 
 

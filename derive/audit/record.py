@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from functools import cache
 
+from derive.audit import store
 from derive.audit.documents import face_worm, rack_and_pinion, recess_action, spherical, zk_zn
 from derive.audit.identities import conventions, cylindrical_worm, helicoids
 from derive.audit.identities import face_worm as face_worm_drives
 from derive.audit.identities import spherical as spherical_gears
 from derive.audit.ledger import Chapter, Ledger, build
+from derive.audit.pages import pages
 
 
 def chapters() -> list[Chapter]:
@@ -22,3 +26,17 @@ def chapters() -> list[Chapter]:
 def ledger() -> Ledger:
     """The record, built once a process."""
     return build(chapters())
+
+
+def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
+    """Relative path -> text of everything under audit/. `generated` are the files that the seal names."""
+    functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
+    texts = store.record_files(record) | pages(record, chapters(), {path: table for path, table in functions.items() if table})
+    texts["artifacts.json"] = store.seal(record, generated)
+    return {f"audit/{name}": text for name, text in texts.items()}
+
+
+def functions_of(header: str) -> dict[str, list[str]]:
+    """Function name -> equation ids, from the comments of a generated header."""
+    found = re.finditer(r"/\* Equations: ([^*]*(?:\*[^/][^*]*)*)\. \*/\nstatic inline \w+ (\w+)\(", header)
+    return {match[2]: [key.strip(" *\n") for key in match[1].split(",")] for match in found}

@@ -37,6 +37,12 @@ def _split(name: str) -> tuple[str, str, str]:
     return head_text, ", ".join(GREEK.get(part, part) for part in tail.split("_")) if tail else "", ""
 
 
+def _parts(shown: str) -> tuple[str, str, str]:
+    """Letter, index and prime of a symbol as a source shows it: α1, φ3′, R2j, ω⁽¹⁾."""
+    match = re.fullmatch(r"(\D+?)(\d+[a-z]?)?(′?)", shown)
+    return (escape(match[1]), match[2] or "", match[3]) if match else (escape(shown), "", "")
+
+
 class Format:
     """How the parts of an expression are written; subclasses say it for MathML and LaTeX."""
 
@@ -158,11 +164,9 @@ HANDLERS = {
 
 class MathML(Format):
     def name(self, name: str) -> str:
-        if name in self.names:
-            return f"<mi>{escape(self.names[name])}</mi>"
-        base, index, prime = _split(name)
+        base, index, prime = _parts(self.names[name]) if name in self.names else _split(name)
         if prime:
-            return f"<msubsup><mi>{base}</mi><mn>{index}</mn><mo>′</mo></msubsup>"
+            return f"<msubsup><mi>{base}</mi><mi>{index}</mi><mo>′</mo></msubsup>" if index else f"<msup><mi>{base}</mi><mo>′</mo></msup>"
         return f"<msub><mi>{base}</mi><mi>{index}</mi></msub>" if index else f"<mi>{base}</mi>"
 
     def number(self, text: str) -> str:

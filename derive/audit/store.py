@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -25,19 +24,16 @@ def record_files(ledger: Ledger) -> dict[str, str]:
     }
 
 
-def seal(ledger: Ledger, folder: Path, names: Iterable[str]) -> str:
-    """artifacts.json: the root hash and the sha256 of generated files, named relative to the generated folder."""
-    files = {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in sorted(names)}
-    return json.dumps({"root": ledger.root, "files": files}, indent=1, sort_keys=True) + "\n"
+def seal(ledger: Ledger, files: Mapping[str, str]) -> str:
+    """artifacts.json: the root hash, and per generated file its sha256 and the equations it names."""
+    entries = {name: {"sha256": hashlib.sha256(text.encode()).hexdigest(), "equations": equations_named(text)} for name, text in sorted(files.items())}
+    return json.dumps({"root": ledger.root, "files": entries}, indent=1, sort_keys=True) + "\n"
 
 
-def write(folder: Path, files: Mapping[str, str]) -> None:
-    """Replace each file in one step."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        part = folder / f".{name}.part"
-        part.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(part, folder / name)
+def equations_named(text: str) -> list[str]:
+    """The equation ids in the comment at the top of a generated header."""
+    head = text.partition("*/")[0].partition("Equations (")[2]
+    return [line.strip(" *") for line in head.splitlines()[1:] if line.strip(" *")]
 
 
 def _lines(objects: Iterable[Mapping]) -> str:

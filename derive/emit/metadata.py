@@ -13,10 +13,10 @@ from derive.tape import Stage
 GENERATOR = "0.1.0"
 
 
-def describe(plan, provenance=None):
+def describe(plan, provenance):
     """Names, units, shapes, operations per stage, hashes and a self-test of one drive.
 
-    ``provenance`` is what the prove stage says of the drive: ``root_hash`` and ``equations``.
+    ``provenance`` is what the prove stage says of the drive: ``root_hash``, ``equations`` and ``functions``.
     """
     drive = plan.drive
     offsets = _offsets(plan)
@@ -32,8 +32,7 @@ def describe(plan, provenance=None):
         "handed": drive.handed,
         "abi": 1,
         "specification_hash": specification_hash(plan),
-        "root_hash": (provenance or {}).get("root_hash", ""),
-        "equations": (provenance or {}).get("equations", []),
+        **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
         "unknowns": [_name(u.symbol) for u in drive.unknowns],
         "parameters": [_parameter(p) for p in drive.parameters],

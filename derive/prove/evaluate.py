@@ -12,7 +12,7 @@ from derive.prove.fraction import Quotient
 from derive.prove.normal_form import Relation
 from derive.prove.polynomial import BACKENDS, Poly, PolynomialRing
 from derive.prove.statement import Statement
-from derive.prove.tree import Tree
+from derive.prove.tree import NotationError, Tree
 
 Vector: TypeAlias = "tuple[Quotient, ...]"
 Value: TypeAlias = "Quotient | Vector | tuple[Vector, ...]"
@@ -203,6 +203,8 @@ def _map(function: Callable[[Quotient], Quotient], value: Value) -> Value:
 
 
 def _zip(function: Callable[[Quotient, Quotient], Quotient], left: Value, right: Value) -> Value:
+    if isinstance(left, Quotient) != isinstance(right, Quotient):
+        raise NotationError("a scalar is added to a vector")
     if isinstance(left, Quotient):
         return function(left, right)
     return tuple(_zip(function, a, b) for a, b in zip(left, right, strict=True))
@@ -219,6 +221,8 @@ def _fold(function: Callable, values) -> Value:
 def _times(left: Value, right: Value) -> Value:
     if isinstance(left, Quotient):
         return _map(lambda part: left * part, right)
+    if not isinstance(right, Quotient):
+        raise NotationError("two vectors are multiplied: write dot, cross or @")
     return _map(lambda part: part * right, left)
 
 

@@ -16,7 +16,7 @@ from derive.prove.normal_form import Relation, reduce
 from derive.prove.points import THRESHOLD, Point, is_rounded, sample_points, value_at
 from derive.prove.polynomial import BACKENDS, Terms, text_of
 from derive.prove.statement import Statement
-from derive.prove.tree import Tree, canonical
+from derive.prove.tree import NotationError, Tree, canonical
 
 ATTEMPTS = 24
 
@@ -83,7 +83,7 @@ def decide(statement: Statement, backend: str = BACKENDS[0]) -> Decision:
     evaluator = Evaluator(statement, backend)
     sides = components(evaluator.value(statement.lhs)), components(evaluator.value(statement.rhs))
     if len(sides[0]) != len(sides[1]):
-        raise ValueError(f"{statement.id}: the sides have {len(sides[0])} and {len(sides[1])} components")
+        raise NotationError(f"{statement.id}: the sides have {len(sides[0])} and {len(sides[1])} components")
     reduced = [_reduced(evaluator, left - right) for left, right in zip(*sides, strict=True)]
     instance, refuted = _instance(evaluator, sides, [bool(part.remainder) for part in reduced])
     parts = tuple(

@@ -19,7 +19,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
 Tree: TypeAlias = "str | int | tuple"
@@ -91,9 +91,9 @@ class _Reader:
             case ast.Sub():
                 return _join("+", left, ("-", right))
             case ast.Mult():
-                return _join("*", left, right)
+                return _signed(left, lambda inner: _join("*", inner, right))
             case ast.Div():
-                return ("/", left, right)
+                return _signed(left, lambda inner: ("/", inner, right))
             case ast.MatMult():
                 return ("@", left, right)
             case ast.Pow():
@@ -135,6 +135,11 @@ class _Reader:
             symbol, rate = node.elts
             return (symbol.id, self.read(rate))
         return (node.id, 1)
+
+
+def _signed(left: Tree, build: Callable[[Tree], Tree]) -> Tree:
+    """-a*b is printed and meant as -(a*b)."""
+    return ("-", build(left[1])) if isinstance(left, tuple) and left[0] == "-" else build(left)
 
 
 def _join(operator: str, left: Tree, right: Tree) -> Tree:

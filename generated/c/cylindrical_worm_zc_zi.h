@@ -6,6 +6,23 @@
  * same bits everywhere.
  *
  * Operations: setup 371, set_phi 2, R 245, R and J 629, step 729, observe 704.
+ * Equations (hash 6efbb2dacb0415acbdaeffbba8f3fa04ab81f1993f92e8629ae475f2bb4b48ec):
+ *   conventions/frames
+ *   conventions/rotations
+ *   conventions/sums
+ *   conventions/wheel-axis
+ *   cylindrical_worm/contact
+ *   cylindrical_worm/explicit
+ *   cylindrical_worm/linear
+ *   cylindrical_worm/meshing
+ *   cylindrical_worm/normal
+ *   cylindrical_worm/sum-angle
+ *   cylindrical_worm/undercut
+ *   helicoids/helicoid
+ *   helicoids/normal
+ *   helicoids/zc-limit
+ *   helicoids/zc-normal
+ *   helicoids/zi-normal
  */
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZI_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZI_H
@@ -821,6 +838,10 @@ static inline void cylindrical_worm_zc_zi_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zc_zi_NX] at x[cylindrical_worm_zc_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_zi_NX*cylindrical_worm_zc_zi_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, helicoids/zi-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline void cylindrical_worm_zc_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1486,6 +1507,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, helicoids/zi-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline double cylindrical_worm_zc_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2626,6 +2651,10 @@ static inline void cylindrical_worm_zc_zi_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  *    55 margin_wheel_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, helicoids/zi-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zc_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -3400,6 +3429,8 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit. */
 static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3663,6 +3694,9 @@ static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  *    18 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,6 +6,22 @@
  * same bits everywhere.
  *
  * Operations: setup 320, set_phi 2, R 243, R and J 604, step 704, observe 693.
+ * Equations (hash 6efbb2dacb0415acbdaeffbba8f3fa04ab81f1993f92e8629ae475f2bb4b48ec):
+ *   conventions/frames
+ *   conventions/rotations
+ *   conventions/sums
+ *   conventions/wheel-axis
+ *   cylindrical_worm/contact
+ *   cylindrical_worm/explicit
+ *   cylindrical_worm/linear
+ *   cylindrical_worm/meshing
+ *   cylindrical_worm/normal
+ *   cylindrical_worm/sum-angle
+ *   cylindrical_worm/undercut
+ *   helicoids/helicoid
+ *   helicoids/normal
+ *   helicoids/zk-normal
+ *   zk-zn/eq-4
  */
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZK_ZK_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZK_ZK_H
@@ -783,6 +799,9 @@ static inline void cylindrical_worm_zk_zk_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zk_zk_NX] at x[cylindrical_worm_zk_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_zk_NX*cylindrical_worm_zk_zk_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-
+ *   angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis, cylindrical_worm/contact. */
 static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1423,6 +1442,9 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-
+ *   angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis, cylindrical_worm/contact. */
 static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -2576,6 +2598,10 @@ static inline void cylindrical_worm_zk_zk_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  *    55 margin_wheel_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-
+ *   angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis, cylindrical_worm/contact,
+ *   cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zk_zk_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -3339,6 +3365,8 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4. */
 static inline void cylindrical_worm_zk_zk_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3533,6 +3561,9 @@ static inline void cylindrical_worm_zk_zk_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  *    18 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-
+ *   angle, cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zk_zk_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

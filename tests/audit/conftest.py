@@ -5,6 +5,7 @@ import pytest
 from derive.audit import store
 from derive.audit.documents import rack_and_pinion
 from derive.audit.ledger import Chapter, build
+from derive.files import replace_text
 
 
 @pytest.fixture(scope="session")
@@ -18,11 +19,11 @@ def small_ledger():
 @pytest.fixture
 def record(small_ledger, tmp_path):
     """That record on disk, with one generated header that it names."""
-    (tmp_path / "c").mkdir()
-    (tmp_path / "c" / "drive.h").write_text(f"/* audit root {small_ledger.root} */\ndouble x = a - b;\n")
+    header = f"/* A drive.\n * Equations (hash {small_ledger.root}):\n *   rack-and-pinion/eq-1\n */\ndouble x = a - b;\n"
+    replace_text(tmp_path / "c" / "drive.h", header)
     folder = tmp_path / "audit"
-    store.write(folder, store.record_files(small_ledger))
-    store.write(folder, {"artifacts.json": store.seal(small_ledger, tmp_path, ["c/drive.h"])})
+    for name, text in (store.record_files(small_ledger) | {"artifacts.json": store.seal(small_ledger, {"c/drive.h": header})}).items():
+        replace_text(folder / name, text)
     return folder
 
 

@@ -1,0 +1,60 @@
+"""``python -m derive.audit verify|explain EQ|html``: check the committed record, walk from an equation or a C function to its sources, write the pages.
+
+Exit status: 0 done, 1 the record is rejected, 2 bad input.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+from pathlib import Path
+
+from derive.audit import check, explain
+from derive.files import replace_text
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command."""
+    parser = argparse.ArgumentParser(prog="python -m derive.audit", description=__doc__)
+    parser.add_argument("--generated", type=Path, default=GENERATED, help="folder of generated files")
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("verify", help="recompute every hash and re-check every certificate")
+    commands.add_parser("explain", help="walk back to the sources").add_argument("name", metavar="EQ", help="an equation id or the name of a generated function")
+    commands.add_parser("html", help="write the pages anew").add_argument("--output", type=Path, help="folder; default: generated/audit")
+    options = parser.parse_args(arguments)
+    folder = options.generated / "audit"
+    if options.command == "verify":
+        return check.main([str(folder)])
+    if options.command == "explain":
+        return _explain(options.generated, options.name)
+    return _html(options.generated, options.output or folder)
+
+
+def _explain(generated: Path, name: str) -> int:
+    try:
+        lines = explain.explain(generated, name)
+    except explain.Unknown as error:
+        print(error, file=sys.stderr)
+        return 2
+    print("\n".join(lines))
+    return 0
+
+
+def _html(generated: Path, output: Path) -> int:
+    from derive.audit import record
+
+    named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
+    texts = {name: (generated / name).read_text(encoding="utf-8") for name in named}
+    for name, text in record.files(record.ledger(), texts).items():
+        replace_text(output / Path(name).name, text)
+    print(output / "index.html")
+    return 0
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    sys.exit(main())

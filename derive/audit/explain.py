@@ -1,0 +1,126 @@
+"""Walk through the record as written: generated function -> equations -> definitions -> source lines."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+from pathlib import Path
+
+from derive.prove.tree import Tree
+
+PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "@": 2, "^": 3}
+
+
+class Unknown(Exception):
+    """A name that neither the record nor the generated headers hold."""
+
+
+def explain(generated: Path, name: str) -> list[str]:
+    """Lines of text for an equation id (`cylindrical_worm.meshing`, `recess-action/eq-7`) or a function of a generated header."""
+    objects = _objects(generated / "audit")
+    verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
+    key = name if name in verdicts else name.replace(".", "/", 1)
+    if key in verdicts:
+        return _verdict(generated, objects, verdicts[key])
+    functions = _functions(generated)
+    if name in functions:
+        path, line, keys = functions[name]
+        lines = [f"{name}   {path}:{line}", ""]
+        for each in keys:
+            verdict = verdicts[each]
+            lines.append(f"{each:<36} {verdict['status']:<24} {verdict['plain']}")
+        return lines
+    close = difflib.get_close_matches(key, [*verdicts, *functions], 5, 0.4)
+    raise Unknown(f"no equation or generated function {name!r}" + (f"; close: {', '.join(close)}" if close else ""))
+
+
+def _objects(folder: Path) -> dict[str, dict]:
+    objects = {}
+    for name in ("ledger.jsonl", "certificates.jsonl"):
+        try:
+            text = (folder / name).read_text(encoding="utf-8")
+        except FileNotFoundError as error:
+            raise Unknown(f"there is no record at {folder}; run python -m derive first") from error
+        objects |= {item["sha256"]: item for item in map(json.loads, text.splitlines())}
+    return objects
+
+
+def _functions(generated: Path) -> dict[str, tuple[str, int, list[str]]]:
+    """Function -> header, line and equation ids."""
+    from derive.audit.record import functions_of
+
+    found = {}
+    for path in sorted((generated / "c").glob("*.h")):
+        text = path.read_text(encoding="utf-8")
+        for function, keys in functions_of(text).items():
+            found[function] = (path.relative_to(generated.parent).as_posix(), text[: text.index(f" {function}(")].count("\n") + 1, keys)
+    return found
+
+
+def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[str]:
+    source = objects[verdict["source"]]
+    lines = [f"{verdict['id']}: {verdict['status']}", verdict["plain"], "", f"source     {source['document']}, {source['locator']}"]
+    if source["verbatim"]:
+        lines.append(f"printed    {source['verbatim']}")
+    if source["ocr_doubt"]:
+        lines.append(f"extraction {source['ocr_doubt']}")
+    for role in ("readings", "corrected", "contradiction"):
+        for reading in verdict[role]:
+            lines += ["", reading["label"]]
+            for part in reading["parts"]:
+                lines += _part(objects, part)
+    users = [f"{function}   {path}:{line}" for function, (path, line, keys) in _functions(generated).items() if verdict["id"] in keys]
+    if users:
+        lines += ["", "generated functions that rest on it", *(f"  {user}" for user in users)]
+    return lines
+
+
+def _part(objects: dict[str, dict], part: dict) -> list[str]:
+    equation, certificate = objects[part["equation"]], objects[part["certificate"]]
+    lines = [f"  {text(equation['lhs'])} = {text(equation['rhs']) if certificate['kind'] != 'numeric' else equation['rhs']}"]
+    for name, key in equation["where"].items():
+        step = objects[key]
+        lines.append(f"    {name} := {text(step['tree'])}    [{step['op']} {key[:12]}]")
+    lines.append(f"    {certificate['outcome']} by {certificate['kind']} {certificate['sha256'][:12]}, equation {equation['sha256'][:12]}")
+    if certificate["outcome"] == "refuted" and "point" in certificate:
+        values = {**certificate["point"]["symbols"], **{f"tan({name}/2)": value for name, value in certificate["point"]["half_tangents"].items()}}
+        lines.append("    at " + ", ".join(f"{name} = {value}" for name, value in values.items()))
+        lines.append(f"    left {', '.join(certificate['lhs'])}; right {', '.join(certificate['rhs'])}")
+    return lines
+
+
+def text(tree: Tree | list) -> str:
+    """One line, in the notation of the document modules."""
+    return re.sub(r"\+ -", "- ", _text(tree)[0])
+
+
+def _text(tree: Tree | list) -> tuple[str, int]:
+    if not isinstance(tree, (list, tuple)):
+        return str(tree), 9
+    operation, *arguments = tree
+    if operation in ("+", "*", "/", "@"):
+        level = PRECEDENCE[operation]
+        joiner = {"+": " + ", "*": "*", "/": "/", "@": " @ "}[operation]
+        return joiner.join(_within(argument, level + (k > 0 and operation in "/@")) for k, argument in enumerate(arguments)), level
+    if operation == "-":
+        return "-" + _within(arguments[0], 2), 1
+    if operation == "^":
+        return f"{_within(arguments[0], 4)}^{arguments[1]}", 3
+    if operation == "jet":
+        return arguments[0] + ("'" * arguments[1] if len(arguments) == 2 else f"[{', '.join(map(str, arguments[1:]))}]" if any(arguments[1:]) else ""), 9
+    if operation == "at":
+        return f"{_within(arguments[0], 9)}.{'xyz'[arguments[1]]}", 9
+    if operation == "entry":
+        return f"{_within(arguments[0], 9)}[{arguments[1] + 1},{arguments[2] + 1}]", 9
+    if operation == "mat":
+        return "mat(" + "; ".join(", ".join(_text(entry)[0] for entry in row) for row in arguments) + ")", 9
+    if operation == "d":
+        along = ", ".join(symbol if rate == 1 else f"{symbol} at {_text(rate)[0]}" for symbol, rate in arguments[1:])
+        return f"d({_text(arguments[0])[0]}; {along})", 9
+    return f"{operation}({', '.join(_text(argument)[0] for argument in arguments)})", 9
+
+
+def _within(tree, level: int) -> str:
+    shown, own = _text(tree)
+    return f"({shown})" if own < level else shown

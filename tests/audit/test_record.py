@@ -1,0 +1,109 @@
+"""The record as a whole: quick to prove, quick to re-check, the same every time, readable from the command line."""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from derive.audit import __main__ as command
+from derive.audit import check, ledger, record
+from derive.audit.provenance import provenance
+
+ROOT = Path(__file__).resolve().parents[2]
+GENERATED = ROOT / "generated"
+
+
+def test_committed_record_holds_within_two_seconds_with_the_standard_library_alone():
+    begin = time.perf_counter()
+    result = subprocess.run([sys.executable, "-I", "-S", GENERATED / "audit" / "check.py"], capture_output=True, text=True, cwd="/")
+    assert result.returncode == 0, result.stderr
+    assert time.perf_counter() - begin < 2
+
+
+def test_committed_record_is_what_the_prover_says_now():
+    assert check.verify(GENERATED / "audit")["root"] == record.ledger().root
+
+
+def test_proving_everything_takes_less_than_twenty_seconds():
+    begin = time.perf_counter()
+    ledger.build(record.chapters())
+    assert time.perf_counter() - begin < 20
+
+
+@pytest.mark.parametrize("setting", [{"PYTHONHASHSEED": "1"}, {"PYTHONHASHSEED": "2", "BACKEND": "sympy"}], ids=["other hash seed", "SymPy rings"])
+def test_root_does_not_depend_on_machine_or_back_end(setting):
+    program = (
+        "import os, derive.prove.polynomial as p\n"
+        "if os.environ.get('BACKEND'): p.BACKENDS = (os.environ['BACKEND'],)\n"
+        "import derive.audit.ledger as l\n"
+        "from derive.audit.documents import rack_and_pinion as d\n"
+        "print(l.build([d.CHAPTER]).root)"
+    )
+    here = ledger.build([record.chapters()[1]]).root
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=ROOT, env={**os.environ, **setting})
+    assert result.stdout.strip() == here, result.stderr
+
+
+def test_record_contains_no_time_and_no_path_of_this_machine():
+    for path in (GENERATED / "audit").iterdir():
+        text = path.read_text(encoding="utf-8")
+        assert str(ROOT) not in text
+        assert not re.search(r"20\d\d-\d\d-\d\dT", text)
+
+
+def test_pages_need_no_network():
+    for path in (GENERATED / "audit").glob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r'(src|href)="(https?:)?//', text) and "<script" not in text and "@import" not in text
+
+
+def test_every_header_carries_root_and_equations():
+    root = record.ledger().root
+    headers = [path for path in (GENERATED / "c").glob("*.h") if path.name != "models.h"]
+    assert len(headers) >= 30
+    for path in headers:
+        text = path.read_text(encoding="utf-8")
+        assert root in text
+        functions = record.functions_of(text)
+        assert any(name.endswith("_eval") for name in functions)
+        assert any("_flank_wheel" in name for name in functions)
+
+
+def test_explain_walks_from_c_function_to_source(capsys):
+    assert command.main(["explain", "cylindrical_worm_zn_zn_flank_wheel"]) == 0
+    assert "cylindrical_worm/meshing" in capsys.readouterr().out
+    assert command.main(["explain", "cylindrical_worm.meshing"]) == 0
+    text = capsys.readouterr().out
+    assert "derive/drives/cylindrical_worm.py" in text
+    assert "generated/c/cylindrical_worm_zn_zn.h:" in text
+    assert "n_hob := cross(d(hob; t), d(hob; psi))" in text
+
+
+def test_explain_shows_print_counterexample_and_correction(capsys):
+    command.main(["explain", "recess-action/eq-16"])
+    text = capsys.readouterr().out
+    assert "Eq (16)" in text and "000_e4dc51872e8570c2.txt" in text
+    assert "refuted by exact_point" in text and "proved by ring_nf" in text
+
+
+def test_unknown_equation_is_bad_input_with_a_hint(capsys):
+    assert command.main(["explain", "cylindrical_worm.meshin"]) == 2
+    assert "cylindrical_worm/meshing" in capsys.readouterr().err
+
+
+def test_verify_reports_success_and_rejection(tmp_path, capsys):
+    assert command.main(["verify"]) == 0
+    assert command.main(["--generated", str(tmp_path), "verify"]) == 1
+    assert "REJECTED" in capsys.readouterr().err
+
+
+def test_a_function_may_only_rest_on_what_is_proved():
+    with pytest.raises(KeyError, match="family"):
+        provenance(record.ledger(), "bevel", {})
+    empty = ledger.Ledger()
+    with pytest.raises(ValueError, match="not a proved statement"):
+        provenance(empty, "face-worm", {})
