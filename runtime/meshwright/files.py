@@ -15,14 +15,19 @@ def write_text(place, content):
     """Write to standard output ("-") or replace a file; an interrupted write leaves the old file."""
     if place == "-":
         sys.stdout.write(content)
-        return
+    else:
+        write_bytes(place, content.encode("utf-8"))
+
+
+def write_bytes(place, content):
+    """Replace a file; an interrupted write leaves the old one."""
     path = Path(place)
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     except OSError as error:
         raise UsageError(f"{place}: cannot be written ({error.strerror}); name a file in an existing folder") from error
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
+        with os.fdopen(handle, "wb") as stream:
             stream.write(content)
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)

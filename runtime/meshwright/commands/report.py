@@ -1,0 +1,42 @@
+"""A page that an engineer reads: figures, tables and the teeth in contact, in one self-contained HTML file.
+
+Exit status 1 if a position has no contact, touches along a line, or is one that bodies cannot make.
+"""
+
+from meshwright.commands import options as common
+from meshwright.commands.progress import progress
+from meshwright.errors import UsageError
+from meshwright.files import write_text
+
+FORMATS = ("pdf", "svg", "png")
+
+
+def add_arguments(parser):
+    common.add_design(parser)
+    parser.add_argument("--html", metavar="FILE", help="write the page")
+    parser.add_argument("--figures", metavar="FOLDER", help="write the figures for print, one file each")
+    parser.add_argument("--format", choices=FORMATS, default="pdf", help="of the figures for print")
+
+
+def run(options):
+    if not options.html and not options.figures:
+        raise UsageError("report: nothing to write; give --html FILE, --figures FOLDER or both")
+    report = _report()
+    drive = common.drive_of(options)
+    with progress(report.steps(drive) + 1) as step:
+        analysis = report.analyse(drive, step)
+        step("figures")
+        if options.html:
+            write_text(options.html, report.page(analysis))
+        if options.figures:
+            report.write_figures(analysis, options.figures, options.format)
+    return 0 if analysis.tca.complete else 1
+
+
+def _report():
+    """The report package, whose drawing libraries are an extra."""
+    try:
+        from meshwright import report
+    except ModuleNotFoundError as error:
+        raise UsageError(f"report: {error.name} is not installed; `pip install 'meshwright[plot]'` brings it") from error
+    return report

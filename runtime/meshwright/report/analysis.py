@@ -1,0 +1,172 @@
+"""Everything that a report shows, computed once: the figures and the page only read it."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.drive import Drive
+from meshwright.pairs import Mesh
+from meshwright.placement import placements
+from meshwright.report.patch import Patch, patch
+from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
+from meshwright.results import TCA
+from meshwright.transmission import Envelopes, TransmissionError, envelopes, fourier, transmission_error
+
+#: Least number of positions over the contact of one pair, and of positions per pitch.
+POSITIONS, LEAST_PER_PITCH = 120, 16
+
+#: Pitches shown to either side of angle 0 where no limit ends the contact.
+WITHOUT_END = 1.0
+
+#: Tooth orders of the Fourier components.
+ORDERS = 8
+
+
+@dataclass(frozen=True)
+class Running:
+    """All pairs of the drive together; ``envelopes`` run over the window, ``pitch`` over one pitch in its middle,
+    with the number of ``teeth`` in contact and the ``separations`` (K, N) mm of the pairs ``pitch.numbers``."""
+
+    mesh: Mesh
+    error: TransmissionError
+    envelopes: Envelopes
+    pitch: Envelopes
+    teeth: np.ndarray
+    separations: np.ndarray
+    amplitudes: np.ndarray
+
+    @property
+    def transmitted(self):
+        """The transmitted envelope over one pitch, rad: (N,)."""
+        return self.pitch.upper if self.error.envelope == "upper" else self.pitch.lower
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """The analysis of a drive over one pair's contact.
+
+    ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``matrices`` (N, 4, 4) place the members'
+    frames in the fixed frame, ``patches`` are their flanks: both of the right-hand drive. ``running`` is None where
+    flanks touch along lines or not at all.
+    """
+
+    drive: Drive
+    running: Running | None
+    tca: TCA
+    steps_per_pitch: int
+    matrices: dict[str, np.ndarray]
+    patches: dict[str, Patch]
+    sensitivities: tuple[Sensitivity, ...]
+
+    @property
+    def mirror(self):
+        """−1 for a left-hand design, whose flanks and placements are those of its mirror image."""
+        return -1.0 if self.drive.design.mirrored else 1.0
+
+    @property
+    def teeth(self):
+        """Teeth of the members."""
+        pinion = 2 * math.pi / self.drive.pitch()
+        return {"pinion": round(pinion), "wheel": round(pinion / self.drive.ratio)}
+
+    def in_body(self, member, k, points):
+        """Fixed-frame ``points`` (M, 3) at position ``k`` in the frame of a member, mm, with the design's hand."""
+        flip = np.array([1.0, self.mirror, 1.0])
+        matrix = self.matrices[member][k]
+        return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
+
+    def body_normals(self, member):
+        """Contact normals (N, 3) in the frame of a member, with the design's hand."""
+        flip = np.array([1.0, self.mirror, 1.0])
+        return np.einsum("nxb,nx->nb", self.matrices[member][:, :3, :3], self.tca.normals * flip) * flip
+
+
+def analyse(drive, step):
+    """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work."""
+    step("window of contact")
+    mesh = Mesh.of(drive)
+    angles, per_pitch = _positions(drive, mesh)
+    step("contact over the pinion angle")
+    tca = drive.tca(angles)
+    step("all pairs together")
+    running = None if mesh.window.path is None else _running(mesh, angles)
+    step("flanks")
+    matrices = _matrices(drive, tca)
+    patches = _patches(drive, tca, matrices)
+    sensitivities = []
+    for parameter in misalignments(drive.design):
+        step(f"misalignment {parameter['key']}")
+        sensitivities.append(sensitivity(drive, parameter, angles))
+    return Analysis(drive, running, tca, per_pitch, matrices, patches, tuple(sensitivities))
+
+
+def steps(drive):
+    """How often :func:`analyse` calls ``step``."""
+    return 4 + len(misalignments(drive.design))
+
+
+def _positions(drive, mesh):
+    """Ascending angles at whole fractions of a pitch from end to end of the contact, and how many make a pitch."""
+    pitch = drive.pitch()
+    low, high = -WITHOUT_END * pitch, WITHOUT_END * pitch
+    known = sorted(e.angle for e in (mesh.window.begin, mesh.window.end) if e.exists)
+    if len(known) == 2:
+        low, high = known
+    elif known:
+        low, high = min(low, *known), max(high, *known)
+    per_pitch = max(LEAST_PER_PITCH, math.ceil(POSITIONS * pitch / (high - low)))
+    step = pitch / per_pitch
+    return np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, per_pitch
+
+
+def _running(mesh, angles):
+    pitch = mesh.drive.pitch()
+    middle = 0.5 * (angles[0] + angles[-1])
+    over_pitch = envelopes(mesh, middle + np.linspace(-0.5, 0.5, 97) * pitch)
+    separations = np.full(over_pitch.pairs.shape, np.nan)
+    for column, angle in enumerate(over_pitch.angles):
+        for pair in mesh.pairs(angle):
+            separations[over_pitch.numbers.index(pair.number), column] = pair.separation
+    return Running(
+        mesh=mesh,
+        error=transmission_error(mesh),
+        envelopes=envelopes(mesh, angles),
+        pitch=over_pitch,
+        teeth=np.array([mesh.teeth_in_contact(angle) for angle in over_pitch.angles]),
+        separations=separations,
+        amplitudes=fourier(mesh, ORDERS)[0],
+    )
+
+
+def _matrices(drive, tca):
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    order = np.argsort(mirror * tca.angles)
+    placed = placements(drive, mirror * tca.angles[order])
+    return {name: matrices[np.argsort(order)] for name, matrices in placed.matrices.items()}
+
+
+def _patches(drive, tca, matrices):
+    """Both flanks around the path of contact; none where there are no contact points."""
+    if not tca.solved.any():
+        return {}
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    flip, solved = np.array([1.0, mirror, 1.0]), tca.solved
+    major, normal = flip * tca.major[solved], flip * tca.normals[solved]
+    lengths = np.nan_to_num(tca.semi_axes[solved])
+    ellipses = np.stack([major, np.cross(normal, major)], axis=1) * lengths[:, :, None]
+    size = np.linalg.norm(np.ptp(tca.points[solved], axis=0)) + lengths.max()
+    patches = {}
+    for body in drive.design.description["bodies"]:
+        rotations = matrices[body["name"]][solved, :3, :3]
+        axes = np.einsum("nxb,nax->nab", rotations, ellipses)
+        path = _parameters(drive, body, tca, mirror)[solved]
+        patches[body["name"]] = patch(drive.flank(body["name"]), path, axes, size / 70)
+    return patches
+
+
+def _parameters(drive, body, tca, mirror):
+    """Surface parameters of the contact points on a body (N, k), right-hand drive."""
+    order = np.argsort(mirror * tca.angles)
+    unknowns, _ = drive.trace(mirror * tca.angles[order])
+    return unknowns[np.argsort(order)][:, body["unknowns"]]

@@ -1,0 +1,193 @@
+"""The figures of a report, drawn once with Matplotlib: SVG inside the page, PDF or PNG for print."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+
+from meshwright.report import pattern_figure, sensitivity_figures, style
+from meshwright.results import ARCSEC
+
+PINION_ANGLE = "pinion angle, deg"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure of the report: file ``name``, ``title``, ``caption`` in words, and how it is drawn from an analysis.
+
+    A ``wide`` figure takes the whole width of the page.
+    """
+
+    name: str
+    title: str
+    caption: str
+    draw: Callable[..., Figure]
+    wide: bool = False
+
+    def figure(self, analysis):
+        """The drawn figure."""
+        with style.drawing():
+            return self.draw(analysis)
+
+
+def pictures(analysis):
+    """The :class:`Picture` list of an analysis: those for which it has numbers."""
+    solved, known = analysis.tca.solved.any(), np.isfinite(analysis.tca.error).any()
+    drawn = []
+    if analysis.running is not None:
+        drawn += [_DRIVE_ERROR, _TEETH]
+    elif known:
+        drawn.append(_PAIR_ERROR)
+    if solved:
+        drawn += [_pattern(member) for member in analysis.patches]
+    if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
+        drawn.append(_SEMI_AXES)
+    if analysis.running is not None and np.isfinite(analysis.running.amplitudes).all():
+        drawn.append(_SPECTRUM)
+    if analysis.sensitivities and known:
+        drawn.append(_SENSITIVITY_ERROR)
+    if analysis.sensitivities and solved:
+        drawn.append(_SENSITIVITY_PATH)
+    return drawn
+
+
+def _pattern(member):
+    return Picture(
+        f"pattern-{member}",
+        f"Contact pattern on the {member}",
+        "Path of contact and contact ellipses at the design's separation. Dashed red: where a limit of the design "
+        "ends the flank.",
+        lambda analysis: pattern_figure.draw(analysis, member),
+    )
+
+
+def _pair_error(analysis):
+    figure = style.figure(6.4, 3.7)
+    axes = figure.subplots()
+    axes.plot(np.degrees(analysis.tca.angles), analysis.tca.error / ARCSEC, color=style.INK)
+    axes.set(xlabel=PINION_ANGLE, ylabel="transmission error, arcsec")
+    return figure
+
+
+def _drive_error(analysis):
+    running = analysis.running
+    zero = analysis.tca.reference_error
+    figure = style.figure(6.4, 4.6)
+    whole, zoom = figure.subplots(2, 1, height_ratios=(3, 2))
+    for axes, found in ((whole, running.envelopes), (zoom, running.pitch)):
+        angles = np.degrees(found.angles)
+        for row, number in zip(found.pairs, found.numbers, strict=True):
+            followed = number == 0
+            axes.plot(
+                angles,
+                (row - zero) / ARCSEC,
+                color=style.PINION if followed else style.SOFT,
+                linewidth=1.6 if followed else 0.8,
+                label="this pair" if followed else None,
+            )
+        transmitted = found.upper if running.error.envelope == "upper" else found.lower
+        axes.plot(angles, (transmitted - zero) / ARCSEC, color=style.WHEEL, linewidth=2.2, label="transmitted")
+        axes.set_ylabel("relative error, arcsec")
+    whole.plot([], [], color=style.SOFT, linewidth=0.8, label="other pairs")
+    whole.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    _zoom(zoom, (running.transmitted - zero) / ARCSEC)
+    zoom.set(xlabel=PINION_ANGLE)
+    zoom.set_title("over one pitch", fontsize=8.5, fontweight="normal")
+    return figure
+
+
+def _zoom(axes, values):
+    """Room for the values, a little more, and nothing else."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    room = max(0.15 * (high - low), 1e-6)
+    axes.set_ylim(low - room, high + room)
+
+
+def _teeth(analysis):
+    running = analysis.running
+    figure = style.figure(6.4, 4.6)
+    count, apart = figure.subplots(2, 1, sharex=True, height_ratios=(2, 3))
+    angles = np.degrees(running.pitch.angles)
+    count.step(angles, running.teeth, where="mid", color=style.INK)
+    count.set(ylabel="teeth in contact", ylim=(0, running.teeth.max() + 1))
+    count.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
+    for row, number in zip(running.separations, running.pitch.numbers, strict=True):
+        apart.plot(angles, 1000.0 * row, color=style.PINION if number == 0 else style.SOFT, linewidth=1.2)
+    if running.mesh.allowance > 0.0:
+        apart.axhline(1000.0 * running.mesh.allowance, color=style.WARN, linestyle="--", label="elastic allowance")
+        apart.legend()
+    apart.set(xlabel=PINION_ANGLE, ylabel="separation of each pair, µm")
+    return figure
+
+
+def _semi_axes(analysis):
+    figure = style.figure(6.4, 3.6)
+    axes = figure.subplots()
+    for column, name, line in ((0, "major", "-"), (1, "minor", "--")):
+        values = analysis.tca.semi_axes[:, column]
+        axes.plot(np.degrees(analysis.tca.angles), values, line, color=style.INK, label=f"{name} semi-axis")
+    axes.set(xlabel=PINION_ANGLE, ylabel="semi-axis, mm", yscale="log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.legend()
+    return figure
+
+
+def _spectrum(analysis):
+    amplitudes = analysis.running.amplitudes / ARCSEC
+    figure = style.figure(6.4, 3.6)
+    axes = figure.subplots()
+    axes.bar(np.arange(1, len(amplitudes) + 1), amplitudes, width=0.6, color=style.WHEEL)
+    axes.set(xlabel="tooth order", ylabel="amplitude, arcsec")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.grid(visible=False, axis="x")
+    return figure
+
+
+_PAIR_ERROR = Picture(
+    "transmission-error", "Transmission error", "Wheel angle less ratio times pinion angle, of one pair.", _pair_error
+)
+_DRIVE_ERROR = Picture(
+    "transmission-error",
+    "Transmission error of the pairs and of the drive",
+    "Wheel angle less ratio times pinion angle, less its value at the reference angle. The wheel follows the pair that "
+    "leads: the transmitted envelope.",
+    _drive_error,
+)
+_TEETH = Picture(
+    "contact-teeth",
+    "Teeth in contact over one pitch",
+    "Above: how many pairs share contact. Below: how far each pair inside its window stands from touching while the "
+    "leading pair touches, along the contact normal.",
+    _teeth,
+)
+_SEMI_AXES = Picture(
+    "semi-axes",
+    "Size of the contact ellipse",
+    "Semi-axes of the contact ellipse at the design's separation, logarithmic.",
+    _semi_axes,
+)
+_SPECTRUM = Picture(
+    "fourier",
+    "Fourier components of the transmission error",
+    "Amplitudes of the transmitted error by tooth order: 1 is once a pinion pitch.",
+    _spectrum,
+)
+_SENSITIVITY_ERROR = Picture(
+    "sensitivity-transmission-error",
+    "Change of the transmission error under misalignment",
+    "Relative transmission error of one pair with one misalignment, less that of the design as given. The constant "
+    "offset is in the table below.",
+    sensitivity_figures.error,
+    wide=True,
+)
+_SENSITIVITY_PATH = Picture(
+    "sensitivity-path",
+    "Path of contact on the wheel under misalignment",
+    "With each misalignment alone, either way, on top of the design as given.",
+    sensitivity_figures.path,
+    wide=True,
+)

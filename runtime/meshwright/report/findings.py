@@ -1,0 +1,131 @@
+"""What the numbers say, in words: headline figures and the sentences under them."""
+
+import math
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.report import words
+from meshwright.report.numbers import fixed, number
+from meshwright.results import ARCSEC, IMPOSSIBLE
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A headline number with its unit and a line of explanation."""
+
+    label: str
+    value: str
+    unit: str
+    note: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A sentence; ``kind`` is good, warn or note."""
+
+    kind: str
+    text: str
+
+
+def tiles(analysis):
+    """The headline numbers of an analysis."""
+    shown = [Tile("Ratio", number(1.0 / analysis.drive.ratio), "", f"teeth {analysis.teeth['pinion']} : {analysis.teeth['wheel']}")]
+    running = analysis.running
+    if running is not None:
+        mesh, error = running.mesh, running.error
+        shown += [
+            Tile("Contact ratio", fixed(mesh.contact_ratio, 3), "", "pitches from begin to end"),
+            Tile("Teeth in contact", _span(running.teeth), "", _averages(mesh)),
+            Tile(
+                "Transmission error",
+                number(error.envelope_peak_to_peak / ARCSEC, 4),
+                "arcsec",
+                f"peak to peak of the drive; one pair {number(error.pair_peak_to_peak / ARCSEC, 4)} arcsec",
+            ),
+        ]
+    axes = analysis.tca.semi_axes[np.isfinite(analysis.tca.semi_axes).all(axis=1)]
+    if len(axes):
+        shown.append(
+            Tile(
+                "Contact ellipse",
+                f"{_range(axes[:, 0])} × {_range(axes[:, 1])}",
+                "mm",
+                f"semi-axes at {number(analysis.drive.design.value('separation_mm', 'contact'))} mm separation",
+            )
+        )
+    return shown
+
+
+def _range(values):
+    low, high = number(values.min(), 3), number(values.max(), 3)
+    return low if low == high else f"{low}–{high}"
+
+
+def _span(teeth):
+    low, high = int(teeth.min()), int(teeth.max())
+    return str(low) if low == high else f"{low}–{high}"
+
+
+def _averages(mesh):
+    return (
+        f"average {fixed(mesh.average_over_pitch(), 3)} over a pitch, "
+        f"{fixed(mesh.average_begin_to_end(), 3)} from begin to end"
+    )
+
+
+def findings(analysis):
+    """What a reader should know before the figures."""
+    said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _error(analysis)
+    if not any(f.kind == "warn" for f in said):
+        said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
+    return said
+
+
+def _window(analysis):
+    if analysis.running is None:
+        return []
+    window = analysis.running.mesh.window
+    said = []
+    for name, end in (("begins", window.begin), ("ends", window.end)):
+        if end.exists:
+            limit = words.event(end.reason, end.member)
+            said.append(Finding("note", f"Contact {name} at {fixed(math.degrees(end.angle), 3)}° of the pinion, at {limit}."))
+        else:
+            said.append(Finding("note", f"Nothing in the design limits where contact {name}: no blank limit is given there."))
+    return said
+
+
+def _statuses(analysis):
+    tca = analysis.tca
+    counted = Counter(m for s, m in zip(tca.status, tca.messages, strict=True) if s != "converged")
+    total = len(tca.status)
+    return [Finding("warn", f"At {n} of {total} positions {message}.") for message, n in counted.items()]
+
+
+def _flags(analysis):
+    counted = Counter(flag for flags in analysis.tca.flags for flag in flags)
+    total = len(analysis.tca.flags)
+    return [
+        Finding("warn" if flag in IMPOSSIBLE else "note", f"At {n} of {total} positions {words.flag(flag)}.")
+        for flag, n in counted.items()
+    ]
+
+
+def _error(analysis):
+    if analysis.running is None:
+        return []
+    error, said = analysis.running.error, []
+    if error.rides_on_edge:
+        said.append(
+            Finding(
+                "note",
+                "The leading pair stands at an end of its window when it hands over: the drive's transmission error "
+                "steps there instead of passing smoothly from pair to pair.",
+            )
+        )
+    if error.transfers:
+        at = " and ".join(f"{fixed(math.degrees(a), 2)}°" for a in error.transfers)
+        said.append(Finding("note", f"Neighbouring pairs agree, so that one can take over from the other, at {at}."))
+    return said

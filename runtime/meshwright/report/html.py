@@ -1,0 +1,74 @@
+"""The report as one HTML page that needs nothing else: no network, no other file."""
+
+import html
+import json
+from dataclasses import dataclass
+from importlib import resources
+
+import jinja2
+from markupsafe import Markup
+
+from meshwright.report import style, words
+from meshwright.report.figures import pictures
+from meshwright.report.findings import findings, tiles
+from meshwright.report.numbers import number
+from meshwright.report.scene import scene
+from meshwright.report.tables import groups
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    title: str
+    caption: str
+    wide: bool
+    svg: Markup
+
+
+def page(analysis):
+    """The page as text. Every text of the design is escaped."""
+    design = analysis.drive.design
+    tables = groups(analysis)
+    view = scene(analysis)
+    sections = [("summary", "Summary"), *([("teeth", "Teeth")] if view else []), ("figures", "Figures")]
+    sections += [(group.id, group.title) for group in tables] + [("validity", "Limits of validity")]
+    return _environment().get_template("report.html.jinja").render(
+        name=design.tables["name"] or design.description["title"],
+        title=design.description["title"],
+        flank=design.tables["flank"],
+        hand=design.tables["design"].get("hand"),
+        version=design.description["generator"],
+        drive=design.description["name"],
+        hash=design.description["specification_hash"][:16],
+        css=Markup(_file("report.css")),
+        script=Markup(_file("view.js")),
+        sections=sections,
+        tiles=tiles(analysis),
+        findings=findings(analysis),
+        scene=_json(view) if view else None,
+        positions=len(analysis.tca.angles),
+        colours=style.MEMBERS,
+        separation=number(design.value("separation_mm", "contact")),
+        pictures=[_drawn(picture, analysis) for picture in pictures(analysis)],
+        tables=tables,
+        validity=words.VALIDITY,
+    )
+
+
+def _environment():
+    loader = jinja2.FunctionLoader(_file)
+    return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+
+
+def _file(name):
+    return (resources.files("meshwright.report") / "page" / name).read_text(encoding="utf-8")
+
+
+def _json(data):
+    """JSON that may stand inside a script element: nothing in it can end the element."""
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    return Markup(text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026"))
+
+
+def _drawn(picture, analysis):
+    svg = style.to_svg(picture.figure(analysis), picture.name, html.escape(picture.title))
+    return _Drawn(picture.title, picture.caption, picture.wide, Markup(svg))

@@ -1,0 +1,59 @@
+"""The contact pattern on one member's flank."""
+
+import numpy as np
+
+from meshwright.report import style
+from meshwright.report.projection import Projection
+
+#: Ellipses drawn along the path of contact.
+ELLIPSES = 9
+
+
+def draw(analysis, member):
+    """Flank, path of contact and ellipses on ``member``, laid flat."""
+    figure = style.figure(6.4, 4.2)
+    axes = figure.subplots()
+    colour, tca = style.MEMBERS[member], analysis.tca
+    projection = Projection.of(tca.body_points[member][tca.solved], analysis.body_normals(member)[tca.solved])
+    _flank(axes, projection, analysis.patches[member], colour)
+    for ring in _ellipses(analysis, member):
+        axes.fill(*projection(ring), facecolor=colour, alpha=0.3, edgecolor="none")
+        axes.plot(*projection(ring), color=colour, linewidth=0.9)
+    path = np.column_stack(projection(tca.body_points[member]))
+    axes.plot(*path.T, color=style.INK, linewidth=1.3)
+    _name_ends(axes, path, tca.angles)
+    horizontal, vertical = projection.labels(member)
+    axes.set(xlabel=horizontal, ylabel=vertical)
+    if projection.end_on:
+        axes.set_aspect("equal", adjustable="datalim")
+    return figure
+
+
+def _flank(axes, projection, flank, colour):
+    """Outline of the drawn part of the flank, and where a limit of the design ends it."""
+    across, up = (np.ma.masked_invalid(v) for v in projection(flank.points))
+    rim = [(slice(None), 0), (slice(None), -1), (0, slice(None)), (-1, slice(None))]
+    for edge in rim:
+        axes.plot(across[edge], up[edge], color=colour, linewidth=0.6, alpha=0.6)
+    if not projection.end_on:
+        axes.contourf(across, up, flank.inside, levels=[0.0, np.inf], colors=[colour], alpha=0.08)
+    if np.nanmin(flank.inside) < 0.0 < np.nanmax(flank.inside):
+        axes.contour(across, up, flank.inside, levels=[0.0], colors=[style.WARN], linewidths=1.0, linestyles="dashed")
+
+
+def _ellipses(analysis, member):
+    """Contact ellipses at positions spread over the contact, body frame: (97, 3) each, mm."""
+    tca = analysis.tca
+    solved = np.flatnonzero(tca.solved & np.isfinite(tca.semi_axes).all(axis=1))
+    if not solved.size:
+        return []
+    chosen = solved[np.unique(np.linspace(0, solved.size - 1, ELLIPSES).round().astype(int))]
+    return [analysis.in_body(member, k, tca.ellipse(k)) for k in chosen]
+
+
+def _name_ends(axes, path, angles):
+    known = np.flatnonzero(np.isfinite(path[:, 0]))
+    for k in (known[0], known[-1]):
+        axes.plot(*path[k], marker="o", markersize=4.5, color=style.INK)
+        axes.annotate(f"{np.degrees(angles[k]):.1f}°".replace("-", "−"), path[k], xytext=(6, 6),
+                      textcoords="offset points", fontsize=8.5)  # fmt: skip

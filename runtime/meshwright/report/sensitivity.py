@@ -1,0 +1,69 @@
+"""What each misalignment does: central differences of the whole analysis about the design as given."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.pairs import Mesh
+from meshwright.results import TCA
+from meshwright.transmission import transmission_error
+
+#: Size and label of a misalignment that a workshop would call small, by the unit of its key.
+STEPS = {"mm": (0.01, "0.01 mm"), "deg": (1 / 60, "1′")}
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Effect of one misalignment of ``step`` (unit of its key, shown as ``label``), N input angles.
+
+    ``minus``, ``plus``: the analyses on either side. ``peak_to_peak``: of the transmitted error, rad, on either side.
+    """
+
+    key: str
+    meaning: str
+    label: str
+    step: float
+    minus: TCA
+    plus: TCA
+    peak_to_peak: tuple[float, float]
+
+    @property
+    def error(self):
+        """Change of the transmission error by one step (N,), rad, by central difference."""
+        return 0.5 * (self.plus.error - self.minus.error)
+
+    def shift(self, member):
+        """Change of the contact point on a member by one step (N, 2), axial and radial, mm, by central difference."""
+        return 0.5 * (meridional(self.plus.body_points[member]) - meridional(self.minus.body_points[member]))
+
+
+def misalignments(design):
+    """The misalignments of a design's family: its parameter entries of that table."""
+    return [p for p in design.description["parameters"] if p["table"] == "misalignment"]
+
+
+def sensitivity(drive, parameter, angles):
+    """The :class:`Sensitivity` of one misalignment at ``angles`` (rad)."""
+    step, label = STEPS[parameter["key_unit"]]
+    key, given = parameter["key"], drive.design.value(parameter["key"], "misalignment") / parameter["factor"]
+    minus, plus = (drive.with_(misalignment={key: given + d}) for d in (-step, step))
+    return Sensitivity(
+        key=key,
+        meaning=parameter["meaning"],
+        label=label,
+        step=step,
+        minus=minus.tca(angles),
+        plus=plus.tca(angles),
+        peak_to_peak=(_peak_to_peak(minus), _peak_to_peak(plus)),
+    )
+
+
+def _peak_to_peak(drive):
+    mesh = Mesh.of(drive)
+    return math.nan if mesh.window.path is None else transmission_error(mesh).envelope_peak_to_peak
+
+
+def meridional(points):
+    """Axial position and radius (N, 2) of points (N, 3) in a body frame, whose z axis is the body's axis."""
+    return np.column_stack([points[:, 2], np.hypot(points[:, 0], points[:, 1])])

@@ -1,0 +1,67 @@
+"""How figures look: one set of colours and sizes for the report and for print, and figures as inline SVG."""
+
+import io
+import re
+from contextlib import contextmanager
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+PINION, WHEEL, INK, SOFT, WARN = "#1f6f9f", "#b8651b", "#1c2733", "#8593a1", "#c0273d"
+MEMBERS = {"pinion": PINION, "wheel": WHEEL}
+
+_SETTINGS = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+    "axes.titlesize": 9.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.0,
+    "axes.edgecolor": SOFT,
+    "axes.labelcolor": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.unicode_minus": True,
+    "grid.color": "#e3e8ed",
+    "grid.linewidth": 0.8,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "text.color": INK,
+    "lines.linewidth": 1.5,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.constrained_layout.use": True,
+    "svg.fonttype": "none",
+}
+
+
+@contextmanager
+def drawing():
+    """Matplotlib settings of all figures."""
+    with mpl.rc_context(_SETTINGS):
+        yield
+
+
+def figure(width=6.4, height=3.6):
+    """An empty figure, inches."""
+    return Figure(figsize=(width, height))
+
+
+def to_svg(drawn, name, label):
+    """The figure as an ``<svg>`` element to stand inside HTML: no declaration, unique ids, described by ``label``.
+
+    ``name`` prefixes every id, so that several figures can share a page; text stays text. ``label`` is escaped by
+    the caller.
+    """
+    stream = io.StringIO()
+    nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+    with mpl.rc_context(_SETTINGS | {"svg.hashsalt": name}):
+        drawn.savefig(stream, format="svg", metadata=nothing)
+    text = stream.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r'\bid="', f'id="{name}-', text)
+    text = re.sub(r'(href="#|url\(#)', rf"\g<1>{name}-", text)
+    return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', rf'<svg role="img" aria-label="{label}" \1', text)

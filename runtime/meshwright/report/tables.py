@@ -1,0 +1,134 @@
+"""The tables of a report: the design with every derived size, the results, the sensitivities."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.report.numbers import fixed, number, title, unit
+from meshwright.results import ARCSEC
+
+_HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank", "contact": "Contact"}
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of text under a header; ``numeric`` are the columns to align as numbers."""
+
+    title: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    numeric: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True)
+class Group:
+    """Tables under one heading."""
+
+    id: str
+    title: str
+    note: str
+    tables: tuple[Table, ...]
+
+
+def groups(analysis):
+    """Every :class:`Group` of an analysis, in order."""
+    found = []
+    if analysis.sensitivities and np.isfinite(analysis.tca.error).any():
+        found.append(_sensitivities(analysis))
+    return [*found, _design(analysis.drive.design), _positions(analysis)]
+
+
+def _design(design):
+    tables = []
+    for name, heading in _HEADINGS.items():
+        rows = [_parameter(design, p) for p in design.description["parameters"] if p["table"] == name]
+        rows = [row for row in rows if row[1] != "–"]
+        if name == "design":
+            rows = [(title(key), str(word), "–", "word", key) for key, word in _words(design)] + rows
+        if rows:
+            tables.append(Table(heading, ("meaning", "value", "unit", "", "key"), tuple(rows), frozenset({1})))
+    sizes = [
+        (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"])
+        for s in design.description["sizes"]
+    ]
+    tables.append(Table("Derived sizes", ("meaning", "value", "unit", "", "key"), tuple(sizes), frozenset({1})))
+    note = "Values are in the unit of their key; derived ones follow from the given ones. Keys left open set no limit and are not listed."
+    return Group("design", "Design and derived sizes", note, tuple(tables))
+
+
+def _words(design):
+    words = design.tables["design"]
+    return [(key, words[key]) for key in (*design.description["variant"], "hand") if words.get(key)]
+
+
+def _parameter(design, parameter):
+    key, table = parameter["key"], parameter["table"]
+    given = design.tables[table].get(key) is not None
+    value = design.value(key, table) / parameter["factor"]
+    return parameter["meaning"], number(value, 9), unit(key), "given" if given else "derived", key
+
+
+def _sensitivities(analysis):
+    middle = len(analysis.tca.angles) // 2
+    rows = [_effect(analysis, effect, middle) for effect in analysis.sensitivities]
+    header = (
+        "misalignment",
+        "step",
+        "transmission error, arcsec",
+        "on pinion: axial, mm",
+        "radial, mm",
+        "on wheel: axial, mm",
+        "radial, mm",
+        "peak to peak at −step, arcsec",
+        "at +step, arcsec",
+    )
+    note = (
+        f"Change for one step, by central difference, at {fixed(np.degrees(analysis.tca.angles[middle]), 2)}° of the pinion: "
+        "of the transmission error and of the contact point on both members. Peak to peak: of the drive's transmitted error"
+        f"{_nominal(analysis)}."
+    )
+    return Group("sensitivity", "Sensitivity to misalignment", note, (Table("", header, tuple(rows), frozenset(range(2, 9))),))
+
+
+def _nominal(analysis):
+    if analysis.running is None:
+        return ""
+    return f", as designed {number(analysis.running.error.envelope_peak_to_peak / ARCSEC, 4)} arcsec"
+
+
+def _effect(analysis, effect, k):
+    shifts = [number(v, 4) for member in ("pinion", "wheel") for v in effect.shift(member)[k]]
+    peaks = [number(p / ARCSEC, 4) for p in effect.peak_to_peak]
+    return (effect.meaning, effect.label, number(effect.error[k] / ARCSEC, 4), *shifts, *peaks)
+
+
+def _positions(analysis):
+    tca = analysis.tca
+    rows = []
+    for k in range(0, len(tca.angles), max(1, analysis.steps_per_pitch // 4)):
+        rows.append(
+            (
+                fixed(np.degrees(tca.angles[k]), 2),
+                fixed(np.degrees(tca.wheel_angles[k]), 6),
+                fixed(tca.error[k] / ARCSEC, 5),
+                fixed(tca.relative_error[k] / ARCSEC, 5),
+                *(fixed(v, 4) for v in tca.points[k]),
+                fixed(tca.semi_axes[k, 0], 4),
+                fixed(tca.semi_axes[k, 1], 4),
+                " ".join((tca.status[k], *tca.flags[k])).replace("_", " "),
+            )
+        )
+    header = (
+        "pinion, °",
+        "wheel, °",
+        "transmission error, arcsec",
+        "relative, arcsec",
+        "x, mm",
+        "y, mm",
+        "z, mm",
+        "major semi-axis, mm",
+        "minor, mm",
+        "status and flags",
+    )
+    note = "Contact of one pair over the pinion angle, four positions a pitch; contact point in the fixed frame."
+    return Group("positions", "Contact, position by position", note, (Table("", header, tuple(rows), frozenset(range(9))),))

@@ -1,0 +1,51 @@
+"""Events, flags and limits of validity in plain words."""
+
+#: What each flag of a contact point means, for a reader.
+FLAGS = {
+    "undercut": "the point lies past an undercut line: that part of the flank is cut away",
+    "interference": "the flanks would cut into each other here (negative relative curvature)",
+    "beyond_regression": "the point lies beyond an edge of regression: that part of the flank does not exist",
+    "spurious_sheet": "the point lies on a sheet that satisfies the equations but is no part of the tooth",
+    "off_tip": "the point lies outside a tip",
+    "off_root": "the point lies below a root",
+    "off_face": "the point lies outside a face",
+    "off_tool": "the point lies beyond the end of the cutting tool",
+    "edge_contact": "an edge of a tooth touches, not its flank",
+}
+
+#: What each event at the end of a contact window means.
+EVENTS = {
+    "tip": "the tip",
+    "throat": "the throat",
+    "face": "the end of the face",
+    "root": "the root",
+    "tool_end": "the end of the cutting tool",
+    "undercut": "an undercut line",
+    "regression": "an edge of regression",
+    "fold": "a fold, where the branch of contact turns back",
+    "none": "nothing in the design",
+}
+
+#: What the numbers of every report leave out.
+VALIDITY = (
+    "The teeth are rigid and the flanks are the exact surfaces of their tools: no load, no bending, no wear, no "
+    "manufacturing error other than the misalignments of the design.",
+    "Contact ellipses are where the quadratic approximation of the gap equals the separation of the design; the "
+    "separation is the total normal distance between the bodies.",
+    "A limit of the blank that the design does not give is not applied; a window that nothing limits has no end.",
+    "Between two pairs in contact the wheel follows the pair that leads; an edge of a tooth that touches after its "
+    "flank has left contact is not part of the transmission error shown here.",
+    "A misalignment is applied alone, on top of those of the design, and its effect is a central difference: "
+    "proportional effects may be scaled, peak-to-peak values may not.",
+)
+
+
+def flag(word):
+    """A flag in words."""
+    return FLAGS.get(word, word.replace("_", " "))
+
+
+def event(reason, member):
+    """An event in words: what limits contact."""
+    what = EVENTS.get(reason, reason.replace("_", " "))
+    return f"{what} of the {member}" if member and reason in ("tip", "throat", "face", "root") else what
