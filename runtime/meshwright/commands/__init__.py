@@ -1,5 +1,5 @@
 """Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``."""
 
-from meshwright.commands import drives, ratio, schema, tca
+from meshwright.commands import drives, ratio, report, schema, tca
 
-ALL = (drives, tca, ratio, schema)
+ALL = (drives, tca, ratio, report, schema)

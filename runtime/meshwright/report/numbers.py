@@ -14,6 +14,8 @@ _UNITS = (
     ("_mm", "mm"),
 )
 
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 def unit(key):
     """The unit that a key's last part names; "–" for a pure number."""
@@ -35,7 +37,7 @@ def number(value, digits=6):
     text = f"{value:.{digits}g}"
     if "e" in text:
         mantissa, exponent = text.split("e")
-        return f"{mantissa}·10^{int(exponent)}".replace("-", "−")
+        return f"{mantissa} × 10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
     return text.replace("-", "−")
 
 

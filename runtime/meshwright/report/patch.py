@@ -15,12 +15,24 @@ _NEWTON_STEPS = 30
 
 @dataclass(frozen=True)
 class Patch:
-    """A grid of a flank, body frame: ``points`` and outward unit ``normals`` (rows, columns, 3), mm; ``inside``
-    (rows, columns) is the least margin to a limit of the design, negative beyond it. NaN where no flank exists."""
+    """A grid of a flank: surface ``parameters`` (rows, columns, k), ``points`` and outward unit ``normals``
+    (rows, columns, 3), body frame, mm; ``inside`` (rows, columns) is the least margin to a limit of the design,
+    negative beyond it. NaN where no flank exists.
+    """
 
+    parameters: np.ndarray
     points: np.ndarray
     normals: np.ndarray
     inside: np.ndarray
+
+    @classmethod
+    def of(cls, flank, parameters):
+        """The patch at a grid of parameters (rows, columns, k)."""
+        shape = parameters.shape[:2]
+        at = flank(parameters.reshape(-1, parameters.shape[2]))
+        margins = [values for values in at.margins.values() if np.any(np.isfinite(values))]
+        inside = np.min([at.regular, *margins], axis=0)
+        return cls(parameters, at.points.reshape(*shape, 3), at.normals.reshape(*shape, 3), inside.reshape(shape))
 
 
 def patch(flank, path, axes, cell):
@@ -38,26 +50,42 @@ def patch(flank, path, axes, cell):
     speed = np.linalg.norm(at.tangents, axis=2).mean(axis=0)
     counts = np.clip(np.ceil((high - low) * speed / cell), LEAST, LARGEST).astype(int)
     lines = [np.linspace(low[i], high[i], counts[i]) for i in (0, 1)]
-    grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 2)
-    return _shaped(flank(_completed(flank, path, grid)), tuple(counts[:2]))
+    grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
+    return Patch.of(flank, _completed(flank, _extended(path, grid)))
 
 
-def _shaped(at, shape):
-    margins = [values for values in at.margins.values() if np.any(np.isfinite(values))]
-    inside = np.min([at.regular, *margins], axis=0)
-    return Patch(at.points.reshape(*shape, 3), at.normals.reshape(*shape, 3), inside.reshape(shape))
+def trimmed(flank, whole):
+    """The part of a :class:`Patch` inside the limits: its outermost points moved onto the limit, none beyond."""
+    parameters, inside = whole.parameters.copy(), np.nan_to_num(whole.inside, nan=-np.inf)
+    kept = inside >= 0.0
+    for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        near, margin = np.roll(whole.parameters, step, axis), np.roll(inside, step, axis)
+        beside = np.roll(inside >= 0.0, step, axis) & ~kept & np.isfinite(inside)
+        beside[(slice(None),) * axis + ((0 if step > 0 else -1),)] = False
+        share = margin[beside] / (margin[beside] - inside[beside])
+        parameters[beside] = near[beside] + share[:, None] * (whole.parameters[beside] - near[beside])
+        kept |= beside
+    parameters[~kept] = np.nan
+    return Patch.of(flank, _completed(flank, parameters))
 
 
-def _completed(flank, path, grid):
-    """The grid's two parameters with the third, where there is one, solved from the flank's condition (Newton)."""
-    if len(flank.parameters) == 2:
+def _extended(path, grid):
+    """The grid with a third parameter, where the path has one, that follows the path linearly."""
+    if path.shape[1] == 2:
         return grid
     linear = np.column_stack([np.ones(len(path)), path[:, :2]])
-    guess, *_ = np.linalg.lstsq(linear, path[:, 2], rcond=None)
-    q = np.column_stack([grid, np.column_stack([np.ones(len(grid)), grid]) @ guess])
+    slopes, *_ = np.linalg.lstsq(linear, path[:, 2], rcond=None)
+    return np.concatenate([grid, slopes[0] + grid @ slopes[1:, None]], axis=2)
+
+
+def _completed(flank, parameters):
+    """The grid with its third parameter, where there is one, solved from the flank's condition by Newton's method."""
+    if parameters.shape[2] == 2:
+        return parameters
+    q = parameters.reshape(-1, 3).copy()
     for _ in range(_NEWTON_STEPS):
         condition = flank(q).conditions[:, 0]
-        q[:, 2] -= condition[:, 0] / condition[:, 3]
-    unsolved = ~(np.abs(condition[:, 0] / condition[:, 3]) < 1e-9)
-    q[unsolved] = np.nan
-    return q
+        step = condition[:, 0] / condition[:, 3]
+        q[:, 2] -= step
+    q[~(np.abs(step) < 1e-9)] = np.nan
+    return q.reshape(parameters.shape)

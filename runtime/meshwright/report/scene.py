@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from meshwright.report.patch import trimmed
 from meshwright.report.style import MEMBERS
 from meshwright.results import ARCSEC
 
@@ -48,6 +49,7 @@ def _packed(values):
 def _body(analysis, name, matrices):
     red, green, blue = (int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5))
     flip = np.array([1.0, analysis.mirror, 1.0])
+    drawn = trimmed(analysis.drive.flank(name), analysis.patches[name])
     return {
         "name": name,
         "colour": [red, green, blue],
@@ -55,13 +57,11 @@ def _body(analysis, name, matrices):
         "matrices": _packed(matrices[:, :3, :]),
         "patches": [
             {
-                "rows": grid.inside.shape[0],
-                "columns": grid.inside.shape[1],
-                "active": True,
-                "points": _packed(grid.points * flip),
-                "normals": _packed(grid.normals * flip),
+                "rows": drawn.inside.shape[0],
+                "columns": drawn.inside.shape[1],
+                "points": _packed(drawn.points * flip),
+                "normals": _packed(drawn.normals * flip),
             }
-            for grid in [analysis.patches[name]]
         ],
     }
 

@@ -32,7 +32,6 @@
     patches: body.patches.map((patch) => ({
       rows: patch.rows,
       columns: patch.columns,
-      active: patch.active,
       points: decoded(patch.points, Float32Array),
       normals: decoded(patch.normals, Float32Array),
     })),
@@ -89,7 +88,7 @@
       const seen = camera.rows.map((row) => row[0] * n[0] + row[1] * n[1] + row[2] * n[2]);
       const side = seen[2] >= 0 ? 1 : -1;
       const lit = Math.max(0, side * (seen[0] * light[0] + seen[1] * light[1] + seen[2] * light[2]));
-      screen.set([u, v, near, (0.34 + 0.66 * lit) * (side > 0 ? 1 : 0.72) * (patch.active ? 1 : 0.8)], 4 * i);
+      screen.set([u, v, near, (0.34 + 0.66 * lit) * (side > 0 ? 1 : 0.72)], 4 * i);
     }
     for (let r = 0; r + 1 < rows; r++)
       for (let c = 0; c + 1 < columns; c++) {

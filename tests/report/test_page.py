@@ -1,0 +1,129 @@
+"""The page stands alone, escapes what it is given, and says every size with its unit."""
+
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import pytest
+
+from meshwright import Drive, cli
+from meshwright.report import analyse, page
+from meshwright.report.numbers import fixed, number, unit
+
+from .conftest import DESIGNS, quiet
+
+VOID = {"meta", "input", "br", "path", "use", "rect", "image"}
+
+
+class Structure(HTMLParser):
+    """Open elements, ids, references and cells of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.references, self.cells = [], [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.note(attributes)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.note(attributes)
+
+    def handle_endtag(self, tag):
+        if tag not in VOID:
+            assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] in ("td", "th"):
+            self.cells.append(data.strip())
+
+    def note(self, attributes):
+        for name, value in attributes:
+            if name == "id":
+                self.ids.append(value)
+            elif name in ("src", "href", "xlink:href", "srcset", "action", "data", "poster"):
+                self.references.append(value)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_page_is_well_formed_and_needs_no_other_resource(name, paged):
+    text = paged(name)
+    structure = Structure(text)
+    assert structure.open == []
+    assert len(set(structure.ids)) == len(structure.ids)
+    assert all(r.startswith("#") and r[1:] in structure.ids for r in structure.references)
+    assert not re.search(r"@import|\bfetch\(|XMLHttpRequest|WebSocket|import\(|url\((?!#)", text)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_every_derived_size_stands_in_the_tables_with_its_unit(name, paged, analysed):
+    cells = Structure(paged(name)).cells
+    for key, value in analysed(name).drive.design.sizes.items():
+        rows = [cells[k - 4 : k] for k, cell in enumerate(cells) if cell == key]
+        assert any(number(value) in row and unit(key) in row for row in rows), key
+
+
+def test_text_of_the_design_is_escaped():
+    drive = Drive.load("spherical-table-3-1-concave").with_(name="</script><script>alert('&')</script>")
+    text = page(analyse(drive, quiet))
+    assert "<script>alert" not in text
+    assert "&lt;/script&gt;&lt;script&gt;alert(&#39;&amp;&#39;)&lt;/script&gt;" in text
+
+
+def test_line_contact_is_reported_as_such_without_invented_points(tmp_path):
+    place = tmp_path / "line.html"
+    equal = Drive.load("recess-action-full").design.value("worm_pitch_radius_mm")
+    status = cli.main(["report", "recess-action-full", "--set", f"design.hob_pitch_radius_mm={equal}", "--html", str(place)])
+    text = place.read_text(encoding="utf-8")
+    assert status == 1
+    assert "the flanks touch along a line" in text
+    assert "Contact pattern on" not in text
+
+
+def test_a_pipe_sees_no_progress_bar(tmp_path, capfd):
+    assert cli.main(["report", "spherical-table-3-1-concave", "--html", str(tmp_path / "r.html")]) == 0
+    assert capfd.readouterr() == ("", "")
+
+
+def test_figures_for_print_are_those_of_the_page(tmp_path, paged):
+    assert cli.main(["report", "spherical-table-3-1-concave", "--figures", str(tmp_path / "new"), "--format", "svg"]) == 0
+    names = {path.stem for path in (tmp_path / "new").iterdir()}
+    shown = set(re.findall(r'<svg [^>]*data-figure="([^"]+)"', paged("spherical-table-3-1-concave")))
+    assert names == shown
+
+
+def test_nothing_to_write_is_bad_input(capsys):
+    assert cli.main(["report", "recess-action-full"]) == 2
+    assert "--html" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.0, "0"), (-2.5, "−2.5"), (1.25e-11, "1.25 × 10⁻¹¹"), (float("nan"), "–"), (277.0, "277")]
+)
+def test_numbers_are_written_as_a_reader_writes_them(value, text):
+    assert number(value) == text
+
+
+def test_a_rounded_zero_has_no_sign():
+    assert fixed(-0.0001, 2) == "0.00"
+
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_browser_runs_the_view_without_an_error(name, paged, tmp_path):
+    place = tmp_path / "report.html"
+    place.write_text(paged(name), encoding="utf-8")
+    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    options += ["--enable-logging=stderr", "--virtual-time-budget=3000", "--window-size=1366,900", "--dump-dom"]
+    done = subprocess.run([CHROMIUM, *options, place.as_uri()], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0
+    assert "CONSOLE" not in done.stderr
+    readout = re.search(r'id="view-readout"[^>]*>([^<]*)', done.stdout).group(1)
+    assert re.match(r"pinion −?[\d.]+°, wheel −?[\d.]+°", readout)

@@ -1,0 +1,61 @@
+"""What the 3-D view draws is the drive: flanks that touch at the contact points, mirrored with the hand."""
+
+import base64
+
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.report import analyse
+from meshwright.report.scene import scene
+
+from .conftest import DESIGNS, quiet
+
+
+def unpacked(text, *shape):
+    return np.frombuffer(base64.b64decode(text), dtype="<f4").astype(float).reshape(shape)
+
+
+def drawn(body, patch, position):
+    """Points and normals of a drawn flank in the fixed frame at a position, every copy of it: (M, 3) each."""
+    matrix = unpacked(body["matrices"], -1, 3, 4)[position]
+    points, normals = (unpacked(patch[key], -1, 3) for key in ("points", "normals"))
+    found = [], []
+    for turn in body["copies"]:
+        c, s = np.cos(turn), np.sin(turn)
+        turned = matrix[:, :3] @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        found[0].append(points @ turned.T + matrix[:, 3])
+        found[1].append(normals @ turned.T)
+    return tuple(np.concatenate(f) for f in found)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
+    """The grid point nearest to a contact is within a cell of it, and far closer to the tangent plane; normals oppose."""
+    view = scene(analysed(name))
+    steps, last = view["steps_per_pitch"], len(view["contacts"]) - 1
+    position = round(share * last)
+    contact_points = [view["contacts"][at]["point"] for at in range(position % steps, last + 1, steps)]
+    cell = view["radius"] / 15
+    for body in view["bodies"]:
+        points, normals = drawn(body, body["patches"][0], position)
+        for contact in np.array(contact_points):
+            offsets = points - contact
+            nearest = np.nanargmin(np.linalg.norm(offsets, axis=1))
+            assert np.linalg.norm(offsets[nearest]) < cell
+            assert abs(offsets[nearest] @ normals[nearest]) < 0.1 * cell
+
+
+def test_a_left_hand_drive_is_drawn_as_the_mirror_image(analysed):
+    right = scene(analysed("recess-action-full"))
+    left = scene(analyse(Drive.load("recess-action-full").with_(design={"hand": "left"}), quiet))
+    flip = np.array([1.0, -1.0, 1.0])
+    assert left["angles_deg"] == pytest.approx([-a for a in reversed(right["angles_deg"])])
+    for ours, theirs in zip(left["contacts"], reversed(right["contacts"]), strict=True):
+        assert ours["point"] == pytest.approx(theirs["point"] * flip, abs=1e-5)
+    for ours, theirs in zip(left["bodies"], right["bodies"], strict=True):
+        mirrored, _ = drawn(ours, ours["patches"][0], 0)
+        points, _ = drawn(theirs, theirs["patches"][0], len(right["contacts"]) - 1)
+        assert np.nanmin(mirrored, axis=0) == pytest.approx(np.nanmin(points * flip, axis=0), abs=2e-3)
+        assert np.nanmax(mirrored, axis=0) == pytest.approx(np.nanmax(points * flip, axis=0), abs=2e-3)
