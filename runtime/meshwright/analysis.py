@@ -1,0 +1,173 @@
+"""Tooth contact analysis of one drive: trace in C, contact geometry of every point, results as columns."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshwright._library import ffi, library, text
+from meshwright.results import TCA
+
+#: ``mw_info`` and ``mw_contact`` of meshwright.h as NumPy records.
+_INFO = np.dtype(
+    [("status", "i4"), ("iterations", "i4"), ("guard", "i4"), ("step", "f8"), ("residual", "f8"), ("rank_gap", "f8")],
+    align=True,
+)
+_CONTACT = np.dtype(
+    [
+        ("point", "f8", 3), ("normal", "f8", 3), ("curvature_min", "f8"), ("curvature_max", "f8"), ("major", "f8", 3),
+        ("distance", "f8"), ("misfit", "f8"), ("line", "i4"), ("flags", "u4"),
+    ],
+    align=True,
+)  # fmt: skip
+
+
+def pointer(array):
+    """A contiguous float array as a ``double *``."""
+    return ffi.from_buffer("double[]", array)
+
+
+def trace(drive, angles):
+    """Unknowns (N, nx) and ``mw_info`` records (N,) at ascending angles of the right-hand drive, rad."""
+    m, n = drive.model, len(angles)
+    x, records = np.full((n, m.nx), np.nan), np.zeros(n, _INFO)
+    s, work = np.empty(m.ns), np.empty(m.np)
+    library().mw_trace(
+        m, pointer(drive.design.parameters), pointer(angles), n, pointer(s), pointer(work), pointer(x),
+        ffi.from_buffer("mw_info[]", records),
+    )  # fmt: skip
+    return x, records
+
+
+def analyse(drive, angles):
+    """:class:`~meshwright.results.TCA` at pinion angles (rad), in any order.
+
+    The points are traced in ascending order together with angle 0, to which relative errors refer.
+    """
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    grid, inverse = np.unique(np.append(mirror * angles, 0.0), return_inverse=True)
+    points = _Points.of(drive, grid)
+    return points.result(angles, inverse[:-1], mirror)
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Solved points of the right-hand drive in ascending order; rows without contact are NaN."""
+
+    drive: object
+    grid: np.ndarray
+    x: np.ndarray
+    records: np.ndarray
+    status: np.ndarray
+    observed: np.ndarray
+    contacts: np.ndarray
+
+    @classmethod
+    def of(cls, drive, grid):
+        lib, m = library(), drive.model
+        x, records = trace(drive, grid)
+        status = records["status"].copy()
+        observed = np.full((len(grid), m.no), np.nan)
+        contacts = np.zeros(len(grid), _CONTACT)
+        s = drive.state()
+        for k in np.flatnonzero(status >= 0):
+            m.set_phi(pointer(s), grid[k])
+            place = ffi.from_buffer("mw_contact[]", contacts[k : k + 1])
+            ended = lib.mw_contact_at(m, pointer(s), pointer(x[k]), pointer(observed[k]), place)
+            if contacts["line"][k]:
+                status[k] = ended
+        return cls(drive, grid, x, records, status, observed, contacts)
+
+    @property
+    def description(self):
+        return self.drive.design.description
+
+    @property
+    def touching(self):
+        """Rows with a transmission error: a contact point or a contact line."""
+        return self.status >= 0
+
+    @property
+    def pointlike(self):
+        """Rows with a contact point."""
+        return self.touching & (self.contacts["line"] == 0)
+
+    @cached_property
+    def error(self):
+        return np.where(self.touching, self.x[:, self.description["error"]], np.nan)
+
+    def reference(self):
+        """Transmission error at the solved angle nearest to 0; NaN if nothing is solved."""
+        rows = np.flatnonzero(self.touching)
+        return float(self.error[rows[np.argmin(np.abs(self.grid[rows]))]]) if rows.size else np.nan
+
+    def _only(self, values):
+        """Columns with NaN where there is no contact point."""
+        keep = self.pointlike if values.ndim == 1 else self.pointlike[:, None]
+        return np.where(keep, values, np.nan)
+
+    def unknowns(self, mirror):
+        """Values and units of the unknowns and of what the reduce stage removed."""
+        recovered = {name for body in self.description["bodies"] for name in body["recovered"]}
+        columns = {u["name"]: (u, self.x[:, k]) for k, u in enumerate(self.description["unknowns"])}
+        del columns[self.description["unknowns"][self.description["error"]]["name"]]
+        for output in self.description["outputs"]:
+            if output["name"] in recovered:
+                columns[output["name"]] = output, self.observed[:, output["offset"]]
+        values = {name: (mirror if _turns(u) else 1.0) * self._only(column) for name, (u, column) in columns.items()}
+        return values, {name: u["unit"] for name, (u, _) in columns.items()}
+
+    def flags(self):
+        names = _flag_names(self.drive.model)
+        bits = np.where(self.pointlike, self.contacts["flags"], 0)
+        return [tuple(dict.fromkeys(n for k, n in enumerate(names) if b >> k & 1)) for b in bits.tolist()]
+
+    def result(self, angles, rows, mirror):
+        """The rows asked for, as the drive of the design's hand has them."""
+        flip = np.array([1.0, mirror, 1.0])
+        unknowns, units = self.unknowns(mirror)
+        curvatures = self._only(np.stack([self.contacts["curvature_min"], self.contacts["curvature_max"]], axis=1))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            semi_axes = np.sqrt(2 * self.drive.design.value("separation_mm", "contact") / curvatures)
+        gap = np.maximum(self.contacts["distance"], self.contacts["misfit"])
+        words, flags = [text(library().mw_status_word(c)) for c in self.status], self.flags()
+        bodies = self.description["bodies"]
+        return TCA(
+            angles=angles,
+            status=tuple(words[k] for k in rows),
+            messages=tuple(text(library().mw_status_text(self.status[k])) for k in rows),
+            iterations=self.records["iterations"][rows],
+            residual=np.where(self.touching, gap, np.nan)[rows],
+            wheel_angles=mirror * np.where(self.touching, self.observed[:, self.description["wheel_angle"]], np.nan)[rows],
+            error=mirror * self.error[rows],
+            reference_error=mirror * self.reference(),
+            unknowns={name: values[rows] for name, values in unknowns.items()},
+            units=units,
+            points=flip * self._only(self.contacts["point"])[rows],
+            normals=flip * self._only(self.contacts["normal"])[rows],
+            body_points={
+                b["name"]: flip * self._only(self.observed[:, b["point"] : b["point"] + 3])[rows] for b in bodies
+            },
+            curvatures=curvatures[rows],
+            major=flip * self._only(self.contacts["major"])[rows],
+            semi_axes=semi_axes[rows],
+            flags=tuple(flags[k] for k in rows),
+            margins={
+                f"{b['name']}.{margin['event']}": self.observed[rows, b["margin"] + i]
+                for b in bodies
+                for i, margin in enumerate(b["margins"])
+            },
+            solutions=self.x[rows],
+        )
+
+
+def _turns(entry):
+    """Whether a number is an angle of rotation about a z-type axis, which a mirror image negates."""
+    return entry["name"].startswith(("psi_", "phi_"))
+
+
+def _flag_names(m):
+    names = []
+    while (name := library().mw_flag(m, len(names))) != ffi.NULL:
+        names.append(text(name))
+    return names
