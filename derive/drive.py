@@ -34,7 +34,9 @@ class Body:
 
     ``point`` and ``normal`` are symbols for the body-frame coordinates, used by ``margins``. ``reference`` gives
     the surface parameters of a regular point, where the singular function has its good sign. ``recovered`` are
-    parameters that the reduce stage removed and a user still wants to read.
+    parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
+    tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
+    parameter runs across it, along the profile.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Body:
     point: tuple = ()
     margins: tuple[Margin, ...] = ()
     recovered: tuple = ()
+    lengthwise: str = ""
 
     @property
     def placed(self):
@@ -102,13 +105,16 @@ class DesignSystem:
 class Region:
     """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
 
-    It is regular where ``regular`` (a sign) times its singular function is positive.
+    It is regular where ``regular`` (a sign) times its singular function is positive. ``margins`` are of surface and
+    design parameters; ``lengthwise`` as in :class:`Body`.
     """
 
     member: str
     name: str
     surface: Surface
     regular: sp.Expr
+    margins: tuple[Margin, ...] = ()
+    lengthwise: str = ""
 
 
 @dataclass(frozen=True)

@@ -106,7 +106,8 @@ def schedule(drive):
         plan.flanks.append(Flank(body.name, *_surface(plan, body.surface, body.name, _regular(plan, body), limits)))
     for region in drive.regions:
         regular = tape.mul(plan.lower(region.regular), singular_function(plan.lower, region.surface))
-        surface = _surface(plan, region.surface, region.member, regular, [])
+        limits = [Output(f"margin_{m.event}", (plan.lower(m.positive),)) for m in region.margins]
+        surface = _surface(plan, region.surface, region.member, regular, limits)
         plan.regions.append(Flank(region.member, *surface, region.name))
     _assign_state(plan)
     return plan

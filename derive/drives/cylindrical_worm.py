@@ -249,6 +249,7 @@ def cylindrical_worm(worm_profile, hob_profile):
         point=body_point("wheel"),
         margins=_wheel_margins(body_point("wheel"), hob, psi, definitions),
         recovered=(psi_h, phi_h),
+        lengthwise="axial",
     )
     sizes = {t_w: worm.scale, t_h: hob.scale}
     unknowns = tuple(Unknown(symbol, sizes.get(symbol, sp.Integer(1))) for symbol in (t_w, psi_w, t_h, psi, error))

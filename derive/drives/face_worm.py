@@ -233,6 +233,7 @@ def face_worm():
         reference={u_g: 0, theta_g: 0},
         point=wheel_point,
         margins=_wheel_margins(wheel_point, u_g, cutter),
+        lengthwise="radius",
     )
     return Drive(
         name="face_worm",
@@ -268,7 +269,7 @@ def face_worm():
         pinion=pinion,
         wheel=wheel,
         regions=(
-            Region("wheel", "fillet", fillet, -s),
+            Region("wheel", "fillet", fillet, -s, _fillet_margins(lam, cutter), "radius"),
             Region("reference_wheel", "flank", reference.surface, -s),
         ),
         unknowns=(
@@ -317,6 +318,10 @@ def _wheel_margins(point, u_g, cutter):
         Margin("off_tip", "tip", k.addendum.symbol - u_g * sp.cos(alpha_g)),
         Margin("off_root", "root", u_g - cutter.junction),
     )
+
+
+def _fillet_margins(lam, cutter):
+    return Margin("", "bottom", lam), Margin("", "junction", cutter.fillet_end - lam)
 
 
 def _start(worm, phi_1, u_g, theta_g, error, definitions):

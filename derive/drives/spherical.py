@@ -121,6 +121,7 @@ def _body(tooth, motion):
         point=body_point(name),
         margins=_margins(tooth),
         recovered=(tooth.generating_angle,),
+        lengthwise="axial",
     )
 
 

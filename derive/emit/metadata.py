@@ -54,7 +54,7 @@ def describe(plan, provenance):
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
-        "regions": [_region(region) for region in plan.regions],
+        "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
         "shapes": {
             "p": [len(drive.parameters)],
             "s": [len(plan.state)],
@@ -164,14 +164,15 @@ def _size(key, _value, meaning):
     return _plain(key, unit) | {"meaning": meaning, "key": key, "factor": _float(factor)}
 
 
-def _region(region):
+def _region(scheduled, region):
     return {
-        "name": region.body,
-        "region": region.region,
-        "parameters": [p.name for p in region.parameters],
-        "conditions": sum(o.name.endswith("_slopes") for o in region.outputs),
-        "margins": [],
-        "outputs": sum(len(o.nodes) for o in region.outputs),
+        "name": region.member,
+        "region": region.name,
+        "parameters": [p.name for p in scheduled.parameters],
+        "conditions": sum(o.name.endswith("_slopes") for o in scheduled.outputs),
+        "margins": [{"flag": m.flag, "event": m.event} for m in region.margins],
+        "lengthwise": region.lengthwise,
+        "outputs": sum(len(o.nodes) for o in scheduled.outputs),
     }
 
 
@@ -196,6 +197,7 @@ def _body(plan, body, offsets):
         "regular": places.singular,
         "margin": places.singular + 1,
         "margins": [{"flag": m.flag, "event": m.event} for m in body.margins],
+        "lengthwise": body.lengthwise,
         "recovered": [s.name for s in body.recovered],
         "outputs": sum(len(o.nodes) for o in flank.outputs),
     }
