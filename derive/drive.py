@@ -6,6 +6,7 @@ import sympy as sp
 
 from derive.chain import Motion
 from derive.definitions import Definitions
+from derive.functions import Function
 from derive.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.surface import Surface
 
@@ -161,6 +162,7 @@ class Drive:
     regions: tuple[Region, ...] = ()
     ascending_path: bool = False
     flanks_apart: bool = False
+    functions: tuple[Function, ...] = ()
 
     @property
     def bodies(self):

@@ -39,6 +39,16 @@ class Flank:
 
 
 @dataclass(frozen=True)
+class FunctionOutputs:
+    """A function of its own arguments."""
+
+    name: str
+    meaning: str
+    parameters: tuple
+    outputs: tuple[Output, ...]
+
+
+@dataclass(frozen=True)
 class BodyOutputs:
     """Where the observation of one body is found: see :func:`_observe_body`."""
 
@@ -73,6 +83,7 @@ class Schedule:
     flanks: list[Flank] = field(default_factory=list)
     regions: list[Flank] = field(default_factory=list)
     systems: list[SystemTape] = field(default_factory=list)
+    functions: list[FunctionOutputs] = field(default_factory=list)
     state: dict[int, int] = field(default_factory=dict)
     design_slots: int = 0
 
@@ -87,6 +98,7 @@ def schedule(drive):
     inputs[drive.instant] = Stage.INSTANT
     inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
     inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
+    inputs |= {q: Stage.ITERATE for function in drive.functions for q in function.arguments}
     tape = Tape()
     for symbol, stage in inputs.items():
         tape.input(symbol, stage)
@@ -109,6 +121,7 @@ def schedule(drive):
         limits = [Output(f"margin_{m.event}", (plan.lower(m.positive),)) for m in region.margins]
         surface = _surface(plan, region.surface, region.member, regular, limits)
         plan.regions.append(Flank(region.member, *surface, region.name))
+    plan.functions = [_function(plan, function) for function in drive.functions]
     _assign_state(plan)
     return plan
 
@@ -238,6 +251,11 @@ def _surface(plan, surface, frame, regular, limits):
     return tuple(surface.parameters), tuple(outputs)
 
 
+def _function(plan, function):
+    outputs = (Output(r.name, tuple(map(plan.lower, r.values)), r.unit, r.frame) for r in function.results)
+    return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs))
+
+
 def iterate_outputs(plan):
     """All nodes that iterate-stage functions return."""
     yield from plan.residual
@@ -254,8 +272,8 @@ def iterate_outputs(plan):
     yield from plan.start_solution
     for output in plan.observed:
         yield from output.nodes
-    for flank in (*plan.flanks, *plan.regions):
-        for output in flank.outputs:
+    for table in (*plan.flanks, *plan.regions, *plan.functions):
+        for output in table.outputs:
             yield from output.nodes
 
 

@@ -15,7 +15,9 @@ from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions
 from derive.drive import Body, Drive, Margin, System, body_point
+from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.envelope import envelope, explicit, merge_sum
+from derive.rack_and_pinion import Rack
 from derive.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
 from derive.tools.axial_blade import axial_blade
 from derive.tools.grinding_arc import grinding_arc
@@ -277,6 +279,9 @@ def cylindrical_worm(worm_profile, hob_profile):
         pinion_teeth=threads.key,
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
         variant_defaults={"hob_profile": "worm_profile"},
+        functions=generation_functions(
+            worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered
+        ),
         required=tuple(sorted({REQUIRED[word] for word in worm.required + hob.required})),
         handed=True,
         exclusive=(

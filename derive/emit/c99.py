@@ -166,6 +166,7 @@ def header(plan: Schedule, description: dict, model_source: str):
         flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
         regions=[_flank(plan, region, leaves.state) for region in plan.regions],
         systems=[_system(system, drive) for system in plan.systems],
+        functions=[_flank(plan, function, leaves.state) for function in plan.functions],
         literal=number,
         approximation=approximation,
         estrin=estrin,

@@ -55,6 +55,7 @@ def describe(plan, provenance):
         "wheel_angle": offsets["wheel_angle"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
+        "functions": [_function(function) for function in plan.functions],
         "shapes": {
             "p": [len(drive.parameters)],
             "s": [len(plan.state)],
@@ -76,6 +77,7 @@ def specification_hash(plan):
     reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
     reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.regions]
     reads += [_system_content(system) for system in plan.systems]
+    reads += [[f.name, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.functions]
     rules = [[r.target.name, str(r.value)] for r in plan.drive.rules]
     text = json.dumps([nodes, reads, rules], separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
@@ -176,9 +178,26 @@ def _region(scheduled, region):
     }
 
 
+def _function(function):
+    places = _places(function.outputs)
+    return {
+        "name": function.name,
+        "meaning": function.meaning,
+        "arguments": [_name(q) for q in function.parameters],
+        "outputs": [
+            {**_plain(o.name, o.unit, o.frame), "offset": places[o.name], "size": len(o.nodes)}
+            for o in function.outputs
+        ],
+    }
+
+
 def _offsets(plan):
+    return _places(plan.observed)
+
+
+def _places(outputs):
     offsets, at = {}, 0
-    for output in plan.observed:
+    for output in outputs:
         offsets[output.name] = at
         at += len(output.nodes)
     return offsets

@@ -18,4 +18,11 @@ def axial_blade(body, definitions):
     flank = helicoid(
         definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s
     )
-    return WormTool(flank, pitch_point=r, tip_margin=reach(body, t), scale=body.module)
+    return WormTool(
+        flank,
+        pitch_point=r,
+        tip_margin=reach(body, t),
+        scale=body.module,
+        screw_parameter=body.screw_parameter,
+        lower_end=sp.Integer(0),
+    )

@@ -31,7 +31,13 @@ def involute(body, definitions):
         definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s
     )
     return WormTool(
-        flank, pitch_point=r, tip_margin=reach(body, t), scale=body.module, regular=regression(t - base)
+        flank,
+        pitch_point=r,
+        tip_margin=reach(body, t),
+        scale=body.module,
+        screw_parameter=body.screw_parameter,
+        lower_end=base,
+        regular=regression(t - base),
     )
 
 

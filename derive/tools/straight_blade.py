@@ -31,5 +31,7 @@ def straight_blade(body, definitions):
         pitch_point=pitch_point,
         tip_margin=pitch_point + body.tip_addendum / sp.cos(alpha) - t,
         scale=body.module,
+        screw_parameter=body.screw_parameter,
+        lower_end=sp.Integer(0),
         radicands=(("the groove is wider than the pitch cylinder", r**2 - half_groove**2),),
     )

@@ -48,6 +48,12 @@ typedef struct mw_region {
     int parameters, conditions, outputs;
     mw_surface flank;
 } mw_region;
+/* A function that a drive offers beside its contact: o[outputs] at q[arguments] for the design in s. */
+typedef struct mw_function {
+    const char *name;
+    int arguments, outputs;
+    void (*evaluate)(const double *s, const double *q, double *o);
+} mw_function;
 
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
  * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
@@ -78,6 +84,8 @@ typedef struct mw_model {
     const mw_system *systems;    /* in the order in which they are solved, derive() before and after each */
     int nregions;
     const mw_region *regions;
+    int nfunctions;
+    const mw_function *functions;
 } mw_model;
 
 #endif

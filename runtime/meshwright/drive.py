@@ -11,6 +11,7 @@ from meshwright import design as designs
 from meshwright._library import library, model, text
 from meshwright.design import Design
 from meshwright.errors import UsageError
+from meshwright.functions import Function
 from meshwright.surface import Flank
 
 
@@ -74,6 +75,10 @@ class Drive:
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
         return Flank.of(self, member, region)
+
+    def function(self, name):
+        """A generated function of the drive by name: see :class:`~meshwright.functions.Function`."""
+        return Function.of(self, name)
 
     def state(self, angle=0.0):
         """The model's state for this design at an input angle: what generated functions read."""

@@ -1,5 +1,6 @@
 """Options that several commands share: designs, settings and angles."""
 
+import argparse
 import re
 import tomllib
 
@@ -51,6 +52,25 @@ def angles(text):
     if re.fullmatch(rf"{_NUMBER}(,{_NUMBER})*", text):
         return np.radians([float(v) for v in text.split(",")])
     raise UsageError(f"--phi-deg {text}: not A:B:STEP and not v1,v2,…; for example --phi-deg=-400:400:50")
+
+
+def number(text):
+    """A finite number, for an option."""
+    if not re.fullmatch(_NUMBER, text):
+        raise argparse.ArgumentTypeError(f"{text}: not a number")
+    return float(text)
+
+
+def numbers(text):
+    """Finite numbers ``v1,v2,…``, for an option."""
+    return tuple(number(part) for part in text.split(","))
+
+
+def count(text):
+    """A positive whole number, for an option."""
+    if not re.fullmatch(r"[1-9]\d*", text):
+        raise argparse.ArgumentTypeError(f"{text}: not a positive whole number")
+    return int(text)
 
 
 def add_angles(parser):

@@ -1,0 +1,119 @@
+"""What a cylindrical worm drive offers beside its contact: generation of the wheel, limit points, meshing axes."""
+
+import sympy as sp
+
+from derive import vectors as v
+from derive import rack_and_pinion as rp
+from derive.functions import Function, Result
+from derive.symbols import Quantity
+
+
+def generation_functions(worm, hob, rack, wheel, psi, recovered):
+    """Functions of the two tools, and of the generation of ``wheel`` by the hob as a ``rack`` at rack angle ``psi``."""
+    t, _ = rack.flank.parameters
+    return (
+        *(_profile(name, tool) for name, tool in (("worm", worm), ("hob", hob))),
+        *(_profile_range(name, tool) for name, tool in (("worm", worm), ("hob", hob))),
+        _generation(rack, wheel, t, psi, recovered),
+        _section(rack, t),
+        _worm_point(rack, t),
+        _second_type(rack, t),
+        _axes(rack),
+    )
+
+
+def _profile(name, tool):
+    flank = tool.flank
+    t = tool.parameter
+    x, y, z = flank.point
+    growth = flank.definitions.derivative(x**2 + y**2, t)
+    axial = z - tool.screw_parameter * sp.atan2(y, x)
+    return Function(
+        f"profile_{name}",
+        f"profile of the {name} flank in its section frame; growth of the squared radius along it; axial section",
+        (t,),
+        (
+            Result("point", flank.point, "mm", name),
+            Result("normal", v.unit(flank.normal), "", name),
+            Result("growth", (growth,)),
+            Result("axial", (axial,), "mm", name),
+        ),
+    )
+
+
+def _profile_range(name, tool):
+    results = {"pitch_point": tool.pitch_point, "scale": tool.scale}
+    if tool.lower_end is not None:
+        results["lower_end"] = tool.lower_end
+    unit = tool.parameter.unit
+    return Function(
+        f"profile_range_{name}",
+        f"profile parameter of the {name}: pitch point, natural step, and the lower end where it is not an edge of"
+        " regression",
+        (),
+        tuple(Result(key, (value,), unit, name) for key, value in results.items()),
+    )
+
+
+def _generation(rack, wheel, t, psi, recovered):
+    """Contact of hob and blank while the wheel is cut: the rack form, explicit in (t, Ψ)."""
+    turn, _ = recovered
+    placed = rp.placed_in_generation(rack, psi, turn)
+    return Function(
+        "generation",
+        "contact of hob and blank, fixed frame of cutting; first_type is zero at limit points of the first type",
+        (t, psi),
+        (
+            Result("point", placed.body_point(), "mm", "gen"),
+            Result("normal", v.unit(placed.body_normal()), "", "gen"),
+            *(Result(str(symbol), (symbol,), symbol.unit, symbol.frame) for symbol in recovered),
+            Result("point_wheel", wheel.body_point(), "mm", "wheel"),
+            Result("first_type", (rp.first_type(rack, placed.body_point(), (t, psi)),)),
+        ),
+    )
+
+
+def _section(rack, t):
+    offset = Quantity("section_y", "mm", "offset of the section y = C", "gen")
+    return Function(
+        "section",
+        "rack angle at which the profile point lies in the section y = C, on the wheel's side",
+        (t, offset),
+        (Result("psi_fixed_hob", (rp.section_angle(rack, offset),), "rad", "gen"),),
+    )
+
+
+def _worm_point(rack, t):
+    turn = Quantity("psi_given", "rad", "screw angle of a given point of the hob flank", "hob")
+    return Function(
+        "worm_point",
+        "the two rack angles at which a given point of the hob flank touches the wheel; right angles only",
+        (t, turn),
+        (Result("psi_fixed_hob", rp.contacts_of_worm_point(rack, turn), "rad", "gen"),),
+    )
+
+
+def _second_type(rack, t):
+    return Function(
+        "second_type",
+        "the two rack angles of the limit points of the second type; right angles only",
+        (t,),
+        (Result("psi_fixed_hob", rp.second_type_angles(rack), "rad", "gen"),),
+    )
+
+
+def _axes(rack):
+    discriminant, axes = rp.meshing_axes(rack)
+    return Function(
+        "meshing_axes",
+        "the two lines that every normal of contact in cutting meets; not a number where there is none",
+        (),
+        (
+            Result("discriminant", (discriminant,)),
+            *(
+                result
+                for k, (point, direction) in enumerate(axes, 1)
+                for result in (Result(f"point_{k}", point, "mm", "gen"), Result(f"direction_{k}", direction, "", "gen"))
+            ),
+        ),
+    )

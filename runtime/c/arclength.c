@@ -1,0 +1,147 @@
+/* Follow a branch of contact in arclength, through folds and past crossings.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include <string.h>
+#include "meshwright.h"
+
+enum { N = MW_MAX_UNKNOWNS + 1, MAX_CORRECTIONS = 15, MAX_SPLITS = 10 };
+
+static const double ANGLE_STEP = 1e-5;  /* of the difference quotient by the input angle, rad */
+static const double DONE = 1e-12, ENOUGH = 1e-8;
+
+/* A point of the curve in natural sizes: the unknowns, then the input angle in rad. */
+typedef struct curve {
+    const mw_model *m;
+    double *s;
+    int n;
+    double scale[N];
+} curve;
+
+static void unscaled(const curve *c, const double *y, double *x)
+{
+    for (int i = 0; i < c->n; i++) x[i] = y[i] * c->scale[i];
+}
+
+/* Residual R[n] and bordered matrix A[(n+1)*(n+1)]: dR/dy above the row `border`. */
+static void equations(const curve *c, const double *y, const double *border, double *R, double *A)
+{
+    const int n = c->n, w = n + 1;
+    double x[N], J[N * N], ahead[N], behind[N];
+    unscaled(c, y, x);
+    c->m->set_phi(c->s, y[n] + ANGLE_STEP);
+    c->m->eval(c->s, x, ahead, NULL);
+    c->m->set_phi(c->s, y[n] - ANGLE_STEP);
+    c->m->eval(c->s, x, behind, NULL);
+    c->m->set_phi(c->s, y[n]);
+    c->m->eval(c->s, x, R, J);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) A[i * w + j] = J[i * n + j] * c->scale[j];
+        A[i * w + n] = (ahead[i] - behind[i]) / (2.0 * ANGLE_STEP);
+    }
+    memcpy(A + n * w, border, sizeof(double) * (size_t)w);
+}
+
+/* Gaussian elimination with partial pivoting of rows scaled to unit size; returns the determinant. */
+static double solve(int w, double *A, double *b)
+{
+    double determinant = 1.0;
+    for (int i = 0; i < w; i++) {
+        double size = 0.0;
+        for (int j = 0; j < w; j++) size = fmax(size, fabs(A[i * w + j]));
+        for (int j = 0; j < w; j++) A[i * w + j] /= size;
+        b[i] /= size;
+    }
+    for (int k = 0; k < w; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < w; i++)
+            if (fabs(A[i * w + k]) > fabs(A[pivot * w + k])) pivot = i;
+        if (pivot != k) {
+            for (int j = 0; j < w; j++) {
+                const double keep = A[k * w + j];
+                A[k * w + j] = A[pivot * w + j];
+                A[pivot * w + j] = keep;
+            }
+            const double keep = b[k];
+            b[k] = b[pivot];
+            b[pivot] = keep;
+            determinant = -determinant;
+        }
+        determinant *= A[k * w + k];
+        for (int i = k + 1; i < w; i++) {
+            const double factor = A[i * w + k] / A[k * w + k];
+            for (int j = k; j < w; j++) A[i * w + j] -= factor * A[k * w + j];
+            b[i] -= factor * b[k];
+        }
+    }
+    for (int k = w - 1; k >= 0; k--) {
+        for (int j = k + 1; j < w; j++) b[k] -= A[k * w + j] * b[j];
+        b[k] /= A[k * w + k];
+    }
+    return determinant;
+}
+
+/* Unit tangent t[n+1] of the curve at y, on the side of `before`; returns the bordered determinant. */
+static double tangent(const curve *c, const double *y, const double *before, double *t)
+{
+    const int w = c->n + 1;
+    double R[N], A[N * N], length = 0.0;
+    equations(c, y, before, R, A);
+    memset(t, 0, sizeof(double) * N);
+    t[c->n] = 1.0;
+    solve(w, A, t);
+    for (int i = 0; i < w; i++) length += t[i] * t[i];
+    for (int i = 0; i < w; i++) t[i] /= sqrt(length);
+    equations(c, y, t, R, A);
+    double unused[N] = { 0.0 };
+    return solve(w, A, unused);
+}
+
+/* Newton from y on the plane through it across t. Nonzero if it settles. */
+static int correct(const curve *c, const double *t, double *y)
+{
+    const int w = c->n + 1;
+    double R[N], A[N * N], previous = HUGE_VAL;
+    for (int k = 0; k < MAX_CORRECTIONS; k++) {
+        equations(c, y, t, R, A);
+        R[c->n] = 0.0;
+        solve(w, A, R);
+        double change = 0.0;
+        for (int i = 0; i < w; i++) {
+            y[i] -= R[i];
+            change += R[i] * R[i];
+        }
+        change = sqrt(change);
+        if (change < DONE) return 1;
+        if (!(change < previous)) return previous < ENOUGH;
+        previous = change;
+    }
+    return previous < ENOUGH;
+}
+
+size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
+                    double *x, double *slope, double *determinant)
+{
+    curve c = { m, s, m->nx, { 0.0 } };
+    double y[N], trial[N], t[N], before[N] = { 0.0 };
+    if (m->nx > MW_MAX_UNKNOWNS) return 0;
+    m->scale(s, c.scale);
+    for (int i = 0; i < c.n; i++) y[i] = x0[i] / c.scale[i];
+    y[c.n] = phi0;
+    before[c.n] = step > 0.0 ? 1.0 : -1.0;
+    if (!correct(&c, before, y)) return 0;
+    step = fabs(step);
+    for (size_t k = 0;; k++) {
+        determinant[k] = tangent(&c, y, before, t);
+        unscaled(&c, y, x + k * (size_t)c.n);
+        phi[k] = y[c.n];
+        slope[k] = t[c.n];
+        if (k == count || !(fabs(determinant[k]) < HUGE_VAL)) return k + 1;
+        memcpy(before, t, sizeof t);
+        double length = step;
+        for (int splits = 0;; splits++, length *= 0.5) {
+            if (splits > MAX_SPLITS) return k + 1;
+            for (int i = 0; i <= c.n; i++) trial[i] = y[i] + length * t[i];
+            if (correct(&c, t, trial)) break;
+        }
+        memcpy(y, trial, sizeof y);
+    }
+}

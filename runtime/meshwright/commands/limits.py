@@ -1,0 +1,48 @@
+"""Undercut lines, edges of regression, limit points of contact, meshing axes and branch points."""
+
+from meshwright.commands import options as common
+from meshwright.files import write_json, write_text
+from meshwright.limits import Request, limits_of
+
+
+def add_arguments(parser):
+    common.add_design(parser)
+    parser.add_argument("--section-y-mm", type=common.number, metavar="C", help="section y = C of the rack and pinion")
+    parser.add_argument("--radius-mm", type=common.numbers, default=(), metavar="R1,R2,…", help="radii on the worm")
+    parser.add_argument("--axial-mm", type=common.numbers, default=(), metavar="Z1,Z2,…", help="axial positions")
+    parser.add_argument("--grid", type=common.count, default=15, metavar="N", help="lines of a searched flank")
+    parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.limits/1)")
+
+
+def run(options):
+    drive = common.drive_of(options)
+    found = limits_of(drive, Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid))
+    if options.json:
+        document = {"schema": "meshwright.limits/1", "drive": drive.design.family, "design": drive.design.as_solved()}
+        write_json(options.json, document | found.plain())
+    else:
+        write_text("-", _page(drive, found.plain()))
+    return 0
+
+
+def _page(drive, found):
+    lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
+    for name, entries in found.items():
+        if isinstance(entries, list):
+            lines.append(f"{name.replace('_', ' ')}: {len(entries) or 'none'}")
+            lines += [f"  {_line(entry)}" for entry in entries]
+        elif entries is not None:
+            lines.append(f"{name.replace('_', ' ')}: {entries}")
+    return "\n".join(lines) + "\n"
+
+
+def _line(entry):
+    return "  ".join(f"{key} {_cell(value)}" for key, value in entry.items() if value not in ([], {}, None))
+
+
+def _cell(value):
+    if isinstance(value, dict):
+        return " ".join(f"{key} {_cell(inner)}" for key, inner in value.items())
+    if isinstance(value, list):
+        return "(" + ", ".join(map(_cell, value)) + ")"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,222 @@
+"""Limits of the cylindrical worm drive: the wheel's generation as rack and pinion, and what the flanks allow.
+
+Frames: points of contact in the fixed frame of generation (z the hob's axis, x to the wheel). Sections and limit
+points in closed form hold at right angles of the cutting axes; undercut and meshing axes hold at any.
+"""
+
+import numpy as np
+
+from meshwright.errors import UsageError
+from meshwright.limits.branches import branch_points
+from meshwright.limits.profile import Profile
+from meshwright.limits.results import Axis, ContactPoint, Limits, SurfaceLimit
+from meshwright.limits.thickness import tip_thicknesses
+from meshwright.limits.zeros import zeros
+
+#: Profiles are searched up to this multiple of the reference radius.
+RADIUS_REACH = 2.0
+
+#: How many radii a section profile has unless they are given.
+SECTION_POINTS = 11
+
+#: Share of the regular sheet |Ψ − Ψ0| < 90° that is searched for undercut.
+SHEET_SHARE = 0.98
+
+
+def limits(drive, request):
+    """All limits of the drive; see :class:`~meshwright.limits.results.Limits`."""
+    if request.section_y is not None:
+        _need_right_angle(drive)
+    hob = Profile(drive, "hob")
+    found = Limits(
+        undercut=_undercut(drive, hob, request),
+        regression=tuple(_regression(drive)),
+        branch_points=branch_points(drive),
+        tip_thickness=tip_thicknesses(drive),
+        **_axes(drive),
+        **_right_angle(drive, hob, request),
+    )
+    return _mirrored(found) if drive.design.mirrored else found
+
+
+def section(drive, request):
+    """The profile of worm and wheel in the plane y = C: contact points in order of growing worm radius."""
+    _need_right_angle(drive)
+    points = _section_profile(drive, Profile(drive, "hob"), request)
+    return tuple(p.mirrored() for p in points) if drive.design.mirrored else points
+
+
+def _mirrored(found):
+    names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
+    turned = {name: tuple(entry.mirrored() for entry in getattr(found, name)) for name in names}
+    return Limits(**{**found.__dict__, **turned})
+
+
+def _is_right_angle(drive):
+    return abs(drive.design.value("cutting_shaft_angle_deg") - np.pi / 2) < 1e-9
+
+
+def _need_right_angle(drive):
+    if not _is_right_angle(drive):
+        angle = np.degrees(drive.design.value("cutting_shaft_angle_deg"))
+        raise UsageError(
+            f"--section-y-mm: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
+            " set design.cutting_shaft_angle_deg=90, or leave the section out"
+        )
+
+
+def _right_angle(drive, hob, request):
+    """Limit points and sections, which have closed forms at right angles only."""
+    if not _is_right_angle(drive):
+        return {}
+    return {
+        "first_type": _first_type(drive, hob, request.section_y or 0.0),
+        "second_type": _second_type(drive, hob, request),
+        "section_profile": () if request.section_y is None else _section_profile(drive, hob, request),
+    }
+
+
+def _pitch_radius(drive):
+    return drive.design.value("hob_pitch_radius_mm")
+
+
+def _contact(drive, t, psi):
+    """The contact of hob and blank at (t, Ψ)."""
+    at = drive.function("generation")(t, psi)
+    x, _, z = at["point"]
+    radius = np.hypot(at["point"][0], at["point"][1])
+    tip = drive.design.value("worm_tip_radius_mm", "blank")
+    tool = _pitch_radius(drive) + drive.design.value("hob_tip_addendum_mm", "blank")
+    return ContactPoint(
+        point=at["point"],
+        normal=at["normal"],
+        wheel_point=at["point_wheel"],
+        angle=float(at["phi_hob"]),
+        parameters={"t_hob": float(t), "psi_fixed_hob": float(psi), "psi_hob": float(at["psi_hob"])},
+        wheel_radius=float(np.hypot(drive.design.value("cutting_center_distance_mm") - x, z)),
+        flags=tuple(flag for flag, limit in (("off_tip", tip), ("off_tool", tool)) if radius > limit),
+    )
+
+
+def _first_type(drive, hob, offset):
+    """Limit points of the first type (undercut of the wheel) in the section y = ``offset``."""
+    angle, generation = drive.function("section"), drive.function("generation")
+
+    def condition(t):
+        return generation(t, angle(t, offset)["psi_fixed_hob"])["first_type"]
+
+    roots = zeros(condition, hob.samples(RADIUS_REACH * _pitch_radius(drive)))
+    return tuple(_contact(drive, t, float(angle(t, offset)["psi_fixed_hob"])) for t in roots)
+
+
+def _second_type(drive, hob, request):
+    """Limit points of the second type at the radii asked for: two of each, where there are any."""
+    found = []
+    for radius in request.radii or (_pitch_radius(drive),):
+        t = hob.at_radius(radius)
+        if t is None:
+            continue
+        for psi in drive.function("second_type")(t)["psi_fixed_hob"]:
+            if np.isfinite(psi):
+                found.append(_contact(drive, t, _principal(psi)))
+    return tuple(found)
+
+
+def _principal(angle):
+    """The angle in (−π, π]."""
+    return float(np.pi - (np.pi - angle) % (2 * np.pi))
+
+
+def _section_profile(drive, hob, request):
+    radii = request.radii
+    if not radii:
+        pitch = _pitch_radius(drive)
+        root, tip = (drive.design.value(f"worm_{end}_radius_mm", "blank") for end in ("root", "tip"))
+        module = drive.design.value("normal_module_mm")
+        inner = root if np.isfinite(root) else pitch - 1.2 * module
+        outer = tip if np.isfinite(tip) else pitch + module
+        radii = np.linspace(max(inner, hob.least_radius() * (1 + 1e-9)), outer, SECTION_POINTS)
+    found = []
+    for radius in radii:
+        t = hob.at_radius(radius)
+        psi = float(drive.function("section")(t, request.section_y)["psi_fixed_hob"]) if t is not None else np.nan
+        if np.isfinite(psi):
+            found.append(_contact(drive, t, psi))
+    return tuple(found)
+
+
+def _axes(drive):
+    at = drive.function("meshing_axes")()
+    if not at["discriminant"] >= 0.0:
+        return {"axes": (), "axes_exist": False}
+    axes = [Axis(at[f"point_{k}"], at[f"direction_{k}"] / np.linalg.norm(at[f"direction_{k}"])) for k in (1, 2)]
+    axes.sort(key=lambda axis: -axis.inclination)
+    return {"axes": tuple(axes), "axes_exist": True}
+
+
+def _regression(drive):
+    """Edges of regression of worm and hob; the hob's only where it differs from the worm."""
+    words = drive.design.tables["design"]
+    same = words["worm_profile"] == words["hob_profile"] and _pitch_radius(drive) == drive.design.value(
+        "worm_pitch_radius_mm"
+    )
+    for member, name in (("pinion", "worm"), ("hob", "hob")):
+        profile = Profile(drive, name)
+        if (t := profile.regression) is not None and not (member == "hob" and same):
+            point = profile(t)["point"]
+            root = drive.design.value("worm_root_radius_mm", "blank")
+            yield SurfaceLimit(member, point, {f"t_{name}": t}, on_flank=not np.hypot(*point[:2]) < root)
+
+
+def _undercut(drive, hob, request):
+    """The wheel's undercut line: where its singular function vanishes, along lines Ψ = constant of the flank.
+
+    ``request.grid`` lines, or the points at the axial positions z of the wheel that are asked for.
+    """
+    flank = drive.flank("wheel")
+    samples = hob.samples(RADIUS_REACH * _pitch_radius(drive), 100)
+
+    def line(psi):
+        return zeros(lambda t: flank(np.stack([t, np.full_like(t, psi)], axis=1)).regular, samples)
+
+    if request.axial:
+        places = _undercut_at(flank, line, np.linspace(*_sheet(hob), 8 * request.grid), request.axial)
+    else:
+        places = [(t, psi) for psi in np.linspace(*_sheet(hob), request.grid) for t in line(psi)]
+    return tuple(_undercut_point(flank, hob, t, psi) for t, psi in places)
+
+
+def _sheet(hob):
+    """Range of Ψ on which the wheel's regular sheet lies at the pitch point: where the normal's x keeps its sign."""
+    across, along, _ = hob(hob.pitch_point)["normal"]
+    middle = np.arctan2(-along, across)
+    middle -= np.pi * np.round(middle / np.pi)
+    return middle - SHEET_SHARE * np.pi / 2, middle + SHEET_SHARE * np.pi / 2
+
+
+def _undercut_at(flank, line, angles, positions):
+    """Parameters of the undercut line's points at axial positions z of the wheel."""
+
+    def height(psi):
+        roots = line(psi)
+        return flank([[roots[0], psi]]).points[0, 2] if roots else np.nan
+
+    def over(values):
+        return np.array([height(psi) for psi in np.atleast_1d(values)])
+
+    coarse = over(angles)
+    for z in positions:
+        with np.errstate(invalid="ignore"):
+            near = np.flatnonzero((coarse[:-1] - z) * (coarse[1:] - z) < 0.0)
+        for k in near:
+            for psi in zeros(lambda q, z=z: over(q) - z, angles[k : k + 2]):
+                yield line(psi)[0], psi
+
+
+def _undercut_point(flank, hob, t, psi):
+    at = flank([[t, psi]])
+    on_flank = all(not values[0] < 0.0 for values in at.margins.values())
+    radius = float(hob.radius(t))
+    return SurfaceLimit(
+        "wheel", at.points[0], {"t_hob": float(t), "psi_fixed_hob": float(psi)}, on_flank, {"tool_radius_mm": radius}
+    )

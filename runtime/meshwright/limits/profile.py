@@ -1,0 +1,89 @@
+"""The profile of a worm or hob over its whole regular length, from the generated profile functions."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshwright.limits.zeros import zeros
+
+#: Steps of the search along a profile, in natural sizes of its parameter, and how far it goes.
+STEP, REACH = 0.05, 20.0
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Profile parameters of the ``"worm"`` or ``"hob"`` of a drive, on the branch of the pitch point.
+
+    The radius grows from :attr:`lower` to :attr:`upper`.
+    """
+
+    drive: object
+    name: str
+
+    @cached_property
+    def _range(self):
+        return {key: float(v) for key, v in self.drive.function(f"profile_range_{self.name}")().items()}
+
+    @property
+    def pitch_point(self):
+        """Parameter at (or, on a ground flank, near) the pitch cylinder."""
+        return self._range["pitch_point"]
+
+    def __call__(self, t):
+        """Point (…, 3), unit normal (…, 3), growth of the squared radius and axial section at parameters t."""
+        return self.drive.function(f"profile_{self.name}")(t)
+
+    def radius(self, t):
+        """Distance of the profile point from the axis."""
+        point = self(t)["point"]
+        return np.hypot(point[..., 0], point[..., 1])
+
+    @cached_property
+    def sense(self):
+        """+1 if the radius grows with the parameter, −1 if it falls."""
+        return float(np.sign(self(self.pitch_point)["growth"]))
+
+    def _walk(self, sense):
+        """Parameters from the pitch point on, as far as the profile goes on that side, edges included."""
+        steps = np.arange(0.0, REACH, STEP) * self._range["scale"]
+        t = self.pitch_point + sense * steps
+        lower = self._range.get("lower_end", -np.inf)
+        t = t[t > lower] if sense < 0 else t
+        growth = self(t)["growth"] * self.sense
+        with np.errstate(invalid="ignore"):
+            broken = np.flatnonzero(~(growth > 0.0))
+        if len(broken):
+            last = broken[0]
+            edge = zeros(lambda q: self(q)["growth"], t[last - 1 : last + 1])
+            return np.append(t[:last], edge)
+        return np.append(t, lower) if sense < 0 and np.isfinite(lower) else t
+
+    @cached_property
+    def _sides(self):
+        inward, outward = self._walk(-self.sense), self._walk(self.sense)
+        return np.concatenate([inward[:0:-1], outward])
+
+    @cached_property
+    def regression(self):
+        """Parameter of the inner end if the flank turns back there (edge of regression, base cylinder), else None."""
+        inner = self._sides[0]
+        if inner == self._range.get("lower_end"):
+            below = self(inner - STEP * self._range["scale"])["point"]
+            return None if np.all(np.isfinite(below)) else float(inner)
+        growth, usual = (abs(float(self(t)["growth"])) for t in (inner, self.pitch_point))
+        return float(inner) if growth < 1e-6 * usual else None
+
+    def samples(self, largest_radius, count=200):
+        """Parameters from the inner end to a radius, or to the outer end, in order of growing radius."""
+        t = self._sides[self.radius(self._sides) <= largest_radius]
+        return np.linspace(t[0], t[-1], count)
+
+    def at_radius(self, radius):
+        """Parameter at a radius, or None where the profile does not reach it."""
+        found = zeros(lambda t: self.radius(t) - radius, self._sides)
+        return found[0] if found else None
+
+    def least_radius(self):
+        """Radius of the inner end."""
+        return float(self.radius(self._sides[0]))

@@ -1,0 +1,202 @@
+"""What limits are asked for and what they are: frozen records in mm and rad, and their plain data."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to compute beside the default: a section y = C, radii on the worm, axial positions, fineness of grids."""
+
+    section_y: float | None = None
+    radii: tuple[float, ...] = ()
+    axial: tuple[float, ...] = ()
+    grid: int = 15
+
+
+@dataclass(frozen=True)
+class SurfaceLimit:
+    """A point of a flank's undercut line or edge of regression; ``point`` (3,) in the member's frame.
+
+    ``extra`` holds further numbers under their interface names. ``on_flank``: within every limit of the design.
+    """
+
+    member: str
+    point: np.ndarray
+    parameters: dict[str, float] = field(default_factory=dict)
+    on_flank: bool = True
+    extra: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def radius(self):
+        """Distance from the member's axis."""
+        return float(np.hypot(self.point[0], self.point[1]))
+
+    def mirrored(self):
+        """The same limit of the mirror-image drive."""
+        return SurfaceLimit(
+            self.member, self.point * MIRROR, _turned(self.parameters), self.on_flank, dict(self.extra)
+        )
+
+    def plain(self):
+        data = {"member": self.member, "parameters": self.parameters, "point_mm": self.point.tolist()}
+        data |= {"radius_mm": self.radius, "axial_mm": float(self.point[2])}
+        return data | self.extra | {"on_flank": self.on_flank}
+
+
+@dataclass(frozen=True)
+class ContactPoint:
+    """A contact in generation: ``point`` and ``normal`` (out of the worm) (3,) fixed frame, ``wheel_point`` (3,)
+    wheel frame, ``angle`` of the worm or hob."""
+
+    point: np.ndarray
+    normal: np.ndarray
+    wheel_point: np.ndarray
+    angle: float
+    parameters: dict[str, float]
+    wheel_radius: float
+    flags: tuple[str, ...] = ()
+
+    @property
+    def radius(self):
+        """Distance from the worm axis."""
+        return float(np.hypot(self.point[0], self.point[1]))
+
+    def mirrored(self):
+        """The same contact of the mirror-image drive."""
+        return ContactPoint(
+            self.point * MIRROR,
+            self.normal * MIRROR,
+            self.wheel_point * MIRROR,
+            -self.angle,
+            _turned(self.parameters),
+            self.wheel_radius,
+            self.flags,
+        )
+
+    def as_limit(self):
+        """Plain data as a limit point."""
+        return {
+            "parameters": self.parameters,
+            "point_mm": self.point.tolist(),
+            "radius_mm": self.radius,
+            "pinion_angle_deg": float(np.degrees(self.angle)),
+            "wheel_point_mm": self.wheel_point.tolist(),
+            "wheel_radius_mm": self.wheel_radius,
+            "flags": list(self.flags),
+        }
+
+    def as_profile(self):
+        """Plain data as a point of a section profile."""
+        return {
+            "radius_mm": self.radius,
+            "worm_point_mm": self.point.tolist(),
+            "normal": self.normal.tolist(),
+            "pinion_angle_deg": float(np.degrees(self.angle)),
+            "wheel_point_mm": self.wheel_point.tolist(),
+            "parameters": self.parameters,
+        }
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A line that every contact normal meets, fixed frame of generation; ``direction`` is a unit vector."""
+
+    point: np.ndarray
+    direction: np.ndarray
+
+    @property
+    def inclination(self):
+        """Angle to the worm axis, 0 to 90°, rad."""
+        return float(np.arctan2(np.hypot(self.direction[0], self.direction[1]), abs(self.direction[2])))
+
+    def mirrored(self):
+        """The same axis of the mirror-image drive."""
+        return Axis(self.point * MIRROR, self.direction * MIRROR)
+
+    def plain(self):
+        return {
+            "point_mm": self.point.tolist(),
+            "direction": self.direction.tolist(),
+            "inclination_deg": float(np.degrees(self.inclination)),
+        }
+
+
+@dataclass(frozen=True)
+class BranchPoint:
+    """A point where a branch of contact turns back (``fold``) or two branches cross (``pitchfork``)."""
+
+    angle: float
+    kind: str
+    point: np.ndarray
+
+    def mirrored(self):
+        """The same branch point of the mirror-image drive."""
+        return BranchPoint(-self.angle, self.kind, self.point * MIRROR)
+
+    def plain(self):
+        return {
+            "pinion_angle_deg": float(np.degrees(self.angle)),
+            "kind": self.kind,
+            "point_mm": self.point.tolist(),
+        }
+
+
+@dataclass(frozen=True)
+class Thickness:
+    """Tooth thickness at the tip of a member, and the radius at which its teeth become pointed (None: nowhere near)."""
+
+    member: str
+    radius: float
+    thickness: float
+    pointed_radius: float | None
+
+    def plain(self):
+        return {
+            "member": self.member,
+            "radius_mm": self.radius,
+            "thickness_mm": self.thickness,
+            "pointed_radius_mm": self.pointed_radius,
+            "pointed": self.thickness <= 0.0,
+        }
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Everything that bounds a drive; see the classes above. ``axes_exist`` is None where axes do not apply."""
+
+    undercut: tuple[SurfaceLimit, ...] = ()
+    regression: tuple[SurfaceLimit, ...] = ()
+    first_type: tuple[ContactPoint, ...] = ()
+    second_type: tuple[ContactPoint, ...] = ()
+    axes: tuple[Axis, ...] = ()
+    axes_exist: bool | None = None
+    section_profile: tuple[ContactPoint, ...] = ()
+    branch_points: tuple[BranchPoint, ...] = ()
+    tip_thickness: tuple[Thickness, ...] = ()
+    least_teeth: dict[str, int] | None = None
+
+    def plain(self):
+        """The lists of the ``meshwright.limits/1`` schema."""
+        return {
+            "undercut": [u.plain() for u in self.undercut],
+            "regression": [r.plain() for r in self.regression],
+            "first_type": [c.as_limit() for c in self.first_type],
+            "second_type": [c.as_limit() for c in self.second_type],
+            "meshing_axes": [a.plain() for a in self.axes],
+            "meshing_axes_exist": self.axes_exist,
+            "section_profile": [c.as_profile() for c in self.section_profile],
+            "branch_points": [b.plain() for b in self.branch_points],
+            "tip_thickness": [t.plain() for t in self.tip_thickness],
+            "least_teeth_without_undercut": self.least_teeth,
+        }
+
+
+#: The mirror image y → −y of a point or direction.
+MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+def _turned(parameters):
+    """Parameters with the angles about z-type axes negated."""
+    return {name: -value if name.startswith(("psi", "phi")) else value for name, value in parameters.items()}

@@ -1,0 +1,30 @@
+"""Designs that the worm tests share."""
+
+from meshwright.design import changed, read
+
+PROFILES = ("ZA", "ZI", "ZN", "ZK", "ZC")
+
+
+def plain(worm, hob=None, **changes):
+    """Tables of a plain two-thread drive with these flank forms; keyword arguments change or add design keys."""
+    tables = {
+        "drive": "cylindrical-worm",
+        "flank": "right",
+        "design": {
+            "normal_module_mm": 4.0,
+            "worm_threads": 2,
+            "wheel_teeth": 41,
+            "worm_lead_angle_deg": 11.31,
+            "pressure_angle_deg": 20.0,
+            "worm_profile": worm,
+            "hob_profile": hob or worm,
+            "grinding_wheel_radius_mm": 200.0,
+            "profile_arc_radius_mm": 40.0,
+        },
+    }
+    return changed(tables, {key if key == "flank" else f"design.{key}": value for key, value in changes.items()})
+
+
+def packaged(name, **changes):
+    """Tables of a packaged design with ``table__key`` changed."""
+    return changed(read(name), {key.replace("__", "."): value for key, value in changes.items()})

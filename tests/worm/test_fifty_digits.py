@@ -1,0 +1,50 @@
+"""Every flank form, in double precision, against a second formulation in 50-digit arithmetic."""
+
+import itertools
+
+import mpmath
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.design import changed
+from tests.independent.worm import WormDrive
+from tests.worm.designs import PROFILES, plain
+
+SHAFT_ANGLES = (45.0, 70.0, 90.0, 110.0)
+ERRORS = (
+    {},
+    {"center_distance_mm": 0.03, "horizontal_deg": 0.03, "vertical_deg": -0.02, "axial_mm": 0.05},
+)
+PAIRS = [(p, p) for p in PROFILES] + [("ZK", "ZN"), ("ZC", "ZK"), ("ZI", "ZA"), ("ZA", "ZI"), ("ZN", "ZC")]
+
+
+def _tables(worm, hob, shaft_angle, errors, flank):
+    tables = plain(worm, hob, hob_pitch_radius_mm=21.5, shaft_angle_deg=shaft_angle, flank=flank)
+    return changed(tables, {f"misalignment.{key}": value for key, value in errors.items()})
+
+
+@pytest.mark.parametrize("worm, hob", PAIRS)
+def test_flank_forms_at_any_shaft_angle_agree_with_fifty_digits(worm, hob):
+    compared = 0
+    with mpmath.workdps(50):
+        for shaft_angle, errors, flank in itertools.product(SHAFT_ANGLES, ERRORS, ("right", "left")):
+            tables = _tables(worm, hob, shaft_angle, errors, flank)
+            exact = WormDrive.of(tables)
+            angles = np.radians([-25.0, 10.0])
+            result = Drive.from_tables(tables).tca(angles)
+            for k, phi in enumerate(angles):
+                if result.status[k] != "converged":
+                    continue
+                compared += 1
+                u = {name: values[k] for name, values in result.unknowns.items()}
+                start = [u["t_worm"], u["psi_worm"], u["t_hob"], u["psi_hob"], u["phi_hob"], result.wheel_angles[k]]
+                solved = exact.polished(start, mpmath.mpf(phi))
+                residual = exact.residual(solved, mpmath.mpf(phi))
+                assert max(map(abs, residual)) < 1e-20
+                error = solved[5] - mpmath.mpf(exact.threads) / exact.teeth * mpmath.mpf(phi)
+                assert abs(float(error - result.error[k])) * 648000 / np.pi < 1e-10
+                at_solution = [abs(float(r)) for r in exact.residual([mpmath.mpf(float(x)) for x in start], mpmath.mpf(phi))]
+                assert max(at_solution[:3]) < 1e-12
+                assert max(at_solution[3:5]) < 1e-12
+    assert compared >= 28  # beyond a fold there is no contact to compare
