@@ -73,6 +73,12 @@ typedef struct mw_region {
     int parameters, conditions, outputs;
     mw_surface flank;
 } mw_region;
+/* A function that a drive offers beside its contact: o[outputs] at q[arguments] for the design in s. */
+typedef struct mw_function {
+    const char *name;
+    int arguments, outputs;
+    void (*evaluate)(const double *s, const double *q, double *o);
+} mw_function;
 
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
  * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
@@ -103,6 +109,8 @@ typedef struct mw_model {
     const mw_system *systems;    /* in the order in which they are solved, derive() before and after each */
     int nregions;
     const mw_region *regions;
+    int nfunctions;
+    const mw_function *functions;
 } mw_model;
 
 #endif
@@ -3003,8 +3011,6 @@ static inline void face_worm_set_phi(double *s, double phi)
 }
 
 /* Residual R[face_worm_NX] at x[face_worm_NX] and, unless J is NULL, the Jacobian J[face_worm_NX*face_worm_NX], row-major dR/dx. */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
- *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline void face_worm_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -3596,8 +3602,6 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
- *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline double face_worm_step(const double *s, double *x)
 {
     double s0, c0;
@@ -4461,8 +4465,6 @@ static inline void face_worm_scale(const double *s, double *x)
  *    55 margin_wheel_tip
  *    56 margin_wheel_root
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
- *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline void face_worm_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -5109,7 +5111,6 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
  *    16 condition_0
  *    17 condition_0_slopes[3]
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal. */
 static inline void face_worm_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5471,7 +5472,6 @@ static inline void face_worm_flank_pinion(const double *s, const double *q, doub
  *    14 margin_tip
  *    15 margin_root
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face_worm/cone-normal. */
 static inline void face_worm_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5598,7 +5598,6 @@ static inline void face_worm_flank_wheel(const double *s, const double *q, doubl
  *    13 margin_bottom
  *    14 margin_junction
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, face_worm/fillet-join, face_worm/fillet-tangent. */
 static inline void face_worm_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -6071,7 +6070,8 @@ static const mw_model face_worm_model = {
     face_worm_output_names, 23, face_worm_output_sizes, face_worm_guard_texts, face_worm_bodies,
     face_worm_derive, face_worm_size, face_worm_setup, face_worm_set_phi, face_worm_eval, face_worm_step,
     face_worm_guess, face_worm_start_scale, face_worm_start_eval, face_worm_start_solution, face_worm_observe, face_worm_scale,
-    3, face_worm_systems, 2, face_worm_regions
+    3, face_worm_systems, 2, face_worm_regions,
+    0, NULL
 };
 
 #endif

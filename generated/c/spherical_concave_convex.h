@@ -75,6 +75,12 @@ typedef struct mw_region {
     int parameters, conditions, outputs;
     mw_surface flank;
 } mw_region;
+/* A function that a drive offers beside its contact: o[outputs] at q[arguments] for the design in s. */
+typedef struct mw_function {
+    const char *name;
+    int arguments, outputs;
+    void (*evaluate)(const double *s, const double *q, double *o);
+} mw_function;
 
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
  * o[no] observation, d[nd] derived sizes, y[nstart] unknowns of the start system. */
@@ -105,6 +111,8 @@ typedef struct mw_model {
     const mw_system *systems;    /* in the order in which they are solved, derive() before and after each */
     int nregions;
     const mw_region *regions;
+    int nfunctions;
+    const mw_function *functions;
 } mw_model;
 
 #endif
@@ -722,9 +730,6 @@ static inline void spherical_concave_convex_set_phi(double *s, double phi)
 }
 
 /* Residual R[spherical_concave_convex_NX] at x[spherical_concave_convex_NX] and, unless J is NULL, the Jacobian J[spherical_concave_convex_NX*spherical_concave_convex_NX], row-major dR/dx. */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
- *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
- *   cylindrical_worm/contact. */
 static inline void spherical_concave_convex_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[1] * 0.5;
@@ -1152,9 +1157,6 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
- *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
- *   cylindrical_worm/contact. */
 static inline double spherical_concave_convex_step(const double *s, double *x)
 {
     const double t0 = x[3] * 0.5;
@@ -1716,9 +1718,6 @@ static inline void spherical_concave_convex_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_root
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
- *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
- *   cylindrical_worm/contact, spherical_gears/undercut, spherical_gears/moment. */
 static inline void spherical_concave_convex_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[1] * 0.5;
@@ -2297,8 +2296,6 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
  *    15 margin_tool_end
  *    16 margin_root
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
- *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_convex_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2484,8 +2481,6 @@ static inline void spherical_concave_convex_flank_pinion(const double *s, const 
  *    15 margin_tool_end
  *    16 margin_root
  */
-/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
- *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_convex_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3143,7 +3138,8 @@ static const mw_model spherical_concave_convex_model = {
     spherical_concave_convex_output_names, 27, spherical_concave_convex_output_sizes, spherical_concave_convex_guard_texts, spherical_concave_convex_bodies,
     spherical_concave_convex_derive, spherical_concave_convex_size, spherical_concave_convex_setup, spherical_concave_convex_set_phi, spherical_concave_convex_eval, spherical_concave_convex_step,
     spherical_concave_convex_guess, spherical_concave_convex_start_scale, spherical_concave_convex_start_eval, spherical_concave_convex_start_solution, spherical_concave_convex_observe, spherical_concave_convex_scale,
-    0, NULL, 2, spherical_concave_convex_regions
+    0, NULL, 2, spherical_concave_convex_regions,
+    0, NULL
 };
 
 #endif
