@@ -31,7 +31,8 @@ typedef enum mw_status {
     MW_STATUS_END = 1000
 } mw_status;
 
-enum { MW_MAX_UNKNOWNS = 8 };
+/* Largest nx and no of any model. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512 };
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 

@@ -13,11 +13,4 @@ int mw_newton(mw_equations f, int n, const double *s, const double *scale, doubl
  * mw_newton, 1 if info holds the answer. */
 int mw_newton_fused(const mw_model *m, const double *s, double *x, double tolerance, mw_info *info);
 
-/* Whether every unknown lies within its bounds: outside there is no flank. */
-int mw_within_bounds(const mw_model *m, const double *x);
-
-/* From the best known contact of a cold start (x, info; info->status < 0 if none) look for a better one: a regular
- * contact without interference. Starts are spread over the wheel flank about x0. State s is set up. */
-void mw_search(const mw_model *m, const double *s, const double *x0, double *x, mw_info *info);
-
 #endif

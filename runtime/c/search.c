@@ -6,9 +6,12 @@
 #include <math.h>
 #include <string.h>
 #include "linear.h"
-#include "newton.h"
+#include "refine.h"
 
-enum { MAX_OBSERVATION = 512, MAX_MATCH = 20, FAILED, IMPOSSIBLE, OFF_LIMITS, REGULAR };
+enum { MAX_MATCH = 20 };
+
+/* What a solution is worth, ascending. */
+enum { FAILED, IMPOSSIBLE, OFF_LIMITS, REGULAR };
 
 /* Spread of the starts in natural sizes: along the profile, and across it. */
 static const double ALONG[] = { 0.0, -0.8, 0.8, -1.6, 1.6, -2.4 };
@@ -19,10 +22,9 @@ static const double REACH_ALONG = 4.0, REACH_ACROSS = 0.5;
 
 static int worth(const mw_model *m, const double *s, const double *x, const mw_info *info)
 {
-    double o[MAX_OBSERVATION];
+    double o[MW_MAX_OBSERVATION];
     mw_contact c;
     if (info->status < 0) return FAILED;
-    if (m->no > MAX_OBSERVATION) return REGULAR;
     if (mw_contact_at(m, s, x, o, &c) == MW_LINE_CONTACT) return REGULAR;
     if (!(c.curvature_min > 0.0)) return IMPOSSIBLE;
     const char *name;

@@ -1,54 +1,16 @@
 /* One contact point from a cold start.  SPDX-License-Identifier: MIT-0 */
-#include <math.h>
 #include <string.h>
 #include "newton.h"
+#include "refine.h"
 
 enum { MAX_ATTEMPTS = 100 };
 
-static const double FUSED_TOLERANCE = 1e-9;
 static const double SMALLEST_STEP = 1e-8;   /* share of the misalignments */
 static const double SINGULAR_SHARE = 1e-2;  /* of the aligned drive's: a pivot falls as the root of the way left */
 
 static int ended_well(int status)
 {
     return status >= 0;
-}
-
-/* A singular Jacobian at a true contact means line contact if a relative curvature vanishes there. */
-static int judge_singular(const mw_model *m, const double *s, const double *x, mw_info *info)
-{
-    if (info->status == MW_SINGULAR) {
-        double o[512];
-        mw_contact c;
-        if (m->no <= 512 && mw_contact_at(m, s, x, o, &c) == MW_LINE_CONTACT) info->status = MW_LINE_CONTACT;
-    }
-    return info->status;
-}
-
-int mw_within_bounds(const mw_model *m, const double *x)
-{
-    for (int i = 0; i < m->nx; i++)
-        if (!(x[i] >= m->unknowns[i].lower && x[i] <= m->unknowns[i].upper)) return 0;
-    return 1;
-}
-
-int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double before[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS];
-    memset(info, 0, sizeof *info);
-    for (int i = 0; i < m->nx; i++) before[i] = x[i];
-    if (mw_newton_fused(m, s, x, FUSED_TOLERANCE, info)) {
-        m->eval(s, x, R, NULL);
-        for (int i = 0; i < m->nx; i++)
-            if (!(fabs(R[i]) <= info->residual)) info->residual = fabs(R[i]);
-    } else {
-        for (int i = 0; i < m->nx; i++) x[i] = before[i];
-        m->scale(s, scale);
-        mw_newton(m->eval, m->nx, s, scale, x, info);
-        judge_singular(m, s, x, info);
-    }
-    if (info->status >= 0 && !mw_within_bounds(m, x)) info->status = MW_LEFT_FLANK;
-    return info->status;
 }
 
 static int is_misalignment(const mw_model *m, int parameter)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "newton.h"
+#include "refine.h"
 
 enum { HISTORY = 4, MAX_SPLITS = 12 };
 
