@@ -129,6 +129,8 @@ class Drive:
     ``excluded`` keys that mean nothing for it.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
+    ``absorbs_errors``: its transmission error is designed as a parabola, whose extreme at an end of contact means that
+    the drive runs on an edge.
     """
 
     name: str
@@ -162,6 +164,7 @@ class Drive:
     regions: tuple[Region, ...] = ()
     ascending_path: bool = False
     flanks_apart: bool = False
+    absorbs_errors: bool = False
     functions: tuple[Function, ...] = ()
 
     @property

@@ -284,6 +284,7 @@ def face_worm():
         pinion_teeth=k.threads.key,
         ascending_path=True,
         flanks_apart=True,
+        absorbs_errors=True,
     )  # fmt: skip
 
 

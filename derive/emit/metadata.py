@@ -42,6 +42,7 @@ def describe(plan, provenance):
         "excluded": list(drive.excluded),
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,
+        "absorbs_errors": drive.absorbs_errors,
         "sizes": [_size(*entry) for entry in drive.sizes],
         "systems": [
             {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems

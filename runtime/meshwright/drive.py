@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import analysis
+from meshwright import analysis, edge
 from meshwright import design as designs
 from meshwright._library import library, model, text
 from meshwright.design import Design
@@ -72,6 +72,12 @@ class Drive:
         """Pinion angle from one tooth pair to the next, rad."""
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])
 
+    @cached_property
+    def edge_window(self):
+        """Window of a pair that runs on an edge, where the drive's error is designed to avoid that; else None."""
+        absorbs_errors = self.design.description["absorbs_errors"]
+        return edge.edge_window(Drive(self.design)) if absorbs_errors else None
+
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
         return Flank.of(self, member, region)
@@ -92,7 +98,7 @@ class Drive:
         angles = np.atleast_1d(np.asarray(angles, dtype=float))
         if angles.ndim != 1 or not np.all(np.isfinite(angles)):
             raise UsageError("angles must be a one-dimensional array of finite numbers")
-        return analysis.analyse(self, angles)
+        return edge.flagged(analysis.analyse(self, angles), self.edge_window)
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

@@ -98,13 +98,40 @@ def test_straight_blade_without_plunge_touches_along_a_line():
     assert np.max(np.abs(result.error)) < 1e-9 * ARCSEC
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_aligned_designs_do_not_run_on_an_edge(name):
+    assert _edge_flags(name, (0, 0, 0)) == {False}
+
+
 @pytest.mark.parametrize("name", [n for n in NAMES if n.endswith("convex")])
 def test_convex_side_absorbs_all_errors(name):
     """For all signs of the three errors the gear lags on both sides of a vertex inside the path."""
-    for signs in product((-1, 1), repeat=3):
-        errors = {key: sign * value for (key, value), sign in zip(ERRORS.items(), signs, strict=True)}
-        result = changed(name, misalignment=errors).tca(np.radians(np.arange(-700.0, 701.0, 10.0)))
-        inside = np.array(["off_face" not in flags for flags in result.flags])
-        error = result.error[inside]
-        vertex = int(np.argmax(error))
-        assert 0 < vertex < len(error) - 1
+    for signs in SIGNS:
+        assert _edge_flags(name, signs) == {False}
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if n.endswith("concave")])
+def test_concave_side_says_where_it_does_not_absorb_them(name):
+    """Some signs move the vertex out of the path; every point of the pair is then flagged and keeps its numbers."""
+    flags = [_edge_flags(name, signs) for signs in SIGNS]
+    assert all(len(f) == 1 for f in flags)
+    assert {True} in flags and {False} in flags
+
+
+SIGNS = tuple(product((-1, 1), repeat=3))
+
+
+def _edge_flags(name, signs):
+    """Whether points inside the face are flagged; checked against the extreme of the error over the whole path."""
+    errors = {key: sign * value for (key, value), sign in zip(ERRORS.items(), signs, strict=True)}
+    drive = changed(name, misalignment=errors)
+    result = drive.tca(np.radians(np.arange(-900.0, 901.0, 10.0)))
+    outside = np.flatnonzero(["off_face" in flags for flags in result.flags])
+    middle = len(result.angles) // 2
+    inside = slice(outside[outside < middle][-1] + 1, outside[outside > middle][0])
+    ahead = driving(drive) * result.error[inside]
+    at_an_end = int(np.argmax(ahead)) in (0, len(ahead) - 1)
+    flagged = {"edge_contact" in flags for flags in result.flags[inside]}
+    assert flagged == {at_an_end}
+    assert np.all(np.isfinite(result.error[inside]))
+    return flagged
