@@ -96,7 +96,7 @@ def spherical(pinion_form, wheel_form):
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
-        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s) for t in teeth),
+        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, _fillet_margins(t), "axial") for t in teeth),
         unknowns=(*_unknowns(pinion_tooth, wheel_tooth), *_unknowns(wheel_tooth, pinion_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
@@ -163,6 +163,11 @@ def _margins(tooth):
         Margin("off_tool", "tool_end", tool.edge_length - tool.along),
         Margin("off_tool", "root", tool.along),
     )
+
+
+def _fillet_margins(tooth):
+    turn = tooth.fillet.parameters[0]
+    return Margin("", "junction", turn), Margin("", "bottom", sp.pi / 2 - alpha - turn)
 
 
 def _guards(tooth):
