@@ -15,10 +15,11 @@ enum { FAILED, IMPOSSIBLE, OFF_LIMITS, REGULAR };
 
 /* Spread of the starts in natural sizes: along the profile, and across it. */
 static const double ALONG[] = { 0.0, -0.8, 0.8, -1.6, 1.6, -2.4 };
-static const double ACROSS[] = { 0.0, 0.08, -0.08, 0.16, -0.16, 0.24, -0.24, 0.34, -0.34 };
+static const double ACROSS[] = { 0.0, 0.08, -0.08, 0.16, -0.16, 0.24, -0.24, 0.34, -0.34,
+                                 0.46, -0.46, 0.6, -0.6 };
 
 /* A solution further from the start than this is another place of the flank, or none. */
-static const double REACH_ALONG = 4.0, REACH_ACROSS = 0.5;
+static const double REACH_ALONG = 4.0, REACH_ACROSS = 0.8;
 
 static int worth(const mw_model *m, const double *s, const double *x, const mw_info *info)
 {

@@ -21,6 +21,9 @@ _CONTACT = np.dtype(
     align=True,
 )  # fmt: skip
 
+#: Bit of ``mw_contact.flags`` for negative relative curvature: see ``mw_flag``.
+_INTERFERENCE = 2
+
 
 def pointer(array):
     """A contiguous float array as a ``double *``."""
@@ -64,19 +67,40 @@ class _Points:
 
     @classmethod
     def of(cls, drive, grid):
-        lib, m = library(), drive.model
+        m = drive.model
         x, records = trace(drive, grid)
         status = records["status"].copy()
         observed = np.full((len(grid), m.no), np.nan)
         contacts = np.zeros(len(grid), _CONTACT)
+        points = cls(drive, grid, x, records, status, observed, contacts)
         s = drive.state()
         for k in np.flatnonzero(status >= 0):
             m.set_phi(pointer(s), grid[k])
-            place = ffi.from_buffer("mw_contact[]", contacts[k : k + 1])
-            ended = lib.mw_contact_at(m, pointer(s), pointer(x[k]), pointer(observed[k]), place)
-            if contacts["line"][k]:
-                status[k] = ended
-        return cls(drive, grid, x, records, status, observed, contacts)
+            points._look(k, s)
+            if contacts["flags"][k] & _INTERFERENCE:
+                points._look_again(k, s)
+        return points
+
+    def _look(self, k, s):
+        """Contact geometry of row k; s is set up for its angle."""
+        place = ffi.from_buffer("mw_contact[]", self.contacts[k : k + 1])
+        solution, observed = pointer(self.x[k]), pointer(self.observed[k])
+        ended = library().mw_contact_at(self.drive.model, pointer(s), solution, observed, place)
+        self.status[k] = ended if self.contacts["line"][k] else self.records["status"][k]
+
+    def _look_again(self, k, s):
+        """A trace may follow a saddle of the gap; keep what a cold start finds instead if bodies can make it."""
+        m, traced = self.drive.model, (self.x[k].copy(), self.records[k].copy())
+        record, work = ffi.from_buffer("mw_info[]", self.records[k : k + 1]), np.empty(m.np)
+        parameters = pointer(self.drive.design.parameters)
+        ended = library().mw_solve(m, parameters, self.grid[k], pointer(s), pointer(work), pointer(self.x[k]), record)
+        if ended >= 0:
+            self._look(k, s)
+        if ended < 0 or self.contacts["flags"][k] & _INTERFERENCE:
+            self.x[k], self.records[k] = traced
+            m.setup(parameters, pointer(s))
+            m.set_phi(pointer(s), self.grid[k])
+            self._look(k, s)
 
     @property
     def description(self):
@@ -138,7 +162,8 @@ class _Points:
             messages=tuple(text(library().mw_status_text(self.status[k])) for k in rows),
             iterations=self.records["iterations"][rows],
             residual=np.where(self.touching, gap, np.nan)[rows],
-            wheel_angles=mirror * np.where(self.touching, self.observed[:, self.description["wheel_angle"]], np.nan)[rows],
+            wheel_angles=mirror
+            * np.where(self.touching, self.observed[:, self.description["wheel_angle"]], np.nan)[rows],
             error=mirror * self.error[rows],
             reference_error=mirror * self.reference(),
             unknowns={name: values[rows] for name, values in unknowns.items()},

@@ -25,7 +25,9 @@ def add_arguments(parser):
 def run(options):
     drive = common.drive_of(options)
     if options.contour is not None and (options.contour < 3 or not options.json):
-        raise UsageError(f"--contour {options.contour}: needs 3 or more directions and --json; for example --contour 72 --json -")
+        raise UsageError(
+            f"--contour {options.contour}: needs 3 or more directions and --json; for example --contour 72 --json -"
+        )
     result = drive.tca(common.angles_of(options, drive))
     points = result.to_points()
     if options.contour is not None:
@@ -98,4 +100,8 @@ def _table(drive, points):
 
 
 def _cell(value, form):
-    return f"{value:>{form}}" if value is not None else "–".rjust(int(form.split(".")[0]))
+    """A number in a column; no minus sign on what rounds to zero."""
+    if value is None:
+        return "–".rjust(int(form.split(".")[0]))
+    digits = int(form.split(".")[1].rstrip("f"))
+    return f"{round(value, digits) + 0.0:>{form}}"
