@@ -5,16 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.backlash import backlash
 from meshwright.drive import Drive
 from meshwright.pairs import Mesh
 from meshwright.placement import placements
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
 from meshwright.results import TCA
-from meshwright.transmission import Envelopes, TransmissionError, envelopes, fourier, transmission_error
+from meshwright.transmission import ROUND_OFF, Envelopes, TransmissionError, envelopes, fourier, transmission_error
 
-#: Least number of positions over the contact of one pair, and of positions per pitch.
-POSITIONS, LEAST_PER_PITCH = 120, 16
+#: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
+POSITIONS, LARGEST_STEP = 120, math.radians(10.0)
 
 #: Pitches shown to either side of angle 0 where no limit ends the contact.
 WITHOUT_END = 1.0
@@ -26,7 +27,9 @@ ORDERS = 8
 @dataclass(frozen=True)
 class Running:
     """All pairs of the drive together; ``envelopes`` run over the window, ``pitch`` over one pitch in its middle,
-    with the number of ``teeth`` in contact and the ``separations`` (K, N) mm of the pairs ``pitch.numbers``."""
+    with the number of ``teeth`` in contact and the ``separations`` (K, N) mm of the pairs ``pitch.numbers``.
+    ``amplitudes`` are those of the transmitted error by tooth order, rad; ``backlash`` is a wheel angle, rad.
+    """
 
     mesh: Mesh
     error: TransmissionError
@@ -35,11 +38,17 @@ class Running:
     teeth: np.ndarray
     separations: np.ndarray
     amplitudes: np.ndarray
+    backlash: float
 
     @property
     def transmitted(self):
         """The transmitted envelope over one pitch, rad: (N,)."""
         return self.pitch.upper if self.error.envelope == "upper" else self.pitch.lower
+
+    @property
+    def constant(self):
+        """Whether the transmission error of a pair is constant to round-off."""
+        return bool(np.nanmax(self.envelopes.pairs) - np.nanmin(self.envelopes.pairs) < ROUND_OFF)
 
 
 @dataclass(frozen=True)
@@ -115,7 +124,7 @@ def _positions(drive, mesh):
         low, high = known
     elif known:
         low, high = min(low, *known), max(high, *known)
-    per_pitch = max(LEAST_PER_PITCH, math.ceil(POSITIONS * pitch / (high - low)))
+    per_pitch = math.ceil(max(pitch / LARGEST_STEP, POSITIONS * pitch / (high - low)))
     step = pitch / per_pitch
     return np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, per_pitch
 
@@ -136,6 +145,7 @@ def _running(mesh, angles):
         teeth=np.array([mesh.teeth_in_contact(angle) for angle in over_pitch.angles]),
         separations=separations,
         amplitudes=fourier(mesh, ORDERS)[0],
+        backlash=backlash(mesh.drive),
     )
 
 

@@ -12,6 +12,9 @@ from meshwright.results import ARCSEC
 
 PINION_ANGLE = "pinion angle, deg"
 
+#: Least room above and below a curve, arcsec or µm.
+LEAST_ROOM = 1e-4
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -44,7 +47,7 @@ def pictures(analysis):
         drawn += [_pattern(member) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
-    if analysis.running is not None and np.isfinite(analysis.running.amplitudes).all():
+    if analysis.running is not None and np.isfinite(analysis.running.amplitudes).all() and not analysis.running.constant:
         drawn.append(_SPECTRUM)
     if analysis.sensitivities and known:
         drawn.append(_SENSITIVITY_ERROR)
@@ -92,6 +95,8 @@ def _drive_error(analysis):
         axes.set_ylabel("relative error, arcsec")
     whole.plot([], [], color=style.SOFT, linewidth=0.8, label="other pairs")
     whole.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    if running.constant:
+        _zoom(whole, (running.envelopes.pairs - zero) / ARCSEC)
     _zoom(zoom, (running.transmitted - zero) / ARCSEC)
     zoom.set(xlabel=PINION_ANGLE)
     zoom.set_title("over one pitch", fontsize=8.5, fontweight="normal")
@@ -99,9 +104,9 @@ def _drive_error(analysis):
 
 
 def _zoom(axes, values):
-    """Room for the values, a little more, and nothing else."""
+    """Room for the values and a little more, but never so little that round-off shows."""
     low, high = np.nanmin(values), np.nanmax(values)
-    room = max(0.15 * (high - low), 1e-6)
+    room = max(0.15 * (high - low), LEAST_ROOM)
     axes.set_ylim(low - room, high + room)
 
 
@@ -118,6 +123,8 @@ def _teeth(analysis):
     if running.mesh.allowance > 0.0:
         apart.axhline(1000.0 * running.mesh.allowance, color=style.WARN, linestyle="--", label="elastic allowance")
         apart.legend()
+    if np.nanmax(running.separations) * 1000.0 < LEAST_ROOM:
+        apart.set_ylim(-LEAST_ROOM, LEAST_ROOM)
     apart.set(xlabel=PINION_ANGLE, ylabel="separation of each pair, µm")
     return figure
 

@@ -9,6 +9,7 @@ import numpy as np
 from meshwright.report import words
 from meshwright.report.numbers import fixed, number
 from meshwright.results import ARCSEC, IMPOSSIBLE
+from meshwright.transmission import ROUND_OFF
 
 
 @dataclass(frozen=True)
@@ -38,13 +39,10 @@ def tiles(analysis):
         shown += [
             Tile("Contact ratio", fixed(mesh.contact_ratio, 3), "", "pitches from begin to end"),
             Tile("Teeth in contact", _span(running.teeth), "", _averages(mesh)),
-            Tile(
-                "Transmission error",
-                number(error.envelope_peak_to_peak / ARCSEC, 4),
-                "arcsec",
-                f"peak to peak of the drive; one pair {number(error.pair_peak_to_peak / ARCSEC, 4)} arcsec",
-            ),
+            _error_tile(running),
         ]
+        if math.isfinite(running.backlash):
+            shown.append(_backlash_tile(running.backlash))
     axes = analysis.tca.semi_axes[np.isfinite(analysis.tca.semi_axes).all(axis=1)]
     if len(axes):
         shown.append(
@@ -56,6 +54,22 @@ def tiles(analysis):
             )
         )
     return shown
+
+
+def _error_tile(running):
+    if running.constant:
+        return Tile("Transmission error", "0", "arcsec", "constant to round-off")
+    drive, pair = (
+        number(e / ARCSEC, 4) for e in (running.error.envelope_peak_to_peak, running.error.pair_peak_to_peak)
+    )
+    return Tile("Transmission error", drive, "arcsec", f"peak to peak of the drive; one pair {pair} arcsec")
+
+
+def _backlash_tile(backlash):
+    if abs(backlash) < ROUND_OFF:
+        return Tile("Backlash", "0", "arcsec", "the teeth just fill the spaces")
+    note = "wheel angle between the flanks" if backlash > 0.0 else "negative: the drive jams"
+    return Tile("Backlash", number(backlash / ARCSEC, 4), "arcsec", note)
 
 
 def _range(values):
@@ -125,6 +139,10 @@ def _error(analysis):
                 "steps there instead of passing smoothly from pair to pair.",
             )
         )
+    if analysis.running.constant:
+        said.append(Finding("note", "The transmission error is constant to round-off: the drive turns uniformly."))
+    if analysis.running.backlash < -ROUND_OFF:
+        said.append(Finding("warn", "The teeth are thicker than the spaces (negative backlash): the drive jams."))
     if error.transfers:
         at = " and ".join(f"{fixed(math.degrees(a), 2)}°" for a in error.transfers)
         said.append(Finding("note", f"Neighbouring pairs agree, so that one can take over from the other, at {at}."))

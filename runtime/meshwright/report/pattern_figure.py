@@ -3,6 +3,7 @@
 import numpy as np
 
 from meshwright.report import style
+from meshwright.report.numbers import fixed
 from meshwright.report.projection import Projection
 
 #: Ellipses drawn along the path of contact.
@@ -16,17 +17,27 @@ def draw(analysis, member):
     colour, tca = style.MEMBERS[member], analysis.tca
     projection = Projection.of(tca.body_points[member][tca.solved], analysis.body_normals(member)[tca.solved])
     _flank(axes, projection, analysis.patches[member], colour)
-    for ring in _ellipses(analysis, member):
+    rings = _ellipses(analysis, member)
+    for ring in rings:
         axes.fill(*projection(ring), facecolor=colour, alpha=0.3, edgecolor="none")
         axes.plot(*projection(ring), color=colour, linewidth=0.9)
     path = np.column_stack(projection(tca.body_points[member]))
-    axes.plot(*path.T, color=style.INK, linewidth=1.3)
+    axes.plot(*path.T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
     _name_ends(axes, path, tca.angles)
     horizontal, vertical = projection.labels(member)
     axes.set(xlabel=horizontal, ylabel=vertical)
     if projection.end_on:
         axes.set_aspect("equal", adjustable="datalim")
+    else:
+        _limit(axes, np.vstack([path, *(np.column_stack(projection(ring)) for ring in rings)]))
     return figure
+
+
+def _limit(axes, places):
+    """Show the contact and a little around it, not all of the flank."""
+    low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
+    room = 0.12 * (high - low) + 1e-3 * (high - low).max()
+    axes.set(xlim=(low[0] - room[0], high[0] + room[0]), ylim=(low[1] - room[1], high[1] + room[1]))
 
 
 def _flank(axes, projection, flank, colour):
@@ -55,5 +66,11 @@ def _name_ends(axes, path, angles):
     known = np.flatnonzero(np.isfinite(path[:, 0]))
     for k in (known[0], known[-1]):
         axes.plot(*path[k], marker="o", markersize=4.5, color=style.INK)
-        axes.annotate(f"{np.degrees(angles[k]):.1f}°".replace("-", "−"), path[k], xytext=(6, 6),
-                      textcoords="offset points", fontsize=8.5)  # fmt: skip
+        axes.annotate(
+            f"{fixed(np.degrees(angles[k]), 1)}°",
+            path[k],
+            xytext=(6, 6),
+            textcoords="offset points",
+            fontsize=8.5,
+            bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.8},
+        )

@@ -5,12 +5,15 @@ import math
 
 import numpy as np
 
-from meshwright.report.patch import trimmed
+from meshwright.report.patch import Patch, trimmed
 from meshwright.report.style import MEMBERS
 from meshwright.results import ARCSEC
 
 #: Points on the drawn outline of a contact ellipse.
 OUTLINE = 49
+
+#: How much lighter surfaces are than lines of the same member, 0 … 1.
+LIGHTER = 0.22
 
 
 def scene(analysis):
@@ -20,6 +23,7 @@ def scene(analysis):
         return None
     flip = np.diag([1.0, analysis.mirror, 1.0, 1.0])
     matrices = {name: flip @ m @ flip for name, m in analysis.matrices.items()}
+    inward = _inward(tca, matrices["pinion"])
     points = tca.points[tca.solved]
     centre = points.mean(axis=0)
     reach = np.nanmax(np.where(np.isfinite(tca.semi_axes[:, 0]), tca.semi_axes[:, 0], 0.0))
@@ -31,7 +35,8 @@ def scene(analysis):
         "steps_per_pitch": analysis.steps_per_pitch,
         "centre": centre.tolist(),
         "radius": radius,
-        "view": _view(tca, matrices).tolist(),
+        "view": _view(tca, inward).tolist(),
+        "cut": _cut(tca, inward),
         "bodies": [_body(analysis, name, matrices[name]) for name in matrices],
         "contacts": [_contact(tca, k) if tca.solved[k] else None for k in range(len(tca.angles))],
     }
@@ -47,22 +52,38 @@ def _packed(values):
 
 
 def _body(analysis, name, matrices):
-    red, green, blue = (int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5))
+    colour = [int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5)]
     flip = np.array([1.0, analysis.mirror, 1.0])
-    drawn = trimmed(analysis.drive.flank(name), analysis.patches[name])
     return {
         "name": name,
-        "colour": [red, green, blue],
+        "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "patches": [
-            {
-                "rows": drawn.inside.shape[0],
-                "columns": drawn.inside.shape[1],
-                "points": _packed(drawn.points * flip),
-                "normals": _packed(drawn.normals * flip),
-            }
-        ],
+        "patches": [_drawn(*side, flip) for side in _sides(analysis, name)],
+    }
+
+
+def _sides(analysis, name):
+    """The flank in contact, and the other side of the tooth where it belongs to the same design: flank, patch, active."""
+    drive, patch = analysis.drive, analysis.patches[name]
+    flank = drive.flank(name)
+    sides = [(flank, patch, True)]
+    if not drive.design.description["flanks_apart"]:
+        words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
+        other = drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"])).flank(name)
+        sides.append((other, Patch.of(other, patch.parameters), False))
+    return sides
+
+
+def _drawn(flank, patch, active, flip):
+    """A flank inside its limits, single precision."""
+    drawn = trimmed(flank, patch)
+    return {
+        "rows": drawn.inside.shape[0],
+        "columns": drawn.inside.shape[1],
+        "active": active,
+        "points": _packed(drawn.points * flip),
+        "normals": _packed(drawn.normals * flip),
     }
 
 
@@ -85,18 +106,32 @@ def _contact(tca, k):
     }
 
 
-def _view(tca, matrices):
-    """Rows right, up and towards the viewer: looking onto the flank past the wheel's axis, wheel below."""
-    middle = np.flatnonzero(tca.solved)[tca.solved.sum() // 2]
-    normal, point = tca.normals[middle], tca.points[middle]
-    axes = {name: m[middle, :3, 2] for name, m in matrices.items()}
-    places = {name: m[middle, :3, 3] for name, m in matrices.items()}
-    outward = point - places["wheel"]
-    outward -= axes["wheel"] * (outward @ axes["wheel"])
-    outward /= np.linalg.norm(outward)
-    side = np.cross(normal, outward)
-    near = 0.62 * normal + 0.62 * side / np.linalg.norm(side) + 0.48 * outward
+def _inward(tca, pinion):
+    """Unit direction from the middle of the contact straight to the pinion's axis; ``pinion`` (N, 4, 4)."""
+    middle = _middle(tca)
+    axis, arm = pinion[middle, :3, 2], pinion[middle, :3, 3] - tca.points[middle]
+    arm = arm - axis * (arm @ axis)
+    return arm / np.linalg.norm(arm)
+
+
+def _middle(tca):
+    solved = np.flatnonzero(tca.solved)
+    return solved[solved.size // 2]
+
+
+def _cut(tca, inward):
+    """The plane, normal·p = offset, beyond which the pinion may be cut away: a little past the contacts."""
+    along = tca.points[tca.solved] @ inward
+    spread = np.linalg.norm(np.ptp(tca.points[tca.solved], axis=0))
+    return {"normal": inward.tolist(), "offset": float(along.max() + 0.08 * spread)}
+
+
+def _view(tca, inward):
+    """Rows right, up and towards the viewer: onto the pinion's flank, from the pinion's side, tilted."""
+    normal = tca.normals[_middle(tca)]
+    side = np.cross(normal, inward)
+    near = 0.5 * normal + 0.35 * side / np.linalg.norm(side) + 0.8 * inward
     near /= np.linalg.norm(near)
-    up = outward - near * (outward @ near)
+    up = inward - near * (inward @ near)
     up /= np.linalg.norm(up)
     return np.array([np.cross(up, near), up, near])

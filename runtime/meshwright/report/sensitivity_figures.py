@@ -9,6 +9,9 @@ from meshwright.results import ARCSEC
 
 _COLUMNS = 4
 
+#: Least span of a scale, arcsec.
+LEAST_SPAN = 1e-4
+
 
 def error(analysis):
     """Change of the relative transmission error over the pinion angle."""
@@ -19,7 +22,7 @@ def error(analysis):
             change = (tca.relative_error - analysis.tca.relative_error) / ARCSEC
             axes.plot(angles, change, color=colour, label=f"{sign}{effect.label}")
         axes.set(xlabel="pinion angle, deg")
-        axes.margins(y=0.35)
+        _room(axes)
         axes.legend(ncols=2, handlelength=1.2, loc="upper center")
     panels[0].set_ylabel("change, arcsec")
     return figure
@@ -40,6 +43,14 @@ def path(analysis):
         axes.legend(ncols=3, handlelength=1.0, columnspacing=0.8, loc="upper center", fontsize=8)
     panels[0].set_ylabel(vertical)
     return figure
+
+
+def _room(axes):
+    """Room above the curves for the legend, and never so little that round-off shows."""
+    low, high = axes.get_ylim()
+    span = max(high - low, LEAST_SPAN)
+    middle = 0.5 * (low + high)
+    axes.set_ylim(middle - 0.55 * span, middle + 0.8 * span)
 
 
 def _sides(effect):

@@ -12,12 +12,13 @@ _HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text under a header; ``numeric`` are the columns to align as numbers."""
+    """Rows of text under a header; ``numeric`` are the columns to align as numbers, ``style`` names a layout."""
 
     title: str
     header: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     numeric: frozenset[int] = frozenset()
+    style: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,16 +45,20 @@ def _design(design):
         rows = [_parameter(design, p) for p in design.description["parameters"] if p["table"] == name]
         rows = [row for row in rows if row[1] != "–"]
         if name == "design":
-            rows = [(title(key), str(word), "–", "word", key) for key, word in _words(design)] + rows
+            rows = [(title(key), str(word), "–", "given", key) for key, word in _words(design)] + rows
         if rows:
-            tables.append(Table(heading, ("meaning", "value", "unit", "", "key"), tuple(rows), frozenset({1})))
+            tables.append(_keys(heading, rows))
     sizes = [
         (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"])
         for s in design.description["sizes"]
     ]
-    tables.append(Table("Derived sizes", ("meaning", "value", "unit", "", "key"), tuple(sizes), frozenset({1})))
+    tables.append(_keys("Derived sizes", sizes))
     note = "Values are in the unit of their key; derived ones follow from the given ones. Keys left open set no limit and are not listed."
     return Group("design", "Design and derived sizes", note, tuple(tables))
+
+
+def _keys(heading, rows):
+    return Table(heading, ("meaning", "value", "unit", "source", "key"), tuple(rows), frozenset({1}), "keys")
 
 
 def _words(design):

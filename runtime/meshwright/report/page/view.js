@@ -10,7 +10,7 @@
   const readout = document.getElementById("view-readout");
   const play = document.getElementById("view-play");
   const context = canvas.getContext("2d");
-  const light = normalised([0.35, 0.55, 0.76]);
+  const light = normalised([-0.35, 0.45, 0.82]);
   const camera = { rows: scene.view.map((row) => row.slice()), zoom: 1, pan: [0, 0] };
   let layers = [];
 
@@ -32,6 +32,7 @@
     patches: body.patches.map((patch) => ({
       rows: patch.rows,
       columns: patch.columns,
+      active: patch.active,
       points: decoded(patch.points, Float32Array),
       normals: decoded(patch.normals, Float32Array),
     })),
@@ -51,7 +52,7 @@
   }
 
   function scale() {
-    return (0.46 * Math.min(canvas.width / 1.5, canvas.height) / scene.radius) * camera.zoom;
+    return (0.52 * Math.min(canvas.width / 1.5, canvas.height) / scene.radius) * camera.zoom;
   }
 
   function projected(p) {
@@ -73,26 +74,28 @@
     layers = bodies.map(() => ({ depth: new Float32Array(width * height), shade: new Float32Array(width * height) }));
   }
 
-  function drawPatch(layer, body, patch, matrix) {
+  /* Values of a grid point on the screen: place (2), depth, shade, and how far inside the cut it lies. */
+  const VALUES = 5;
+
+  function drawPatch(layer, patch, matrix, cut) {
     const { rows, columns, points, normals } = patch;
-    const screen = new Float64Array(4 * rows * columns);
+    const screen = new Float64Array(VALUES * rows * columns);
     for (let i = 0; i < rows * columns; i++) {
       const x = points[3 * i], y = points[3 * i + 1], z = points[3 * i + 2];
-      const [u, v, near] = projected([
-        matrix[0] * x + matrix[1] * y + matrix[2] * z + matrix[3],
-        matrix[4] * x + matrix[5] * y + matrix[6] * z + matrix[7],
-        matrix[8] * x + matrix[9] * y + matrix[10] * z + matrix[11],
-      ]);
+      const p = [0, 4, 8].map((r) => matrix[r] * x + matrix[r + 1] * y + matrix[r + 2] * z + matrix[r + 3]);
+      const [u, v, near] = projected(p);
+      const kept = cut ? cut.offset - cut.normal[0] * p[0] - cut.normal[1] * p[1] - cut.normal[2] * p[2] : 1;
       const nx = normals[3 * i], ny = normals[3 * i + 1], nz = normals[3 * i + 2];
       const n = [0, 4, 8].map((r) => matrix[r] * nx + matrix[r + 1] * ny + matrix[r + 2] * nz);
       const seen = camera.rows.map((row) => row[0] * n[0] + row[1] * n[1] + row[2] * n[2]);
       const side = seen[2] >= 0 ? 1 : -1;
-      const lit = Math.max(0, side * (seen[0] * light[0] + seen[1] * light[1] + seen[2] * light[2]));
-      screen.set([u, v, near, (0.34 + 0.66 * lit) * (side > 0 ? 1 : 0.72)], 4 * i);
+      const lit = side * (seen[0] * light[0] + seen[1] * light[1] + seen[2] * light[2]);
+      const shade = (0.78 + 0.5 * lit) * (side > 0 ? 1 : 0.9) * (patch.active ? 1 : 0.82);
+      screen.set([u, v, near, shade, kept], VALUES * i);
     }
     for (let r = 0; r + 1 < rows; r++)
       for (let c = 0; c + 1 < columns; c++) {
-        const a = 4 * (r * columns + c), b = a + 4, d = a + 4 * columns, e = d + 4;
+        const a = VALUES * (r * columns + c), b = a + VALUES, d = a + VALUES * columns, e = d + VALUES;
         const band = ((r >> 2) + (c >> 2)) & 1 ? 0.93 : 1;
         drawTriangle(layer, screen, a, b, d, band);
         drawTriangle(layer, screen, b, e, d, band);
@@ -112,7 +115,7 @@
         const wc = 1 - wa - wb;
         if (wa < 0 || wb < 0 || wc < 0) continue;
         const near = wa * s[a + 2] + wb * s[b + 2] + wc * s[c + 2], at = y * canvas.width + x;
-        if (near > layer.depth[at]) {
+        if (near > layer.depth[at] && wa * s[a + 4] + wb * s[b + 4] + wc * s[c + 4] > 0) {
           layer.depth[at] = near;
           layer.shade[at] = band * (wa * s[a + 3] + wb * s[b + 3] + wc * s[c + 3]);
         }
@@ -131,22 +134,23 @@
   }
 
   function drawBodies(position) {
+    const open = document.getElementById("view-cut").checked;
     bodies.forEach((body, k) => {
       layers[k].depth.fill(-Infinity);
       if (!document.getElementById(`view-${body.name}`).checked) return;
       for (const turn of body.copies) {
         const matrix = placed(body, position, turn);
-        for (const patch of body.patches) drawPatch(layers[k], body, patch, matrix);
+        for (const patch of body.patches) drawPatch(layers[k], patch, matrix, body.name === "pinion" && open ? scene.cut : null);
       }
     });
     const image = context.createImageData(canvas.width, canvas.height);
-    const see = document.getElementById("view-see-through").checked ? 0.45 : 1;
-    const cover = bodies.map((body) => (body.name === "wheel" ? see : 1));
+    const see = document.getElementById("view-see-through").checked ? 0.4 : 1;
     const [first, second] = layers;
     for (let at = 0, to = 0; at < first.depth.length; at++, to += 4) {
       const behind = first.depth[at] <= second.depth[at] ? 0 : 1;
-      blend(image.data, to, behind, layers[behind], at, cover[behind], true);
-      blend(image.data, to, 1 - behind, layers[1 - behind], at, cover[1 - behind], false);
+      const veiled = layers[behind].depth[at] !== -Infinity && bodies[1 - behind].name === "wheel";
+      blend(image.data, to, behind, layers[behind], at, 1, true);
+      blend(image.data, to, 1 - behind, layers[1 - behind], at, veiled ? see : 1, false);
     }
     context.putImageData(image, 0, 0);
   }
