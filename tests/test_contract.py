@@ -68,6 +68,11 @@ def test_a_contact_that_left_the_flank_is_reported_and_the_others_are_written(ca
     assert kept["status"] == "converged"
 
 
+def test_a_list_of_angles_may_begin_with_a_minus(capsys):
+    apart = _json(["tca", "recess-action-full", "--phi-deg", "-100,500"], capsys)
+    assert apart == _json(["tca", "recess-action-full", "--phi-deg=-100,500"], capsys)
+
+
 def test_interference_exits_one_with_its_numbers(capsys):
     settings = ["--set", "design.hob_pitch_radius_mm=18.9"]
     document = _json(["tca", "recess-action-full", "--phi-deg", "500", *settings], capsys, status=1)

@@ -4,6 +4,7 @@ Exit status: 0 done, 1 a result is missing or did not converge (the rest is writ
 """
 
 import argparse
+import re
 import sys
 
 from meshwright import commands
@@ -24,9 +25,20 @@ def parser():
     return top
 
 
+def joined(arguments):
+    """``--phi-deg -3,0,3`` as ``--phi-deg=-3,0,3``: argparse takes a list that begins with a minus for an option."""
+    result = []
+    for argument in arguments:
+        if result and re.match(r"--[a-z-]+$", result[-1]) and re.match(r"-[\d.]", argument):
+            result[-1] += f"={argument}"
+        else:
+            result.append(argument)
+    return result
+
+
 def main(arguments=None):
     """Run one command; returns the exit status."""
-    options = parser().parse_args(arguments)
+    options = parser().parse_args(joined(sys.argv[1:] if arguments is None else arguments))
     try:
         return options.run(options)
     except (DesignError, UsageError, LibraryError) as error:
