@@ -3,6 +3,7 @@
 import copy
 import difflib
 import math
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -88,7 +89,15 @@ class Design:
         words = {**self.description["variant"], "hand": None}
         solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
         solved["design"] |= self.sizes
+        if "placement" in solved:
+            solved["placement"] |= _vectors(solved["placement"])
         return solved
+
+
+def _vectors(entries):
+    """Vectors whose components are entries of their own: ``P_mm`` of ``P_x_mm``, ``P_y_mm``, ``P_z_mm``."""
+    stems = [match.groups() for key in entries if (match := re.fullmatch(r"(.+)_x(_mm)?", key))]
+    return {f"{stem}{unit or ''}": [entries[f"{stem}_{axis}{unit or ''}"] for axis in "xyz"] for stem, unit in stems}
 
 
 def _shown(parameter, number):

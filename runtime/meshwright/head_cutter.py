@@ -45,6 +45,38 @@ class LeastTilt:
     change: float
 
 
+@dataclass(frozen=True)
+class Judgement:
+    """Whether a head-cutter at ``tilt`` (rad) clears the teeth across the tool, and the least tilt that does."""
+
+    tilt: float
+    clearance: Clearance
+    least: LeastTilt
+
+    def plain(self):
+        """Plain data: lengths in mm, angles in degrees, None for what does not exist."""
+        point = self.clearance.point.tolist()
+        return {
+            "clears": self.clearance.height > 0,
+            "clearance_mm": _number(self.clearance.height),
+            "point_mm": point if all(map(math.isfinite, point)) else None,
+            "tool_angle_deg": _number(math.degrees(self.clearance.angle)),
+            "tilt_deg": math.degrees(self.tilt),
+            "least_tilt_deg": _number(math.degrees(self.least.tilt)),
+            "least_tilt_change_deg": _number(math.degrees(self.least.change)),
+        }
+
+
+def _number(value):
+    return value if math.isfinite(value) else None
+
+
+def judged(drive):
+    """The :class:`Judgement` of the head-cutter of a face worm drive."""
+    tilt = math.radians(drive.design.sizes["head_cutter_tilt_deg"])
+    return Judgement(tilt, clearance(drive), least_tilt(drive))
+
+
 def clearance(drive):
     """:class:`Clearance` of the head-cutter of a face worm drive."""
     if drive.design.family != "face-worm":
@@ -96,7 +128,7 @@ def _across(drive, angles):
     """
     sizes = drive.design.sizes
     rounding = np.linspace(0.0, math.radians(sizes["fillet_angle_deg"]), ALONG // 2, endpoint=False)
-    edge = np.linspace(sizes["flank_root_mm"], _tip_place(drive), ALONG - ALONG // 2)
+    edge = np.linspace(sizes["flank_root_mm"], tip_place(drive), ALONG - ALONG // 2)
     parts = [_swept(drive, "fillet", rounding, angles), _swept(drive, "flank", edge, angles)]
     points, own = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     radius = np.hypot(points[..., 0], points[..., 1])
@@ -105,7 +137,7 @@ def _across(drive, angles):
     return points, np.where(over_teeth, points[..., 2] - np.interp(radius, *_tips(drive)), np.inf)
 
 
-def _tip_place(drive):
+def tip_place(drive):
     """u of the gear's flank at the tip."""
     return drive.design.value("gear_addendum_mm", "blank") / math.cos(drive.design.value("blade_angle_deg"))
 
@@ -113,7 +145,7 @@ def _tip_place(drive):
 def _tips(drive):
     """Radii, ascending, and heights of the tooth tips: the tip line of the tooth that is being cut."""
     angles = np.linspace(-math.pi, math.pi, AROUND, endpoint=False)
-    points, own = _swept(drive, "flank", [_tip_place(drive)], angles)
+    points, own = _swept(drive, "flank", [tip_place(drive)], angles)
     points = points[own]
     radius = np.hypot(points[:, 0], points[:, 1])
     order = np.argsort(radius)

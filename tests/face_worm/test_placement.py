@@ -40,6 +40,19 @@ def test_placement_agrees_with_fifty_digits(name, rule):
     assert tilt == pytest.approx(float(placed["tilt"]), abs=1e-11)
 
 
+def test_echo_names_points_axes_and_angles():
+    """What every JSON document shows of the design."""
+    echo = Drive.load(NAMES[0]).design.as_solved()
+    placement, design = echo["placement"], echo["design"]
+    for point in ("A1", "P", "A2", "tool_origin"):
+        assert placement[f"{point}_mm"] == [placement[f"{point}_{axis}_mm"] for axis in "xyz"]
+    axes = np.array([placement[f"tool_axis_{axis}"] for axis in "xyz"])
+    assert np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-14)
+    assert np.linalg.det(axes) > 0
+    assert {"head_cutter_radius_mm", "blade_angle_deg", "head_cutter_tilt_deg", "lead_worm_mm"} <= design.keys()
+    assert design["pitch_point_rule"] == "mid"
+
+
 def test_a_search_from_nothing_finds_the_same_roots():
     """Hob phase by sign changes over a turn, A1 and A2 by small steps from the section of L."""
     drive = Drive.load(NAMES[1])

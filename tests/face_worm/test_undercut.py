@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.face_worm import undercut
-from meshwright.singular_lines import edges
+from meshwright.limits.face_worm import undercut
+from meshwright.limits.singular_lines import edges
 from tests.face_worm.designs import NAMES, independent
 
 CONVEX = [name for name in NAMES if name.endswith("convex")]
@@ -46,7 +46,7 @@ def test_at_an_edge_the_tangents_of_the_cut_surface_are_dependent(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_undercut_points_are_singular_and_lie_off_the_flanks_of_the_packaged_designs(name):
     drive = Drive.load(name)
-    found = undercut(drive, 5)
+    found = list(undercut(drive, 5))
     assert {"wheel", "reference_wheel"} <= {p.member for p in found}
     for p in found:
         flank = drive.flank(p.member)([list(p.parameters.values())])

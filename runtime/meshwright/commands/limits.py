@@ -32,7 +32,7 @@ def _page(drive, found):
             lines.append(f"{name.replace('_', ' ')}: {len(entries) or 'none'}")
             lines += [f"  {_line(entry)}" for entry in entries]
         elif entries is not None:
-            lines.append(f"{name.replace('_', ' ')}: {entries}")
+            lines.append(f"{name.replace('_', ' ')}: {_cell(entries)}")
     return "\n".join(lines) + "\n"
 
 

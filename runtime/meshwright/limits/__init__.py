@@ -6,10 +6,14 @@ all it needs.
 """
 
 from meshwright.errors import UsageError
-from meshwright.limits import cylindrical_worm, spherical
+from meshwright.limits import cylindrical_worm, face_worm, spherical
 from meshwright.limits.results import Limits, Request
 
-FAMILIES = {"cylindrical-worm": cylindrical_worm.limits, "spherical": spherical.limits}
+FAMILIES = {
+    "cylindrical-worm": cylindrical_worm.limits,
+    "face-worm": face_worm.limits,
+    "spherical": spherical.limits,
+}
 
 __all__ = ["FAMILIES", "Limits", "Request", "limits_of"]
 

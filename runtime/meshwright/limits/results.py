@@ -4,6 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from meshwright.head_cutter import Judgement
+
 
 @dataclass(frozen=True)
 class Request:
@@ -164,7 +166,10 @@ class Thickness:
 
 @dataclass(frozen=True)
 class Limits:
-    """Everything that bounds a drive; see the classes above. ``axes_exist`` is None where axes do not apply."""
+    """Everything that bounds a drive; see the classes above. ``axes_exist`` is None where axes do not apply.
+
+    ``head_cutter`` is the :class:`~meshwright.head_cutter.Judgement` of a drive whose gear a head-cutter copies.
+    """
 
     undercut: tuple[SurfaceLimit, ...] = ()
     regression: tuple[SurfaceLimit, ...] = ()
@@ -176,6 +181,7 @@ class Limits:
     branch_points: tuple[BranchPoint, ...] = ()
     tip_thickness: tuple[Thickness, ...] = ()
     least_teeth: dict[str, int] | None = None
+    head_cutter: Judgement | None = None
 
     def plain(self):
         """The lists of the ``meshwright.limits/1`` schema."""
@@ -190,6 +196,7 @@ class Limits:
             "branch_points": [b.plain() for b in self.branch_points],
             "tip_thickness": [t.plain() for t in self.tip_thickness],
             "least_teeth_without_undercut": self.least_teeth,
+            "head_cutter": self.head_cutter and self.head_cutter.plain(),
         }
 
 

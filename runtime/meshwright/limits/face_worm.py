@@ -1,45 +1,41 @@
-"""Limits of a face worm drive: where its worm, its gear and the hob-cut gear of the reference design are undercut."""
+"""Limits of a face worm drive: undercut of worm, gear and hob-cut reference gear, and the head-cutter's clearance."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.singular_lines import edges
+from meshwright import head_cutter
+from meshwright.limits.branches import branch_points
+from meshwright.limits.results import Limits, SurfaceLimit
+from meshwright.limits.singular_lines import edges
 
 
-@dataclass(frozen=True)
-class UndercutPoint:
-    """A point of a singular line: surface parameters by name (mm, rad) and the point (3,), mm, in the member's frame.
-
-    ``on_flank``: inside the blade's working length and the face of the gear.
-    """
-
-    member: str
-    parameters: dict[str, float]
-    point: np.ndarray
-    on_flank: bool
+def limits(drive, request):
+    """All limits of the drive; see :class:`~meshwright.limits.results.Limits`."""
+    return Limits(
+        undercut=tuple(undercut(drive, request.grid)),
+        branch_points=branch_points(drive),
+        head_cutter=head_cutter.judged(drive),
+    )
 
 
-def undercut(drive, count=9):
-    """:class:`UndercutPoint` of each member at ``count`` places of the profile, from root to tip of the gear tooth.
+def undercut(drive, count):
+    """Singular points of each member at ``count`` places of the profile, from root to tip of the gear tooth.
 
     Member ``reference_wheel`` is the gear that the hob would cut; the flank of the gear itself is a cone, singular at
     its apex only.
     """
-    root, tip = _profile(drive)
-    points = [_cone_apex(drive)]
-    for member, ends in (("pinion", (root, tip)), ("reference_wheel", _hob_profile(drive))):
+    yield _cone_apex(drive)
+    for member, ends in (("pinion", _profile(drive)), ("reference_wheel", _hob_profile(drive))):
         surface = drive.flank(member)
         for profile in np.linspace(*ends, count):
-            points += [_point(drive, member, surface, q) for q in edges(surface, profile)]
-    return points
+            for q in edges(surface, profile):
+                yield _limit(drive, member, surface, q)
 
 
 def _profile(drive):
     """Ends of the blade's working length: u at the root and at the tip of the gear tooth."""
-    top = drive.design.value("gear_addendum_mm", "blank") / math.cos(drive.design.value("blade_angle_deg"))
-    return drive.design.sizes["flank_root_mm"], top
+    return drive.design.sizes["flank_root_mm"], head_cutter.tip_place(drive)
 
 
 def _hob_profile(drive):
@@ -48,12 +44,12 @@ def _hob_profile(drive):
     return -drive.design.value("gear_addendum_mm", "blank") / slant, drive.design.value("blade_depth_mm") / slant
 
 
-def _point(drive, member, surface, q):
+def _limit(drive, member, surface, q):
     point = surface([q]).points[0]
     # the worm's generating point lies on the head-cutter's cone, at the same u and θ to the blade's small parabola
     on_gear = point if member == "reference_wheel" else drive.flank("wheel")([q[:2]]).points[0]
     named = dict(zip(surface.parameters, q.tolist(), strict=True))
-    return UndercutPoint(member, named, point, _inside(drive, on_gear))
+    return SurfaceLimit(member, point, named, _inside(drive, on_gear))
 
 
 def _inside(drive, point):
@@ -67,6 +63,5 @@ def _cone_apex(drive):
     at_middle, beyond = wheel([[0.0, 0.0], [1.0, 0.0]]).regular
     u = at_middle / (at_middle - beyond)
     root, tip = _profile(drive)
-    return UndercutPoint(
-        "wheel", {"u_gear": float(u), "theta_gear": 0.0}, wheel([[u, 0.0]]).points[0], bool(root < u < tip)
-    )
+    named = {"u_gear": float(u), "theta_gear": 0.0}
+    return SurfaceLimit("wheel", wheel([[u, 0.0]]).points[0], named, bool(root < u < tip))
