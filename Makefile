@@ -5,8 +5,9 @@ PY     := $(VENV)/bin/python
 READY  := $(VENV)/.ready
 
 SHIP   := runtime/meshwright/_generated
+OBJECTS := $(VENV)/objects
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
-CFLAGS := -std=c99 -O3 -ffp-contract=off -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
 .PHONY: setup generate audit build check run lint test solver test-fe
 
@@ -32,14 +33,19 @@ generate: setup
 audit: generate
 	$(PY) generated/audit/check.py
 
-# The shared library and the data that the Python package ships.
-build: $(SHIP)/libmeshwright.so
+# The shared library and the data that the Python package ships; the lane kernels take the time.
+build: setup
+	@$(MAKE) --no-print-directory -j$$(nproc 2>/dev/null || echo 2) $(SHIP)/libmeshwright.so
 
-$(SHIP)/libmeshwright.so: $(wildcard runtime/c/*.[ch]) $(wildcard generated/c/*) $(wildcard generated/casadi/*) | $(READY)
+$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h) $(wildcard generated/c/*.h)
+	@mkdir -p $(OBJECTS)
+	$(CC) $(CFLAGS) -Igenerated/c -Iruntime/c -c $< -o $@
+
+$(SHIP)/libmeshwright.so: $(patsubst runtime/c/%.c,$(OBJECTS)/%.o,$(wildcard runtime/c/*.c)) $(wildcard generated/*/*)
 	mkdir -p $(SHIP)/include
 	cp generated/c/*.h runtime/c/meshwright.h runtime/c/mw_model.h $(SHIP)/include/
 	cp generated/c/*.json generated/casadi/*.casadi $(SHIP)/
-	$(CC) $(CFLAGS) -shared -Igenerated/c -Iruntime/c runtime/c/*.c -o $@ -lm
+	$(CC) -shared $(filter %.o,$^) -o $@ -lm
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup

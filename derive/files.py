@@ -6,7 +6,9 @@ from pathlib import Path
 
 
 def replace_text(path: Path, text: str):
-    """Write ``text`` to ``path`` by way of a temporary file in the same folder."""
+    """Write ``text`` to ``path`` by way of a temporary file in the same folder; equal text is left alone."""
+    if path.exists() and path.read_text(encoding="utf-8") == text:
+        return
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".")
     try:

@@ -82,6 +82,26 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
+/* Kernels over several lanes for one instruction set: of the given width, or of the widest this processor runs if
+ * lanes is 0; NULL if it runs none of that width. */
+typedef struct mw_lane_set mw_lane_set;
+const mw_lane_set *mw_lanes(int lanes);
+int mw_lanes_width(const mw_lane_set *set);
+const char *mw_lanes_name(const mw_lane_set *set);
+
+/* Numbers of work for a trace of n points a lane. */
+size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n);
+
+/* Trace many designs p[designs*np] along the same phi[n]: x[designs*n*nx], status[designs*n]. start[nx] is close to
+ * the solutions at phi[0], for example that of the nominal design. What the lanes cannot follow is traced by mw_trace.
+ * work[mw_lanes_work(set, m, n)]. Returns the number of points that succeeded. */
+size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
+                        size_t n, const double *start, double *work, double *x, int *status);
+
+/* Trace one design along phi[n], each lane a part of it: as above, work for ceil(n / lanes) points. */
+size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *p, const double *phi, size_t n,
+                       double *work, double *x, int *status);
+
 /* The flank of a body, or of a region, at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
 void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o);
 

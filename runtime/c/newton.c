@@ -2,13 +2,13 @@
 #include <math.h>
 #include "linear.h"
 #include "newton.h"
+#include "trace.h"
 
-enum { MAX_ITERATIONS = 60, MAX_HALVINGS = 5, MAX_FUSED = 12 };
+enum { MAX_ITERATIONS = 60, MAX_HALVINGS = 5 };
 
 /* Steps are in units of the unknowns' natural size. */
 static const double STEP_DONE = 1e-9;      /* the next step would be about its square: below round-off */
 static const double STEP_NOISE = 1e-4;     /* a stagnating step may be noise only below this */
-static const double STEP_LIMIT = 0.7;      /* no unknown moves further at once */
 static const double RANK_TOLERANCE = 1e-12;
 static const double RESIDUAL_NOISE = 1e-10; /* largest |R| that round-off explains, relative to its own terms */
 
@@ -77,7 +77,7 @@ int mw_newton(mw_equations f, int n, const double *s, const double *scale, doubl
             return finish(info, rank < n ? MW_SINGULAR : info->step < STEP_DONE ? MW_CONVERGED : MW_CONVERGED_NOISE);
         }
         previous = info->step;
-        double factor = info->step > STEP_LIMIT ? STEP_LIMIT / info->step : 1.0;
+        double factor = info->step > MW_STEP_LIMIT ? MW_STEP_LIMIT / info->step : 1.0;
         double after = HUGE_VAL;
         for (int h = 0; h <= MAX_HALVINGS; h++, factor *= 0.5) {
             for (int j = 0; j < n; j++) trial[j] = x[j] - factor * step[j];
@@ -94,13 +94,13 @@ int mw_newton(mw_equations f, int n, const double *s, const double *scale, doubl
 int mw_newton_fused(const mw_model *m, const double *s, double *x, double tolerance, mw_info *info)
 {
     double previous = HUGE_VAL;
-    for (info->iterations = 1; info->iterations <= MAX_FUSED; info->iterations++) {
+    for (info->iterations = 1; info->iterations <= MW_MAX_FUSED; info->iterations++) {
         info->step = m->step(s, x);
         if (info->step < tolerance) {
             info->status = MW_CONVERGED;
             return 1;
         }
-        if (!(info->step < 0.5 * previous) || info->step > STEP_LIMIT) return 0;
+        if (!(info->step < 0.5 * previous) || info->step > MW_STEP_LIMIT) return 0;
         previous = info->step;
     }
     return 0;

@@ -3,10 +3,10 @@
 #include <string.h>
 #include "newton.h"
 #include "refine.h"
+#include "trace.h"
 
-enum { HISTORY = 4, MAX_SPLITS = 12 };
+enum { HISTORY = MW_HISTORY, MAX_SPLITS = 12 };
 
-static const double FUSED_TOLERANCE = 1e-8;
 static const double BRANCH_WIDTH = 0.5; /* in natural sizes of the unknowns */
 static const double FOLD_GAP = 1e-6;
 
@@ -35,10 +35,10 @@ static void predict(const history *h, double phi, int n, double *x)
     const double d = phi - h->phi[0];
     int uniform = h->count == HISTORY;
     for (int i = 1; uniform && i < HISTORY; i++)
-        uniform = fabs(h->phi[i - 1] - h->phi[i] - d) <= 1e-9 * fabs(d);
+        uniform = fabs(h->phi[i - 1] - h->phi[i] - d) <= MW_EQUAL_SPACING * fabs(d);
     if (uniform) {
         for (int j = 0; j < n; j++)
-            x[j] = 4.0 * (h->x[0][j] + h->x[2][j]) - (6.0 * h->x[1][j] + h->x[3][j]);
+            x[j] = MW_PREDICT_CUBIC(h->x[0][j], h->x[1][j], h->x[2][j], h->x[3][j]);
         return;
     }
     for (int i = 0; i < h->count; i++) {
@@ -96,7 +96,7 @@ static int continue_branch(const mw_model *m, const history *h, double phi, doub
     memset(info, 0, sizeof *info);
     m->set_phi(s, phi);
     predict(h, phi, m->nx, x);
-    if (mw_newton_fused(m, s, x, FUSED_TOLERANCE, info) && mw_within_bounds(m, x)) return info->status;
+    if (mw_newton_fused(m, s, x, MW_FUSED_TOLERANCE, info) && mw_within_bounds(m, x)) return info->status;
     return walk(m, h, phi, s, x, info);
 }
 

@@ -1,0 +1,50 @@
+"""Print a schedule's kernels over several instances at once: structure of arrays, for SIMD units.
+
+The statements are those of the scalar header (:mod:`derive.emit.c99`), inside a loop over lanes; only what a trace
+needs for every design or point is printed: the design stage, the instant stage and the Newton step.
+"""
+
+from derive.emit import approximation
+from derive.emit.c99 import Leaves, Printer, estrin, number
+from derive.emit.render import render
+from derive.schedule import Schedule
+
+
+def _in_lanes(leaves):
+    """The scalar operands, per lane: ``s[3]`` becomes ``s[3 * MW_LANES + l]``."""
+    return {node: f"{text[:-1]} * MW_LANES + l]" if text.endswith("]") else f"{text}[l]" for node, text in leaves.items()}
+
+
+def header(plan: Schedule, generator: str):
+    """The text of the drive's lane header."""
+    leaves, name = Leaves.of(plan), f"{plan.drive.name}_lane"
+    slots = list(plan.state)
+
+    def body(readable, outputs):
+        return Printer(plan.tape, name, _in_lanes(readable)).body(outputs)[0]
+
+    return render(
+        "lanes.h.jinja",
+        drive=plan.drive,
+        X=plan.drive.name,
+        generator=generator,
+        design_slots=plan.design_slots,
+        guards=body(leaves.design, plan.guards),
+        setup=body(leaves.design, slots[: plan.design_slots]),
+        set_phi=body(leaves.instant, slots[plan.design_slots :]),
+        step=body(leaves.iterate, [*plan.step, *plan.step_size]),
+        literal=number,
+        approximation=approximation,
+        estrin=estrin,
+    )
+
+
+def table_of_models(names):
+    """C source that lists the lane kernels of every drive, for one width: see ``runtime/c/lane_kernels.h``."""
+    includes = "".join(f'#include "{name}_lanes.h"\n' for name in names)
+    rows = "".join(f"    MW_LANE_MODEL({name}),\n" for name in names)
+    return (
+        "/* The lane kernels of every drive. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
+        f"{includes}\n"
+        f"static const mw_lane_model mw_lane_models[] = {{\n{rows}}};\n"
+    )

@@ -1,0 +1,124 @@
+/* The lane kernels for one instruction set. The including file defines MW_LANES, MW_LANE_SET and MW_LANE_SET_NAME and
+ * selects the instruction set for the compiler.  SPDX-License-Identifier: MIT-0 */
+#define MW_LANES_SIMD
+#include <math.h>
+#include <string.h>
+#include "lanes.h"
+#include "trace.h"
+
+#define MW_LANE_MODEL(drive) \
+    { #drive, MW_LANE_NAME(drive##_setup_lanes), MW_LANE_NAME(drive##_set_phi_lanes), \
+      MW_LANE_NAME(drive##_step_lanes) }
+#include "lane_models.h"
+
+static const mw_lane_model *find(const char *drive)
+{
+    for (size_t i = 0; i < sizeof mw_lane_models / sizeof mw_lane_models[0]; i++)
+        if (strcmp(mw_lane_models[i].drive, drive) == 0) return &mw_lane_models[i];
+    return NULL;
+}
+
+static double separation(const double *phi, size_t k, size_t i, int l)
+{
+    return phi[(k - i) * MW_LANES + (size_t)l] - phi[(k - i - 1) * MW_LANES + (size_t)l];
+}
+
+/* Whether the last points of every lane and the next one are equally spaced. */
+static int equally_spaced(const double *phi, size_t k)
+{
+    int uniform = k >= MW_HISTORY;
+    for (int l = 0; uniform && l < MW_LANES; l++) {
+        const double next = separation(phi, k, 0, l);
+        for (size_t i = 1; uniform && i < MW_HISTORY; i++)
+            uniform = fabs(separation(phi, k, i, l) - next) <= MW_EQUAL_SPACING * fabs(next);
+    }
+    return uniform;
+}
+
+/* Lagrange weights of the last count points of each lane. */
+static void weights(const double *phi, size_t k, size_t count, double *w)
+{
+    for (size_t i = 1; i <= count; i++)
+        for (int l = 0; l < MW_LANES; l++) {
+            const double *own = phi + l;
+            double weight = 1.0;
+            for (size_t j = 1; j <= count; j++)
+                if (j != i)
+                    weight *= (own[k * MW_LANES] - own[(k - j) * MW_LANES])
+                              / (own[(k - i) * MW_LANES] - own[(k - j) * MW_LANES]);
+            w[(i - 1) * MW_LANES + (size_t)l] = weight;
+        }
+}
+
+/* Point k of every lane from its predecessors, as the scalar trace predicts it. */
+static void predict(int nx, const double *phi, size_t k, double *x)
+{
+    const size_t size = (size_t)nx * MW_LANES, count = k < MW_HISTORY ? k : MW_HISTORY;
+    const double *a = x - size, *b = a - size, *c = b - size, *d = c - size;
+    if (equally_spaced(phi, k)) {
+        for (size_t j = 0; j < size; j += MW_LANES) MW_LANE_LOOP
+            x[j + (size_t)l] = MW_PREDICT_CUBIC(a[j + (size_t)l], b[j + (size_t)l], c[j + (size_t)l], d[j + (size_t)l]);
+        return;
+    }
+    double w[MW_HISTORY * MW_LANES];
+    weights(phi, k, count, w);
+    for (size_t j = 0; j < size; j += MW_LANES) {
+        for (size_t l = 0; l < MW_LANES; l++) x[j + l] = 0.0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t l = 0; l < MW_LANES; l++) x[j + l] += w[i * MW_LANES + l] * x[j + l - (i + 1) * size];
+    }
+}
+
+/* Newton in every lane until its step is small; a lane that is done keeps its numbers. Clears alive[l] where the
+ * steps do not shrink. */
+static void newton(const mw_lane_model *k, int nx, const double *s, double *x, int *alive)
+{
+    double size[MW_LANES], previous[MW_LANES], before[MW_MAX_UNKNOWNS * MW_LANES];
+    int open = 0;
+    k->step(s, x, size);
+    for (int l = 0; l < MW_LANES; l++) open |= !(size[l] < MW_FUSED_TOLERANCE);
+    if (!open) return;
+    int active[MW_LANES];
+    for (int l = 0; l < MW_LANES; l++) {
+        active[l] = alive[l] && !(size[l] < MW_FUSED_TOLERANCE);
+        if (!(size[l] <= MW_STEP_LIMIT)) active[l] = alive[l] = 0;
+    }
+    for (int iteration = 2; iteration <= MW_MAX_FUSED; iteration++) {
+        int any = 0;
+        for (int l = 0; l < MW_LANES; l++) any |= active[l];
+        if (!any) return;
+        memcpy(before, x, sizeof(double) * (size_t)nx * MW_LANES);
+        memcpy(previous, size, sizeof size);
+        k->step(s, x, size);
+        for (int l = 0; l < MW_LANES; l++) {
+            if (!active[l]) {
+                for (int j = 0; j < nx; j++) x[j * MW_LANES + l] = before[j * MW_LANES + l];
+                continue;
+            }
+            active[l] = !(size[l] < MW_FUSED_TOLERANCE);
+            if (active[l] && !(size[l] < 0.5 * previous[l])) active[l] = alive[l] = 0;
+        }
+    }
+    for (int l = 0; l < MW_LANES; l++)
+        if (active[l]) alive[l] = 0;
+}
+
+static void follow(const mw_lane_model *k, int nx, double *s, const double *phi, size_t n, const double *start,
+                   double *x, size_t *solved)
+{
+    const size_t size = (size_t)nx * MW_LANES;
+    int alive[MW_LANES];
+    for (int l = 0; l < MW_LANES; l++) {
+        alive[l] = 1;
+        solved[l] = 0;
+    }
+    for (size_t point = 0; point < n; point++, x += size) {
+        if (point == 0) memcpy(x, start, sizeof(double) * size);
+        else predict(nx, phi, point, x);
+        k->set_phi(s, phi + point * MW_LANES);
+        newton(k, nx, s, x, alive);
+        for (int l = 0; l < MW_LANES; l++) solved[l] += (size_t)alive[l];
+    }
+}
+
+const mw_lane_set MW_LANE_SET = { MW_LANE_SET_NAME, MW_LANES, find, follow };

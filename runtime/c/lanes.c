@@ -1,0 +1,153 @@
+/* Many designs, or many angles of one design, in lanes.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include <string.h>
+#include "lanes.h"
+#include "newton.h"
+
+extern const mw_lane_set mw_lanes_native, mw_lanes_avx2, mw_lanes_avx512;
+
+/* The sets this processor runs, narrowest first. */
+static int available(const mw_lane_set *sets[3])
+{
+    int count = 0;
+    sets[count++] = &mw_lanes_native;
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (__builtin_cpu_supports("avx2")) sets[count++] = &mw_lanes_avx2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        sets[count++] = &mw_lanes_avx512;
+#endif
+    return count;
+}
+
+const mw_lane_set *mw_lanes(int lanes)
+{
+    const mw_lane_set *sets[3];
+    const int count = available(sets);
+    if (lanes == 0) return sets[count - 1];
+    for (int i = 0; i < count; i++)
+        if (sets[i]->lanes == lanes) return sets[i];
+    return NULL;
+}
+
+int mw_lanes_width(const mw_lane_set *set)
+{
+    return set->lanes;
+}
+
+const char *mw_lanes_name(const mw_lane_set *set)
+{
+    return set->name;
+}
+
+/* Work of both traces: state, parameters, start, angles, points in lanes; then the scalar state and work. */
+typedef struct room {
+    double *s, *p, *start, *phi, *x, *state, *work;
+} room;
+
+size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n)
+{
+    const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, ns = (size_t)m->ns, np = (size_t)m->np;
+    return lanes * (ns + np + nx + n * (1 + nx)) + ns + np;
+}
+
+static room divide(const mw_lane_set *set, const mw_model *m, size_t n, double *work)
+{
+    const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, ns = (size_t)m->ns, np = (size_t)m->np;
+    room r;
+    r.s = work;
+    r.p = r.s + lanes * ns;
+    r.start = r.p + lanes * np;
+    r.phi = r.start + lanes * nx;
+    r.x = r.phi + lanes * n;
+    r.state = r.x + lanes * n * nx;
+    r.work = r.state + ns;
+    return r;
+}
+
+static void spread(size_t lanes, size_t lane, const double *from, size_t count, double *to)
+{
+    for (size_t k = 0; k < count; k++) to[k * lanes + lane] = from[k];
+}
+
+static void gather(size_t lanes, size_t lane, const double *from, size_t count, double *to)
+{
+    for (size_t k = 0; k < count; k++) to[k] = from[k * lanes + lane];
+}
+
+/* A lane that lost its branch is traced again by the careful way, which says why. */
+static size_t again(const mw_model *m, const double *p, const double *phi, size_t n, const room *r, double *x,
+                    int *status)
+{
+    mw_info info[64];
+    size_t succeeded = 0;
+    for (size_t done = 0; done < n;) {
+        const size_t part = n - done < 64 ? n - done : 64;
+        succeeded += mw_trace(m, p, phi + done, part, r->state, r->work, x + done * (size_t)m->nx, info);
+        for (size_t k = 0; k < part; k++) status[done + k] = info[k].status;
+        done += part;
+    }
+    return succeeded;
+}
+
+static size_t collect(const mw_lane_set *set, const mw_model *m, size_t lane, const double *p, const double *phi,
+                      size_t n, const room *r, int good, double *x, int *status)
+{
+    const size_t nx = (size_t)m->nx;
+    if (good) gather((size_t)set->lanes, lane, r->x, n * nx, x);
+    for (size_t k = 0; good && k < n; k++) {
+        good = mw_within_bounds(m, x + k * nx);
+        status[k] = MW_CONVERGED;
+    }
+    return good ? n : again(m, p, phi, n, r, x, status);
+}
+
+size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
+                        size_t n, const double *start, double *work, double *x, int *status)
+{
+    const mw_lane_model *k = set->find(m->drive);
+    const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, np = (size_t)m->np;
+    const room r = divide(set, m, n, work);
+    double valid[MW_MAX_LANES];
+    size_t solved[MW_MAX_LANES], succeeded = 0;
+    for (size_t l = 0; l < lanes; l++) {
+        spread(lanes, l, phi, n, r.phi);
+        spread(lanes, l, start, nx, r.start);
+    }
+    for (size_t first = 0; first < designs; first += lanes) {
+        const size_t used = designs - first < lanes ? designs - first : lanes;
+        for (size_t l = 0; l < lanes; l++) spread(lanes, l, p + (first + (l < used ? l : 0)) * np, np, r.p);
+        k->setup(r.p, r.s, valid);
+        set->follow(k, m->nx, r.s, r.phi, n, r.start, r.x, solved);
+        for (size_t l = 0; l < used; l++)
+            succeeded += collect(set, m, l, p + (first + l) * np, phi, n, &r, valid[l] > 0.0 && solved[l] == n,
+                                 x + (first + l) * n * nx, status + (first + l) * n);
+    }
+    return succeeded;
+}
+
+size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *p, const double *phi, size_t n,
+                       double *work, double *x, int *status)
+{
+    const mw_lane_model *k = set->find(m->drive);
+    const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, part = (n + lanes - 1) / lanes;
+    const room r = divide(set, m, part, work);
+    double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
+    size_t solved[MW_MAX_LANES], succeeded = 0;
+    mw_info info[MW_MAX_LANES];
+    for (size_t l = 0; l < lanes; l++) begin[l] = phi[l * part < n ? l * part : n - 1];
+    mw_trace(m, p, begin, lanes, r.state, r.work, xs, info);
+    for (size_t l = 0; l < lanes; l++) {
+        spread(lanes, l, p, (size_t)m->np, r.p);
+        spread(lanes, l, xs + l * nx, nx, r.start);
+        for (size_t i = 0; i < part; i++) r.phi[i * lanes + l] = phi[l * part + i < n ? l * part + i : n - 1];
+    }
+    k->setup(r.p, r.s, valid);
+    set->follow(k, m->nx, r.s, r.phi, part, r.start, r.x, solved);
+    for (size_t l = 0; l < lanes && l * part < n; l++) {
+        const size_t count = n - l * part < part ? n - l * part : part;
+        succeeded += collect(set, m, l, p, phi + l * part, count, &r,
+                             valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= count, x + l * part * nx,
+                             status + l * part);
+    }
+    return succeeded;
+}

@@ -1,0 +1,28 @@
+/* Kernels over several instances at once, compiled for each instruction set.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_LANES_H
+#define MW_LANES_H
+
+#include "meshwright.h"
+
+enum { MW_MAX_LANES = 16 };
+
+/* One drive's kernels; number k of lane l is at [k * lanes + l]. See the generated lane headers. */
+typedef struct mw_lane_model {
+    const char *drive;
+    void (*setup)(const double *p, double *s, double *valid);
+    void (*set_phi)(double *s, const double *phi);
+    void (*step)(const double *s, double *x, double *size);
+} mw_lane_model;
+
+/* All drives for one instruction set. follow() traces every lane along its own phi[n * lanes] from start values
+ * x[nx * lanes] (overwritten by points: x[n * nx * lanes]); solved[l] counts the points of lane l before Newton
+ * failed; s is set up; start[nx * lanes] are the start values at phi[0]. */
+struct mw_lane_set {
+    const char *name;
+    int lanes;
+    const mw_lane_model *(*find)(const char *drive);
+    void (*follow)(const mw_lane_model *k, int nx, double *s, const double *phi, size_t n, const double *start,
+                   double *x, size_t *solved);
+};
+
+#endif
