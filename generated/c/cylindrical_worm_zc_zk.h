@@ -160,8 +160,7 @@ static inline void cylindrical_worm_zc_zk_sincos(double a, double *sine, double 
     const double cn = w + (((1.0 - w) - half) + z * z * v);
     const double turns = (k * 0.25 + magic) - magic;
     const double quadrant = k - 4.0 * turns; /* -2 .. 2 */
-    const int odd = quadrant * quadrant == 1.0;
-    const double a0 = odd ? cn : sn, b0 = odd ? sn : cn;
+    const double a0 = quadrant * quadrant == 1.0 ? cn : sn, b0 = quadrant * quadrant == 1.0 ? sn : cn;
     *sine = (quadrant < -0.5 || quadrant > 1.5) ? -a0 : a0;
     *cosine = (quadrant > 0.5 || quadrant < -1.5) ? -b0 : b0;
 }
@@ -193,6 +192,7 @@ static inline double cylindrical_worm_zc_zk_atan2(double y, double x)
     const double half = x < 0.0 ? 3.141592653589793 - octant : octant;
     return y < 0.0 ? -half : half;
 }
+
 
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zc_zk_NP]. */
 static inline void cylindrical_worm_zc_zk_derive(double *p)
