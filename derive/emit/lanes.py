@@ -4,8 +4,7 @@ The statements are those of the scalar header (:mod:`derive.emit.c99`), inside a
 needs for every design or point is printed: the design stage, the instant stage and the Newton step.
 """
 
-from derive.emit import approximation
-from derive.emit.c99 import Leaves, Printer, estrin, number
+from derive.emit.c99 import Leaves, Printer
 from derive.emit.render import render
 from derive.schedule import Schedule
 
@@ -17,7 +16,7 @@ def _in_lanes(leaves):
 
 def header(plan: Schedule, generator: str):
     """The text of the drive's lane header."""
-    leaves, name = Leaves.of(plan), f"{plan.drive.name}_lane"
+    leaves, name = Leaves.of(plan), plan.drive.name
     slots = list(plan.state)
 
     def body(readable, outputs):
@@ -33,9 +32,6 @@ def header(plan: Schedule, generator: str):
         setup=body(leaves.design, slots[: plan.design_slots]),
         set_phi=body(leaves.instant, slots[plan.design_slots :]),
         step=body(leaves.iterate, [*plan.step, *plan.step_size]),
-        literal=number,
-        approximation=approximation,
-        estrin=estrin,
     )
 
 

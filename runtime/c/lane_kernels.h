@@ -18,44 +18,38 @@ static const mw_lane_model *find(const char *drive)
     return NULL;
 }
 
-static double separation(const double *phi, size_t k, size_t i, int l)
+/* Whether the n angles of every lane are equally spaced. */
+static int equally_spaced(const double *phi, size_t n)
 {
-    return phi[(k - i) * MW_LANES + (size_t)l] - phi[(k - i - 1) * MW_LANES + (size_t)l];
-}
-
-/* Whether the last points of every lane and the next one are equally spaced. */
-static int equally_spaced(const double *phi, size_t k)
-{
-    int uniform = k >= MW_HISTORY;
-    for (int l = 0; uniform && l < MW_LANES; l++) {
-        const double next = separation(phi, k, 0, l);
-        for (size_t i = 1; uniform && i < MW_HISTORY; i++)
-            uniform = fabs(separation(phi, k, i, l) - next) <= MW_EQUAL_SPACING * fabs(next);
-    }
-    return uniform;
+    double worst = 0.0;
+    for (size_t k = 1; k + 1 < n; k++)
+        for (size_t l = 0; l < MW_LANES; l++) {
+            const double *a = phi + (k - 1) * MW_LANES + l;
+            const double step = phi[MW_LANES + l] - phi[l];
+            const double excess = fabs(a[2 * MW_LANES] - 2.0 * a[MW_LANES] + a[0]) - MW_EQUAL_SPACING * fabs(step);
+            worst = excess > worst ? excess : worst;
+        }
+    return worst <= 0.0;
 }
 
 /* Lagrange weights of the last count points of each lane. */
 static void weights(const double *phi, size_t k, size_t count, double *w)
 {
-    for (size_t i = 1; i <= count; i++)
-        for (int l = 0; l < MW_LANES; l++) {
-            const double *own = phi + l;
-            double weight = 1.0;
-            for (size_t j = 1; j <= count; j++)
-                if (j != i)
-                    weight *= (own[k * MW_LANES] - own[(k - j) * MW_LANES])
-                              / (own[(k - i) * MW_LANES] - own[(k - j) * MW_LANES]);
-            w[(i - 1) * MW_LANES + (size_t)l] = weight;
+    for (size_t i = 1; i <= count; i++, w += MW_LANES) {
+        for (int l = 0; l < MW_LANES; l++) w[l] = 1.0;
+        for (size_t j = 1; j <= count; j++) {
+            const double *to = phi + k * MW_LANES, *own = phi + (k - i) * MW_LANES, *other = phi + (k - j) * MW_LANES;
+            if (j != i) MW_LANE_LOOP w[l] *= (to[l] - other[l]) / (own[l] - other[l]);
         }
+    }
 }
 
 /* Point k of every lane from its predecessors, as the scalar trace predicts it. */
-static void predict(int nx, const double *phi, size_t k, double *x)
+static void predict(int nx, const double *phi, int uniform, size_t k, double *x)
 {
     const size_t size = (size_t)nx * MW_LANES, count = k < MW_HISTORY ? k : MW_HISTORY;
     const double *a = x - size, *b = a - size, *c = b - size, *d = c - size;
-    if (equally_spaced(phi, k)) {
+    if (uniform && k >= MW_HISTORY) {
         for (size_t j = 0; j < size; j += MW_LANES) MW_LANE_LOOP
             x[j + (size_t)l] = MW_PREDICT_CUBIC(a[j + (size_t)l], b[j + (size_t)l], c[j + (size_t)l], d[j + (size_t)l]);
         return;
@@ -103,9 +97,18 @@ static void newton(const mw_lane_model *k, int nx, const double *s, double *x, i
         if (active[l]) alive[l] = 0;
 }
 
-static void follow(const mw_lane_model *k, int nx, double *s, const double *phi, size_t n, const double *start,
+/* Clears alive[l] where an unknown is outside the part on which its flank lies. */
+static void keep_within_bounds(const mw_model *m, const double *x, int *alive)
+{
+    for (int j = 0; j < m->nx; j++)
+        for (int l = 0; l < MW_LANES; l++)
+            alive[l] &= x[j * MW_LANES + l] >= m->unknowns[j].lower && x[j * MW_LANES + l] <= m->unknowns[j].upper;
+}
+
+static void follow(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
                    double *x, size_t *solved)
 {
+    const int nx = m->nx, uniform = equally_spaced(phi, n);
     const size_t size = (size_t)nx * MW_LANES;
     int alive[MW_LANES];
     for (int l = 0; l < MW_LANES; l++) {
@@ -114,9 +117,10 @@ static void follow(const mw_lane_model *k, int nx, double *s, const double *phi,
     }
     for (size_t point = 0; point < n; point++, x += size) {
         if (point == 0) memcpy(x, start, sizeof(double) * size);
-        else predict(nx, phi, point, x);
+        else predict(nx, phi, uniform, point, x);
         k->set_phi(s, phi + point * MW_LANES);
         newton(k, nx, s, x, alive);
+        keep_within_bounds(m, x, alive);
         for (int l = 0; l < MW_LANES; l++) solved[l] += (size_t)alive[l];
     }
 }

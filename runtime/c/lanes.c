@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 #include "lanes.h"
-#include "newton.h"
 
 extern const mw_lane_set mw_lanes_native, mw_lanes_avx2, mw_lanes_avx512;
 
@@ -69,9 +68,14 @@ static void spread(size_t lanes, size_t lane, const double *from, size_t count, 
     for (size_t k = 0; k < count; k++) to[k * lanes + lane] = from[k];
 }
 
-static void gather(size_t lanes, size_t lane, const double *from, size_t count, double *to)
+/* Points from lanes to one row a lane, in parts that stay in the cache; x of lane l begins at l * stride. */
+static void gather(size_t lanes, size_t used, const double *from, size_t count, double *x, size_t stride)
 {
-    for (size_t k = 0; k < count; k++) to[k] = from[k * lanes + lane];
+    for (size_t first = 0; first < count; first += 64) {
+        const size_t last = first + 64 < count ? first + 64 : count;
+        for (size_t l = 0; l < used; l++)
+            for (size_t k = first; k < last; k++) x[l * stride + k] = from[k * lanes + l];
+    }
 }
 
 /* A lane that lost its branch is traced again by the careful way, which says why. */
@@ -89,16 +93,10 @@ static size_t again(const mw_model *m, const double *p, const double *phi, size_
     return succeeded;
 }
 
-static size_t collect(const mw_lane_set *set, const mw_model *m, size_t lane, const double *p, const double *phi,
-                      size_t n, const room *r, int good, double *x, int *status)
+static size_t converged(size_t n, int *status)
 {
-    const size_t nx = (size_t)m->nx;
-    if (good) gather((size_t)set->lanes, lane, r->x, n * nx, x);
-    for (size_t k = 0; good && k < n; k++) {
-        good = mw_within_bounds(m, x + k * nx);
-        status[k] = MW_CONVERGED;
-    }
-    return good ? n : again(m, p, phi, n, r, x, status);
+    for (size_t k = 0; k < n; k++) status[k] = MW_CONVERGED;
+    return n;
 }
 
 size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
@@ -117,10 +115,12 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
         const size_t used = designs - first < lanes ? designs - first : lanes;
         for (size_t l = 0; l < lanes; l++) spread(lanes, l, p + (first + (l < used ? l : 0)) * np, np, r.p);
         k->setup(r.p, r.s, valid);
-        set->follow(k, m->nx, r.s, r.phi, n, r.start, r.x, solved);
-        for (size_t l = 0; l < used; l++)
-            succeeded += collect(set, m, l, p + (first + l) * np, phi, n, &r, valid[l] > 0.0 && solved[l] == n,
-                                 x + (first + l) * n * nx, status + (first + l) * n);
+        set->follow(k, m, r.s, r.phi, n, r.start, r.x, solved);
+        gather(lanes, used, r.x, n * nx, x + first * n * nx, n * nx);
+        for (size_t l = 0, at = first * n; l < used; l++, at += n)
+            succeeded += valid[l] > 0.0 && solved[l] == n
+                             ? converged(n, status + at)
+                             : again(m, p + (first + l) * np, phi, n, &r, x + at * nx, status + at);
     }
     return succeeded;
 }
@@ -134,20 +134,26 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
     double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_info info[MW_MAX_LANES];
-    for (size_t l = 0; l < lanes; l++) begin[l] = phi[l * part < n ? l * part : n - 1];
+    const double beyond = n > 1 ? phi[n - 1] - phi[n - 2] : 0.0; /* lanes that end early go on at the last spacing */
+    for (size_t l = 0; l < lanes; l++)
+        for (size_t i = 0, at = l * part; i < part; i++, at++)
+            r.phi[i * lanes + l] = at < n ? phi[at] : phi[n - 1] + (double)(at - n + 1) * beyond;
+    for (size_t l = 0; l < lanes; l++) begin[l] = r.phi[l];
     mw_trace(m, p, begin, lanes, r.state, r.work, xs, info);
     for (size_t l = 0; l < lanes; l++) {
         spread(lanes, l, p, (size_t)m->np, r.p);
         spread(lanes, l, xs + l * nx, nx, r.start);
-        for (size_t i = 0; i < part; i++) r.phi[i * lanes + l] = phi[l * part + i < n ? l * part + i : n - 1];
     }
     k->setup(r.p, r.s, valid);
-    set->follow(k, m->nx, r.s, r.phi, part, r.start, r.x, solved);
-    for (size_t l = 0; l < lanes && l * part < n; l++) {
-        const size_t count = n - l * part < part ? n - l * part : part;
-        succeeded += collect(set, m, l, p, phi + l * part, count, &r,
-                             valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= count, x + l * part * nx,
-                             status + l * part);
+    set->follow(k, m, r.s, r.phi, part, r.start, r.x, solved);
+    for (size_t l = 0, at = 0; at < n; l++, at += part) {
+        const size_t count = n - at < part ? n - at : part;
+        if (valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= count) {
+            gather(lanes, 1, r.x + l, count * nx, x + at * nx, 0);
+            succeeded += converged(count, status + at);
+        } else {
+            succeeded += again(m, p, phi + at, count, &r, x + at * nx, status + at);
+        }
     }
     return succeeded;
 }

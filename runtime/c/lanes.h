@@ -15,13 +15,13 @@ typedef struct mw_lane_model {
 } mw_lane_model;
 
 /* All drives for one instruction set. follow() traces every lane along its own phi[n * lanes] from start values
- * x[nx * lanes] (overwritten by points: x[n * nx * lanes]); solved[l] counts the points of lane l before Newton
+ * x[nx * lanes] (overwritten by points: x[n * nx * lanes]); solved[l] counts the points of lane l before it
  * failed; s is set up; start[nx * lanes] are the start values at phi[0]. */
 struct mw_lane_set {
     const char *name;
     int lanes;
     const mw_lane_model *(*find)(const char *drive);
-    void (*follow)(const mw_lane_model *k, int nx, double *s, const double *phi, size_t n, const double *start,
+    void (*follow)(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
                    double *x, size_t *solved);
 };
 
