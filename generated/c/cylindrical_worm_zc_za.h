@@ -131,8 +131,16 @@ typedef struct mw_model {
 #define cylindrical_worm_zc_za_ABI 1
 #define cylindrical_worm_zc_za_SPEC_HASH "b4772bbbcf8ffe59cbbc1ecd09de26244ca7f9af41bbe7c442ca6d17d2e4ee39"
 
+#ifndef MW_INLINE
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define MW_INLINE static inline __attribute__((always_inline))
+#else
+#define MW_INLINE static inline
+#endif
+#endif
+
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-static inline void cylindrical_worm_zc_za_sincos(double a, double *sine, double *cosine)
+MW_INLINE void cylindrical_worm_zc_za_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0;
     const double shifted = a * 0.6366197723675814 + magic;
@@ -165,7 +173,7 @@ static inline void cylindrical_worm_zc_za_sincos(double a, double *sine, double 
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-static inline double cylindrical_worm_zc_za_atan2(double y, double x)
+MW_INLINE double cylindrical_worm_zc_za_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;

@@ -132,8 +132,16 @@ typedef struct mw_model {
 #define cylindrical_worm_zn_zk_ABI 1
 #define cylindrical_worm_zn_zk_SPEC_HASH "0ee66125c7f8601abec162509208a9b7900062a0dcc27df6963e73457cb6130a"
 
+#ifndef MW_INLINE
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define MW_INLINE static inline __attribute__((always_inline))
+#else
+#define MW_INLINE static inline
+#endif
+#endif
+
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-static inline void cylindrical_worm_zn_zk_sincos(double a, double *sine, double *cosine)
+MW_INLINE void cylindrical_worm_zn_zk_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0;
     const double shifted = a * 0.6366197723675814 + magic;
@@ -166,7 +174,7 @@ static inline void cylindrical_worm_zn_zk_sincos(double a, double *sine, double 
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-static inline double cylindrical_worm_zn_zk_atan2(double y, double x)
+MW_INLINE double cylindrical_worm_zn_zk_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;

@@ -124,8 +124,16 @@ typedef struct mw_model {
 #define face_worm_ABI 1
 #define face_worm_SPEC_HASH "a80b0f556ba1b88075cc5a9a0237fed45dfdebca8f0fca9fd5977e7202fe66a1"
 
+#ifndef MW_INLINE
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define MW_INLINE static inline __attribute__((always_inline))
+#else
+#define MW_INLINE static inline
+#endif
+#endif
+
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-static inline void face_worm_sincos(double a, double *sine, double *cosine)
+MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0;
     const double shifted = a * 0.6366197723675814 + magic;
@@ -158,7 +166,7 @@ static inline void face_worm_sincos(double a, double *sine, double *cosine)
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-static inline double face_worm_atan2(double y, double x)
+MW_INLINE double face_worm_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;

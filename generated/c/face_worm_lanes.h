@@ -19,73 +19,7 @@
 #else
 #define MW_LANE_LOOP for (int l = 0; l < MW_LANES; l++)
 #endif
-#ifdef __GNUC__
-#define MW_LANE_INLINE static inline __attribute__((always_inline))
-#else
-#define MW_LANE_INLINE static inline
 #endif
-#endif
-
-/* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-MW_LANE_INLINE void face_worm_lane_sincos(double a, double *sine, double *cosine)
-{
-    const double magic = 6755399441055744.0;
-    const double shifted = a * 0.6366197723675814 + magic;
-    const double k = shifted - magic;
-    const double r = ((a - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
-    const double z = r * r;
-    const double u1_0 = -0.16666666666666666 + z * 0.008333333333330948;
-    const double u1_1 = -0.00019841269836758574 + z * 2.755731610255244e-06;
-    const double u1_2 = -2.505113184500362e-08 + z * 1.591812929486638e-10;
-    const double u_z2 = z * z;
-    const double u2_0 = u1_0 + u_z2 * u1_1;
-    const double u_z4 = u_z2 * u_z2;
-    const double u = u2_0 + u_z4 * u1_2;
-    const double v1_0 = 0.041666666666666664 + z * -0.0013888888888887398;
-    const double v1_1 = 2.480158729876569e-05 + z * -2.7557317271729793e-07;
-    const double v1_2 = 2.0876146268403195e-09 + z * -1.1382632425521575e-11;
-    const double v_z2 = z * z;
-    const double v2_0 = v1_0 + v_z2 * v1_1;
-    const double v_z4 = v_z2 * v_z2;
-    const double v = v2_0 + v_z4 * v1_2;
-    const double half = 0.5 * z;
-    const double w = 1.0 - half;
-    const double sn = r + r * z * u;
-    const double cn = w + (((1.0 - w) - half) + z * z * v);
-    const double turns = (k * 0.25 + magic) - magic;
-    const double quadrant = k - 4.0 * turns; /* -2 .. 2 */
-    const double a0 = quadrant * quadrant == 1.0 ? cn : sn, b0 = quadrant * quadrant == 1.0 ? sn : cn;
-    *sine = (quadrant < -0.5 || quadrant > 1.5) ? -a0 : a0;
-    *cosine = (quadrant > 0.5 || quadrant < -1.5) ? -b0 : b0;
-}
-
-/* Angle of the point (x, y); 0 at the origin. */
-MW_LANE_INLINE double face_worm_lane_atan2(double y, double x)
-{
-    const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
-    const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
-    const int upper = small > 0.41421356237309503 * large;
-    const double top = upper ? small - large : small, bottom = upper ? small + large : large;
-    const double r = bottom > 0.0 ? top / bottom : (x + y);
-    const double z = r * r;
-    const double u1_0 = -0.3333333333333333 + z * 0.1999999999999552;
-    const double u1_1 = -0.14285714284666542 + z * 0.11111111015256361;
-    const double u1_2 = -0.09090904578123901 + z * 0.07692183190826078;
-    const double u1_3 = -0.06664511447381855 + z * 0.05858148912801507;
-    const double u1_4 = -0.050854497379370145 + z * 0.03923165829550329;
-    const double u_z2 = z * z;
-    const double u2_0 = u1_0 + u_z2 * u1_1;
-    const double u2_1 = u1_2 + u_z2 * u1_3;
-    const double u2_2 = u1_4 + u_z2 * -0.01917688711896928;
-    const double u_z4 = u_z2 * u_z2;
-    const double u4_0 = u2_0 + u_z4 * u2_1;
-    const double u_z8 = u_z4 * u_z4;
-    const double u = u4_0 + u_z8 * u2_2;
-    const double first = (upper ? 0.7853981633974483 : 0.0) + (r + r * z * u);
-    const double octant = ax >= ay ? first : 1.5707963267948966 - first;
-    const double half = x < 0.0 ? 3.141592653589793 - octant : octant;
-    return y < 0.0 ? -half : half;
-}
 
 #endif
 
@@ -107,7 +41,7 @@ static inline void MW_LANE_NAME(face_worm_setup_lanes)(const double *p, double *
         const double t10 = t4 * t4;
         const double t11 = t5 * t5;
         double s12, c12;
-        face_worm_lane_sincos(p[16 * MW_LANES + l], &s12, &c12);
+        face_worm_sincos(p[16 * MW_LANES + l], &s12, &c12);
         const double t14 = t6 + t8;
         const double t15 = t7 + t9;
         const double t16 = p[28 * MW_LANES + l] - p[31 * MW_LANES + l];
@@ -150,15 +84,15 @@ static inline void MW_LANE_NAME(face_worm_setup_lanes)(const double *p, double *
     }
     MW_LANE_LOOP {
         double s0, c0;
-        face_worm_lane_sincos(p[16 * MW_LANES + l], &s0, &c0);
+        face_worm_sincos(p[16 * MW_LANES + l], &s0, &c0);
         double s2, c2;
-        face_worm_lane_sincos(p[7 * MW_LANES + l], &s2, &c2);
+        face_worm_sincos(p[7 * MW_LANES + l], &s2, &c2);
         double s4, c4;
-        face_worm_lane_sincos(p[10 * MW_LANES + l], &s4, &c4);
+        face_worm_sincos(p[10 * MW_LANES + l], &s4, &c4);
         const double t6 = 1.0 / p[2 * MW_LANES + l];
         const double t7 = p[0 * MW_LANES + l] * 2.0;
         double s8, c8;
-        face_worm_lane_sincos(p[50 * MW_LANES + l], &s8, &c8);
+        face_worm_sincos(p[50 * MW_LANES + l], &s8, &c8);
         const double t10 = p[0 * MW_LANES + l] * p[42 * MW_LANES + l];
         const double t11 = p[0 * MW_LANES + l] * p[36 * MW_LANES + l];
         const double t12 = p[12 * MW_LANES + l] * t7;
@@ -516,7 +450,7 @@ static inline void MW_LANE_NAME(face_worm_set_phi_lanes)(double *s, const double
         const double t1 = phi[l] * phi[l];
         const double t2 = phi[l] * s[46 * MW_LANES + l];
         double s3, c3;
-        face_worm_lane_sincos(t0, &s3, &c3);
+        face_worm_sincos(t0, &s3, &c3);
         const double t5 = s[19 * MW_LANES + l] * t1;
         s[117 * MW_LANES + l] = phi[l];
         s[118 * MW_LANES + l] = t0;
@@ -532,17 +466,17 @@ static inline void MW_LANE_NAME(face_worm_step_lanes)(const double *s, double *x
 {
     MW_LANE_LOOP {
         double s0, c0;
-        face_worm_lane_sincos(x[4 * MW_LANES + l], &s0, &c0);
+        face_worm_sincos(x[4 * MW_LANES + l], &s0, &c0);
         const double t2 = x[5 * MW_LANES + l] + s[118 * MW_LANES + l];
         double s3, c3;
-        face_worm_lane_sincos(x[1 * MW_LANES + l], &s3, &c3);
+        face_worm_sincos(x[1 * MW_LANES + l], &s3, &c3);
         const double t5 = x[2 * MW_LANES + l] * s[13 * MW_LANES + l];
         const double t6 = x[0 * MW_LANES + l] * x[0 * MW_LANES + l];
         const double t7 = x[0 * MW_LANES + l] * s[1 * MW_LANES + l];
         double s8, c8;
-        face_worm_lane_sincos(t2, &s8, &c8);
+        face_worm_sincos(t2, &s8, &c8);
         double s10, c10;
-        face_worm_lane_sincos(t5, &s10, &c10);
+        face_worm_sincos(t5, &s10, &c10);
         const double t12 = t6 * s[0 * MW_LANES + l];
         const double t13 = s[2 * MW_LANES + l] + t7;
         const double t14 = x[0 * MW_LANES + l] * s[5 * MW_LANES + l];
@@ -554,7 +488,7 @@ static inline void MW_LANE_NAME(face_worm_step_lanes)(const double *s, double *x
         const double t20 = t14 - t15;
         const double t21 = x[0 * MW_LANES + l] * s[29 * MW_LANES + l];
         double s22, c22;
-        face_worm_lane_sincos(t16, &s22, &c22);
+        face_worm_sincos(t16, &s22, &c22);
         const double t24 = s[15 * MW_LANES + l] * t18;
         const double t25 = s[10 * MW_LANES + l] * t18;
         const double t26 = s[16 * MW_LANES + l] * t20;

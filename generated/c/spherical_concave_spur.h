@@ -126,8 +126,16 @@ typedef struct mw_model {
 #define spherical_concave_spur_ABI 1
 #define spherical_concave_spur_SPEC_HASH "bc52e4b4dea8edccf140d955b88e7d68aba5938da869f75f8f40354c6e5adad5"
 
+#ifndef MW_INLINE
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define MW_INLINE static inline __attribute__((always_inline))
+#else
+#define MW_INLINE static inline
+#endif
+#endif
+
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-static inline void spherical_concave_spur_sincos(double a, double *sine, double *cosine)
+MW_INLINE void spherical_concave_spur_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0;
     const double shifted = a * 0.6366197723675814 + magic;
@@ -160,7 +168,7 @@ static inline void spherical_concave_spur_sincos(double a, double *sine, double 
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-static inline double spherical_concave_spur_atan2(double y, double x)
+MW_INLINE double spherical_concave_spur_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
