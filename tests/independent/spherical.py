@@ -111,7 +111,11 @@ class Pair:
         """(l1, q1, l2, q2, transmission error) at the pinion angle, from the aligned contact."""
         p, w = self.pinion, self.wheel
         reach = p.s * p.r * phi1 * sin(p.alpha)
-        start = [p.pitch_point + reach, mpf(0), w.pitch_point - reach, mpf(0), mpf(0)]
+        return self.refined(phi1, [p.pitch_point + reach, 0, w.pitch_point - reach, 0, 0])
+
+    def refined(self, phi1, near):
+        """The same, from values near it."""
+        start = [mpf(x) for x in near]
         return list(findroot(lambda *x: self.residual(phi1, *x), start, tol=mpf(10) ** (-2 * mp.dps + 20)))
 
 

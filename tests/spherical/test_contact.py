@@ -51,6 +51,33 @@ def test_contact_agrees_with_fifty_digits(pair, pinion, wheel, r1, r2, flank):
     assert values == pytest.approx([float(x) for x in exact], rel=1e-12, abs=1e-13)
 
 
+@pytest.mark.parametrize(
+    ("module", "forms", "radii", "errors"),
+    [
+        (0.1, ("convex", "convex"), (20.0, 20.0), (0.005, 0.1, 0.2)),
+        (0.1, ("convex", "convex"), (1e7, 1e7), (0.001, 1e-8, 1e-7)),
+        (4.0, ("convex", "concave"), (5e6, 1e7), (0.1, 1e-6, 1e-5)),
+        (50.0, ("convex", "spur"), (1e7, None), (1.0, 1e-5, 1e-5)),
+    ],
+)
+def test_extreme_sizes_agree_with_fifty_digits(pair, module, forms, radii, errors):
+    keys = ("center_distance_mm", "horizontal_deg", "vertical_deg")
+    drive = _pair(
+        pair, forms, radii, module_mm=module, face_width_mm=2 * module, misalignment=dict(zip(keys, errors, strict=True))
+    )
+    result = drive.tca([0.03])
+    found = [*(result.unknowns[name][0] for name in list(result.unknowns)[:4]), result.error[0]]
+    with mpmath.workdps(50):
+        gears = [
+            Gear(module, teeth, mpmath.radians(20), form, radius and mpmath.mpf(radius), 1)
+            for teeth, form, radius in zip((36, 72), forms, radii, strict=True)
+        ]
+        exact = Pair(*gears, mpmath.mpf(errors[0]), mpmath.radians(errors[1]), mpmath.radians(errors[2]))
+        exact = [float(x) for x in exact.refined(mpmath.mpf(0.03), found)]
+    assert found[:4] == pytest.approx(exact[:4], rel=1e-13)
+    assert found[4] == pytest.approx(exact[4], abs=1e-15)
+
+
 def test_both_backends_agree(pair):
     drive = pair("convex", "concave", misalignment={"center_distance_mm": 0.2, "horizontal_deg": 0.2})
     other = type(drive)(drive.design, "casadi")
