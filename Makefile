@@ -37,7 +37,9 @@ audit: generate
 build: setup
 	@$(MAKE) --no-print-directory -j$$(nproc 2>/dev/null || echo 2) $(SHIP)/libmeshwright.so
 
-$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h) $(wildcard generated/c/*.h)
+$(OBJECTS)/library.o $(patsubst runtime/c/%.c,$(OBJECTS)/%.o,$(wildcard runtime/c/lanes*.c)): $(wildcard generated/c/*.h)
+
+$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h)
 	@mkdir -p $(OBJECTS)
 	$(CC) $(CFLAGS) -Igenerated/c -Iruntime/c -c $< -o $@
 
