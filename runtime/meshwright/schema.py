@@ -94,13 +94,13 @@ def keys(family):
                     "table": table,
                     "key": key,
                     "required": key in required,
-                    "meaning": entry.get("description") or _described(entry),
+                    "meaning": _of(entry, "description", ""),
+                    "words": _of(entry, "enum", []),
                 }
             )
     return listed
 
 
-def _described(entry):
-    return next((option["description"] for option in entry.get("anyOf", []) if "description" in option), "")
-
-
+def _of(entry, property_name, default):
+    """A property of a key's schema, or of the first alternative that has it."""
+    return next((e[property_name] for e in (entry, *entry.get("anyOf", [])) if property_name in e), default)

@@ -31,5 +31,6 @@ def _page(family):
         for key in family["keys"]:
             if key["table"] == table:
                 mark = "required" if key["required"] else ""
-                lines.append(f"    {key['key']:<34} {mark:<9} {key['meaning']}".rstrip())
+                said = ": ".join(filter(None, [key["meaning"], " | ".join(map(str, key["words"]))]))
+                lines.append(f"    {key['key']:<34} {mark:<9} {said}".rstrip())
     return "\n".join(lines) + "\n"
