@@ -39,10 +39,25 @@ class Contour:
     body_points: dict[str, np.ndarray]
 
 
-def contour(drive, angle, count=72, separation=None, result=None):
+def evenly(count, *_curvatures):
+    """``count`` directions from the major one at equal angles, rad."""
+    return 2.0 * np.pi * np.arange(count) / count
+
+
+def along_ellipse(count, smaller, larger):
+    """``count`` directions from the major one that are spread evenly along the ellipse of relative curvatures
+    ``smaller`` and ``larger`` (1/mm), rad; equal angles where there is no ellipse."""
+    angle = evenly(count)
+    if not smaller > 0.0:
+        return angle
+    return np.arctan2(np.sqrt(smaller) * np.sin(angle), np.sqrt(larger) * np.cos(angle)) % (2.0 * np.pi)
+
+
+def contour(drive, angle, count=72, separation=None, result=None, spacing=evenly):
     """The :class:`Contour` at a pinion angle in ``count`` directions; None where there is no contact point.
 
     ``separation`` defaults to the design's. ``result`` is a TCA that holds the angle, if there is one already.
+    ``spacing`` is :func:`evenly`, or :func:`along_ellipse` for a smooth outline of a slender patch.
     """
     found = drive.tca([angle]) if result is None else result
     k = int(np.argmin(np.abs(found.angles - angle)))
@@ -50,7 +65,7 @@ def contour(drive, angle, count=72, separation=None, result=None):
         return None
     if separation is None:
         separation = drive.design.value("separation_mm", "contact")
-    return _contour(drive, found, k, count, separation)
+    return _contour(drive, found, k, spacing(count, *found.curvatures[k]), separation)
 
 
 def contours(drive, result, count=72, separation=None):
@@ -70,12 +85,11 @@ def patches(mesh, angle, count=72, separation=None):
     return {number: patch for number, patch in found.items() if patch is not None}
 
 
-def _contour(drive, found, k, count, separation):
+def _contour(drive, found, k, directions, separation):
     mirror = -1.0 if drive.design.mirrored else 1.0
     flip = np.array([1.0, mirror, 1.0])
     contact = (flip * a[k] for a in (found.points, found.normals, found.major))
     gap = Gap.at(drive, mirror * found.angles[k], found.solutions[k], *contact)
-    directions = 2.0 * np.pi * np.arange(count) / count
     rays = _Rays.of(gap, found.curvatures[k], mirror * directions, separation)
     reached = rays.followed(_separation_reached)
     on_flank = rays.followed(_separation_or_edge_reached)

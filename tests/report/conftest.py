@@ -1,7 +1,6 @@
 """Reports that several tests read, each made once."""
 
 import pytest
-
 from meshwright import Drive
 from meshwright.report import analyse, page
 

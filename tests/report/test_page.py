@@ -6,7 +6,6 @@ import subprocess
 from html.parser import HTMLParser
 
 import pytest
-
 from meshwright import Drive, cli
 from meshwright.report import analyse, page
 from meshwright.report.numbers import fixed, number, unit
@@ -77,7 +76,8 @@ def test_text_of_the_design_is_escaped():
 def test_line_contact_is_reported_as_such_without_invented_points(tmp_path):
     place = tmp_path / "line.html"
     equal = Drive.load("recess-action-full").design.value("worm_pitch_radius_mm")
-    status = cli.main(["report", "recess-action-full", "--set", f"design.hob_pitch_radius_mm={equal}", "--html", str(place)])
+    change = f"design.hob_pitch_radius_mm={equal}"
+    status = cli.main(["report", "recess-action-full", "--set", change, "--html", str(place)])
     text = place.read_text(encoding="utf-8")
     assert status == 1
     assert "the flanks touch along a line" in text
@@ -90,8 +90,9 @@ def test_a_pipe_sees_no_progress_bar(tmp_path, capfd):
 
 
 def test_figures_for_print_are_those_of_the_page(tmp_path, paged):
-    assert cli.main(["report", "spherical-table-3-1-concave", "--figures", str(tmp_path / "new"), "--format", "svg"]) == 0
-    names = {path.stem for path in (tmp_path / "new").iterdir()}
+    folder = tmp_path / "new"
+    assert cli.main(["report", "spherical-table-3-1-concave", "--figures", str(folder), "--format", "svg"]) == 0
+    names = {path.stem for path in folder.iterdir()}
     shown = set(re.findall(r'<svg [^>]*data-figure="([^"]+)"', paged("spherical-table-3-1-concave")))
     assert names == shown
 

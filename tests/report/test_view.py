@@ -4,8 +4,8 @@ import base64
 
 import numpy as np
 import pytest
-
 from meshwright import Drive
+from meshwright.pattern import along_ellipse
 from meshwright.report import analyse
 from meshwright.report.scene import scene
 
@@ -32,7 +32,7 @@ def drawn(body, patch, position):
 @pytest.mark.parametrize("name", DESIGNS)
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
-    """The grid point nearest to a contact is within a cell of it, and far closer to the tangent plane; normals oppose."""
+    """The grid point nearest to a contact is within a cell of it, and far closer to the tangent plane."""
     view = scene(analysed(name))
     steps, last = view["steps_per_pitch"], len(view["contacts"]) - 1
     position = round(share * last)
@@ -59,3 +59,10 @@ def test_a_left_hand_drive_is_drawn_as_the_mirror_image(analysed):
         points, _ = drawn(theirs, theirs["patches"][0], len(right["contacts"]) - 1)
         assert np.nanmin(mirrored, axis=0) == pytest.approx(np.nanmin(points * flip, axis=0), abs=2e-3)
         assert np.nanmax(mirrored, axis=0) == pytest.approx(np.nanmax(points * flip, axis=0), abs=2e-3)
+
+
+def test_directions_along_an_ellipse_are_those_of_its_points():
+    smaller, larger = 0.04, 1.3
+    angle = 2 * np.pi * np.arange(24) / 24
+    x, y = np.cos(angle) / np.sqrt(smaller), np.sin(angle) / np.sqrt(larger)
+    assert along_ellipse(24, smaller, larger) == pytest.approx(np.arctan2(y, x) % (2 * np.pi))

@@ -38,5 +38,6 @@ def _report():
     try:
         from meshwright import report
     except ModuleNotFoundError as error:
-        raise UsageError(f"report: {error.name} is not installed; `pip install 'meshwright[plot]'` brings it") from error
+        remedy = "`pip install 'meshwright[plot]'` brings it"
+        raise UsageError(f"report: {error.name} is not installed; {remedy}") from error
     return report

@@ -8,6 +8,7 @@ import numpy as np
 from meshwright.backlash import backlash
 from meshwright.drive import Drive
 from meshwright.pairs import Mesh
+from meshwright.pattern import Contour, along_ellipse, contour
 from meshwright.placement import placements
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
@@ -15,10 +16,13 @@ from meshwright.results import TCA
 from meshwright.transmission import ROUND_OFF, Envelopes, TransmissionError, envelopes, fourier, transmission_error
 
 #: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
-POSITIONS, LARGEST_STEP = 120, math.radians(10.0)
+POSITIONS, LARGEST_STEP = 120, math.radians(5.0)
 
 #: Pitches shown to either side of angle 0 where no limit ends the contact.
 WITHOUT_END = 1.0
+
+#: Contours of the contact pattern along the path, and directions in each.
+CONTOURS, DIRECTIONS = 9, 96
 
 #: Tooth orders of the Fourier components.
 ORDERS = 8
@@ -50,20 +54,26 @@ class Running:
         """Whether the transmission error of a pair is constant to round-off."""
         return bool(np.nanmax(self.envelopes.pairs) - np.nanmin(self.envelopes.pairs) < ROUND_OFF)
 
+    @property
+    def varies(self):
+        """Whether the transmission error has Fourier components worth showing."""
+        return not self.constant and bool(np.isfinite(self.amplitudes).all())
+
 
 @dataclass(frozen=True)
 class Analysis:
     """The analysis of a drive over one pair's contact.
 
-    ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``matrices`` (N, 4, 4) place the members'
-    frames in the fixed frame, ``patches`` are their flanks: both of the right-hand drive. ``running`` is None where
-    flanks touch along lines or not at all.
+    ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``pattern`` is at some of them. ``matrices``
+    (N, 4, 4) place the members' frames in the fixed frame, ``patches`` are their flanks: both of the right-hand drive.
+    ``running`` is None where flanks touch along lines or not at all.
     """
 
     drive: Drive
     running: Running | None
     tca: TCA
     steps_per_pitch: int
+    pattern: tuple[Contour, ...]
     matrices: dict[str, np.ndarray]
     patches: dict[str, Patch]
     sensitivities: tuple[Sensitivity, ...]
@@ -100,6 +110,8 @@ def analyse(drive, step):
     tca = drive.tca(angles)
     step("all pairs together")
     running = None if mesh.window.path is None else _running(mesh, angles)
+    step("contact pattern")
+    pattern = _pattern(drive, tca)
     step("flanks")
     matrices = _matrices(drive, tca)
     patches = _patches(drive, tca, matrices)
@@ -107,12 +119,12 @@ def analyse(drive, step):
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
         sensitivities.append(sensitivity(drive, parameter, angles))
-    return Analysis(drive, running, tca, per_pitch, matrices, patches, tuple(sensitivities))
+    return Analysis(drive, running, tca, per_pitch, pattern, matrices, patches, tuple(sensitivities))
 
 
 def steps(drive):
     """How often :func:`analyse` calls ``step``."""
-    return 4 + len(misalignments(drive.design))
+    return 5 + len(misalignments(drive.design))
 
 
 def _positions(drive, mesh):
@@ -147,6 +159,15 @@ def _running(mesh, angles):
         amplitudes=fourier(mesh, ORDERS)[0],
         backlash=backlash(mesh.drive),
     )
+
+
+def _pattern(drive, tca):
+    """Contours at the design's separation, at positions spread over the contact."""
+    solved = np.flatnonzero(tca.solved & np.isfinite(tca.semi_axes).all(axis=1))
+    if not solved.size:
+        return ()
+    chosen = solved[np.unique(np.linspace(0, solved.size - 1, CONTOURS).round().astype(int))]
+    return tuple(contour(drive, tca.angles[k], DIRECTIONS, result=tca, spacing=along_ellipse) for k in chosen)
 
 
 def _matrices(drive, tca):

@@ -47,7 +47,7 @@ def pictures(analysis):
         drawn += [_pattern(member) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
-    if analysis.running is not None and np.isfinite(analysis.running.amplitudes).all() and not analysis.running.constant:
+    if analysis.running is not None and analysis.running.varies:
         drawn.append(_SPECTRUM)
     if analysis.sensitivities and known:
         drawn.append(_SENSITIVITY_ERROR)
@@ -60,8 +60,8 @@ def _pattern(member):
     return Picture(
         f"pattern-{member}",
         f"Contact pattern on the {member}",
-        "Path of contact and contact ellipses at the design's separation. Dashed red: where a limit of the design "
-        "ends the flank.",
+        "Path of contact, and where the flanks stand closer than the design's separation (filled, cut off at their "
+        "edges) beside the quadratic ellipse (thin). Dashed red: where a limit of the design ends the flank.",
         lambda analysis: pattern_figure.draw(analysis, member),
     )
 

@@ -32,10 +32,11 @@ class Finding:
 
 def tiles(analysis):
     """The headline numbers of an analysis."""
-    shown = [Tile("Ratio", number(1.0 / analysis.drive.ratio), "", f"teeth {analysis.teeth['pinion']} : {analysis.teeth['wheel']}")]
+    teeth = f"teeth {analysis.teeth['pinion']} : {analysis.teeth['wheel']}"
+    shown = [Tile("Ratio", number(1.0 / analysis.drive.ratio), "", teeth)]
     running = analysis.running
     if running is not None:
-        mesh, error = running.mesh, running.error
+        mesh = running.mesh
         shown += [
             Tile("Contact ratio", fixed(mesh.contact_ratio, 3), "", "pitches from begin to end"),
             Tile("Teeth in contact", _span(running.teeth), "", _averages(mesh)),
@@ -105,10 +106,14 @@ def _window(analysis):
     for name, end in (("begins", window.begin), ("ends", window.end)):
         if end.exists:
             limit = words.event(end.reason, end.member)
-            said.append(Finding("note", f"Contact {name} at {fixed(math.degrees(end.angle), 3)}° of the pinion, at {limit}."))
+            said.append(Finding("note", f"Contact {name} at {_deg(end.angle, 3)} of the pinion, at {limit}."))
         else:
-            said.append(Finding("note", f"Nothing in the design limits where contact {name}: no blank limit is given there."))
+            said.append(Finding("note", f"Nothing in the design limits where contact {name}: no limit is given there."))
     return said
+
+
+def _deg(angle, decimals):
+    return f"{fixed(math.degrees(angle), decimals)}°"
 
 
 def _statuses(analysis):
@@ -144,6 +149,6 @@ def _error(analysis):
     if analysis.running.backlash < -ROUND_OFF:
         said.append(Finding("warn", "The teeth are thicker than the spaces (negative backlash): the drive jams."))
     if error.transfers:
-        at = " and ".join(f"{fixed(math.degrees(a), 2)}°" for a in error.transfers)
+        at = " and ".join(f"{_deg(a, 2)}" for a in error.transfers)
         said.append(Finding("note", f"Neighbouring pairs agree, so that one can take over from the other, at {at}."))
     return said

@@ -56,7 +56,8 @@ def page(analysis):
 
 def _environment():
     loader = jinja2.FunctionLoader(_file)
-    return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    strict = {"autoescape": True, "undefined": jinja2.StrictUndefined}
+    return jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strict)
 
 
 def _file(name):

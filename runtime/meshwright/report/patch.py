@@ -8,7 +8,7 @@ import numpy as np
 ROOM = 1.3
 
 #: Least and largest number of grid points along a parameter.
-LEAST, LARGEST = 9, 640
+LEAST, LARGEST = 21, 480
 
 _NEWTON_STEPS = 30
 

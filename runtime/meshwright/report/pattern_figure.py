@@ -6,9 +6,6 @@ from meshwright.report import style
 from meshwright.report.numbers import fixed
 from meshwright.report.projection import Projection
 
-#: Ellipses drawn along the path of contact.
-ELLIPSES = 9
-
 
 def draw(analysis, member):
     """Flank, path of contact and ellipses on ``member``, laid flat."""
@@ -17,10 +14,11 @@ def draw(analysis, member):
     colour, tca = style.MEMBERS[member], analysis.tca
     projection = Projection.of(tca.body_points[member][tca.solved], analysis.body_normals(member)[tca.solved])
     _flank(axes, projection, analysis.patches[member], colour)
-    rings = _ellipses(analysis, member)
-    for ring in rings:
-        axes.fill(*projection(ring), facecolor=colour, alpha=0.3, edgecolor="none")
-        axes.plot(*projection(ring), color=colour, linewidth=0.9)
+    rings = [*_contours(analysis, member), *_ellipses(analysis, member)]
+    for ring in _contours(analysis, member):
+        axes.fill(*projection(ring), facecolor=colour, alpha=0.35, edgecolor=colour, linewidth=1.0)
+    for ring in _ellipses(analysis, member):
+        axes.plot(*projection(ring), color=colour, linewidth=0.6, alpha=0.8)
     path = np.column_stack(projection(tca.body_points[member]))
     axes.plot(*path.T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
     _name_ends(axes, path, tca.angles)
@@ -43,23 +41,27 @@ def _limit(axes, places):
 def _flank(axes, projection, flank, colour):
     """Outline of the drawn part of the flank, and where a limit of the design ends it."""
     across, up = (np.ma.masked_invalid(v) for v in projection(flank.points))
-    rim = [(slice(None), 0), (slice(None), -1), (0, slice(None)), (-1, slice(None))]
-    for edge in rim:
-        axes.plot(across[edge], up[edge], color=colour, linewidth=0.6, alpha=0.6)
+    outside = ~(flank.inside >= 0.0)
+    for edge in ((slice(None), 0), (slice(None), -1), (0, slice(None)), (-1, slice(None))):
+        lines = (np.ma.masked_where(outside[edge], v[edge]) for v in (across, up))
+        axes.plot(*lines, color=colour, linewidth=0.6, alpha=0.6)
     if not projection.end_on:
         axes.contourf(across, up, flank.inside, levels=[0.0, np.inf], colors=[colour], alpha=0.08)
     if np.nanmin(flank.inside) < 0.0 < np.nanmax(flank.inside):
         axes.contour(across, up, flank.inside, levels=[0.0], colors=[style.WARN], linewidths=1.0, linestyles="dashed")
 
 
+def _contours(analysis, member):
+    """Edges of the patches of contact, body frame: (M, 3) each, mm."""
+    found = [contour.body_points[member] for contour in analysis.pattern]
+    return [points for points in found if np.isfinite(points).all()]
+
+
 def _ellipses(analysis, member):
-    """Contact ellipses at positions spread over the contact, body frame: (97, 3) each, mm."""
+    """The quadratic ellipses at the same positions, body frame: (97, 3) each, mm."""
     tca = analysis.tca
-    solved = np.flatnonzero(tca.solved & np.isfinite(tca.semi_axes).all(axis=1))
-    if not solved.size:
-        return []
-    chosen = solved[np.unique(np.linspace(0, solved.size - 1, ELLIPSES).round().astype(int))]
-    return [analysis.in_body(member, k, tca.ellipse(k)) for k in chosen]
+    places = (int(np.argmin(np.abs(tca.angles - contour.angle))) for contour in analysis.pattern)
+    return [analysis.in_body(member, k, tca.ellipse(k)) for k in places]
 
 
 def _name_ends(axes, path, angles):

@@ -9,9 +9,6 @@ from meshwright.report.patch import Patch, trimmed
 from meshwright.report.style import MEMBERS
 from meshwright.results import ARCSEC
 
-#: Points on the drawn outline of a contact ellipse.
-OUTLINE = 49
-
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
 LIGHTER = 0.22
 
@@ -64,7 +61,7 @@ def _body(analysis, name, matrices):
 
 
 def _sides(analysis, name):
-    """The flank in contact, and the other side of the tooth where it belongs to the same design: flank, patch, active."""
+    """The flank in contact and, if it belongs to the same design, the other side of the tooth: flank, patch, active."""
     drive, patch = analysis.drive, analysis.patches[name]
     flank = drive.flank(name)
     sides = [(flank, patch, True)]
@@ -98,10 +95,12 @@ def _copies(analysis, name):
 
 
 def _contact(tca, k):
-    outline = tca.ellipse(k, OUTLINE)
+    """Contact point, semi-axes of the ellipse as vectors (none where there is no ellipse), flags in words."""
+    major, minor = tca.semi_axes[k]
+    axes = np.array([major * tca.major[k], minor * np.cross(tca.normals[k], tca.major[k])])
     return {
         "point": np.round(tca.points[k], 6).tolist(),
-        "outline": np.round(outline, 5).tolist() if np.isfinite(outline).all() else [],
+        "axes": np.round(axes, 6).tolist() if np.isfinite(axes).all() else None,
         "flagged": ", ".join(tca.flags[k]).replace("_", " "),
     }
 

@@ -64,4 +64,5 @@ def to_svg(drawn, name, label):
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
     text = re.sub(r'\bid="', f'id="{name}-', text)
     text = re.sub(r'(href="#|url\(#)', rf"\g<1>{name}-", text)
-    return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', rf'<svg role="img" data-figure="{name}" aria-label="{label}" \1', text)
+    attributes = rf'<svg role="img" data-figure="{name}" aria-label="{label}" \1'
+    return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', attributes, text)

@@ -53,7 +53,10 @@ def _design(design):
         for s in design.description["sizes"]
     ]
     tables.append(_keys("Derived sizes", sizes))
-    note = "Values are in the unit of their key; derived ones follow from the given ones. Keys left open set no limit and are not listed."
+    note = (
+        "Values are in the unit of their key; derived ones follow from the given ones. Keys left open set no limit and "
+        "are not listed."
+    )
     return Group("design", "Design and derived sizes", note, tuple(tables))
 
 
@@ -88,11 +91,12 @@ def _sensitivities(analysis):
         "at +step, arcsec",
     )
     note = (
-        f"Change for one step, by central difference, at {fixed(np.degrees(analysis.tca.angles[middle]), 2)}° of the pinion: "
-        "of the transmission error and of the contact point on both members. Peak to peak: of the drive's transmitted error"
-        f"{_nominal(analysis)}."
+        f"Change for one step, by central difference, at {fixed(np.degrees(analysis.tca.angles[middle]), 2)}° of the "
+        "pinion: of the transmission error and of the contact point on both members. Peak to peak: of the drive's "
+        f"transmitted error{_nominal(analysis)}."
     )
-    return Group("sensitivity", "Sensitivity to misalignment", note, (Table("", header, tuple(rows), frozenset(range(2, 9))),))
+    table = Table("", header, tuple(rows), frozenset(range(2, 9)))
+    return Group("sensitivity", "Sensitivity to misalignment", note, (table,))
 
 
 def _nominal(analysis):
@@ -136,4 +140,5 @@ def _positions(analysis):
         "status and flags",
     )
     note = "Contact of one pair over the pinion angle, four positions a pitch; contact point in the fixed frame."
-    return Group("positions", "Contact, position by position", note, (Table("", header, tuple(rows), frozenset(range(9))),))
+    table = Table("", header, tuple(rows), frozenset(range(9)))
+    return Group("positions", "Contact, position by position", note, (table,))

@@ -170,6 +170,15 @@
     context.stroke();
   }
 
+  function ellipse(contact) {
+    if (!contact.axes) return [];
+    const [major, minor] = contact.axes;
+    return Array.from({ length: 49 }, (_, i) => {
+      const c = Math.cos((i * Math.PI) / 24), s = Math.sin((i * Math.PI) / 24);
+      return contact.point.map((p, axis) => p + c * major[axis] + s * minor[axis]);
+    });
+  }
+
   function drawContacts(position) {
     const pairs = [];
     const steps = scene.steps_per_pitch, last = scene.contacts.length;
@@ -177,8 +186,9 @@
     drawLine(scene.contacts.filter(Boolean).map((contact) => contact.point), "#6b7885", 1.2, [4, 4]);
     for (const at of pairs) {
       const contact = scene.contacts[at], followed = at === position;
-      drawLine(contact.outline, "#ffffff", followed ? 4.5 : 3.5);
-      drawLine(contact.outline, contact.flagged ? "#c0273d" : "#10202e", followed ? 2.4 : 1.4);
+      const outline = ellipse(contact);
+      drawLine(outline, "#ffffff", followed ? 4.5 : 3.5);
+      drawLine(outline, contact.flagged ? "#c0273d" : "#10202e", followed ? 2.4 : 1.4);
       const [u, v] = projected(contact.point);
       context.beginPath();
       context.arc(u, v, followed ? 4.5 : 3, 0, 2 * Math.PI);
