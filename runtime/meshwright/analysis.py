@@ -53,6 +53,16 @@ def analyse(drive, angles):
     return points.result(angles, inverse[:-1], mirror)
 
 
+def at_solutions(drive, angles, unknowns):
+    """:class:`~meshwright.results.TCA` of contacts solved already: angles (N,) and unknowns (N, nx), one row each.
+
+    Angles and unknowns are those of the right-hand drive, whatever the design's hand.
+    """
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    points = _Points.solved(drive, angles, unknowns, np.zeros(len(angles), _INFO))
+    return points.result(mirror * angles, np.arange(len(angles)), mirror)
+
+
 @dataclass(frozen=True)
 class _Points:
     """Solved points of the right-hand drive in ascending order; rows without contact are NaN."""
@@ -67,8 +77,17 @@ class _Points:
 
     @classmethod
     def of(cls, drive, grid):
+        points = cls.solved(drive, grid, *trace(drive, grid))
+        s = drive.state()
+        for k in np.flatnonzero(points.contacts["flags"] & _INTERFERENCE):
+            drive.model.set_phi(pointer(s), grid[k])
+            points._look_again(k, s)
+        return points
+
+    @classmethod
+    def solved(cls, drive, grid, x, records):
+        """The points of unknowns x (N, nx) and records (N,) at the angles ``grid`` (N,)."""
         m = drive.model
-        x, records = trace(drive, grid)
         status = records["status"].copy()
         observed = np.full((len(grid), m.no), np.nan)
         contacts = np.zeros(len(grid), _CONTACT)
@@ -77,8 +96,6 @@ class _Points:
         for k in np.flatnonzero(status >= 0):
             m.set_phi(pointer(s), grid[k])
             points._look(k, s)
-            if contacts["flags"][k] & _INTERFERENCE:
-                points._look_again(k, s)
         return points
 
     def _look(self, k, s):

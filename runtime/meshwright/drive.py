@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import analysis, edge
+from meshwright import analysis, edge, limits
 from meshwright import design as designs
 from meshwright._library import library, model, text
 from meshwright.design import Design
@@ -99,6 +99,14 @@ class Drive:
         if angles.ndim != 1 or not np.all(np.isfinite(angles)):
             raise UsageError("angles must be a one-dimensional array of finite numbers")
         return edge.flagged(analysis.analyse(self, angles), self.edge_window)
+
+    def contacts(self, angle):
+        """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""
+        return limits.contacts_of(self, angle)
+
+    def limits(self, request=None):
+        """Undercut, edges of regression, limit points, axes: see :class:`~meshwright.limits.results.Limits`."""
+        return limits.limits_of(self, request)
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

@@ -1,10 +1,11 @@
 """Generated functions that a drive offers beside its contact: placements, limit points, axes."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import ffi, library, model
 
 
 @dataclass(frozen=True)
@@ -18,15 +19,19 @@ class Function:
     @classmethod
     def of(cls, drive, name):
         """The function ``name`` of the drive; raises ``KeyError`` if it has none of that name."""
-        for k, description in enumerate(drive.design.description["functions"]):
-            if description["name"] == name:
-                return cls(drive, description, drive.model.functions[k])
-        raise KeyError(f"the drive {drive.design.description['name']} has no function {name!r}")
+        description = drive.design.description
+        for k, function in enumerate(description["functions"]):
+            if function["name"] == name:
+                return cls(drive, function, model(description["name"]).functions[k])
+        raise KeyError(f"the drive {description['name']} has no function {name!r}")
 
-    @property
-    def arguments(self):
-        """Names of the arguments."""
-        return tuple(a["name"] for a in self.description["arguments"])
+    @cached_property
+    def state(self):
+        """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
+        compiled = model(self.drive.design.description["name"])
+        s = np.empty(compiled.ns)
+        compiled.setup(ffi.from_buffer("double[]", self.drive.design.parameters), ffi.from_buffer("double[]", s))
+        return s
 
     def __call__(self, *arguments):
         """Results by name: arrays of the arguments' common shape, with a last axis where a result is a vector."""
@@ -34,9 +39,9 @@ class Function:
         shape = grid[0].shape if grid else ()
         q = np.ascontiguousarray(np.stack([g.ravel() for g in grid], axis=1)) if grid else np.empty((1, 0))
         rows = np.empty((len(q), self.pointer.outputs))
-        s = ffi.from_buffer("double[]", self.drive.state())
-        for given, row in zip(q, rows, strict=True):
-            self.pointer.evaluate(s, ffi.from_buffer("double[]", given), ffi.from_buffer("double[]", row))
+        buffers = (ffi.from_buffer("double[]", a) for a in (self.state, q))
+        results = ffi.from_buffer("double[]", rows)
+        library().mw_flank(self.pointer.evaluate, q.shape[1], rows.shape[1], *buffers, len(q), results)
         return {o["name"]: _values(rows, o, shape) for o in self.description["outputs"]}
 
 

@@ -1,6 +1,6 @@
 """What a tooth contact analysis returns: arrays in inner units (mm, rad), one row a point."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,6 +48,10 @@ class TCA:
     def relative_error(self):
         """Transmission error less its value at the reference angle, rad: (N,)."""
         return self.error - self.reference_error
+
+    def relative_to(self, reference_error):
+        """The same with relative errors that refer to another transmission error, rad."""
+        return replace(self, reference_error=reference_error)
 
     @property
     def solved(self):

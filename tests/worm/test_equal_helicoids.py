@@ -24,11 +24,12 @@ def test_an_oversize_hob_of_the_same_form_gives_point_contact(profile):
 
 
 @pytest.mark.parametrize("profile", ["ZA", "ZI", "ZN", "ZK"])
-def test_an_undersize_hob_is_solved_but_flagged_as_interference(profile):
-    drive = Drive.from_tables(plain(profile, hob_pitch_radius_mm=19.8))
-    result = drive.tca([0.0])
-    assert result.status == ("converged",)
-    assert "interference" in result.flags[0] and not result.complete
+def test_with_an_undersize_hob_the_middle_of_the_face_interferes_and_contact_moves_to_its_side(profile):
+    found = Drive.from_tables(plain(profile, hob_pitch_radius_mm=19.8)).contacts(0.0)
+    middle = np.argmin(np.abs(found.unknowns["psi_fixed_hob"]))
+    side = np.argmax(found.unknowns["psi_fixed_hob"])
+    assert found.flags[middle] == ("interference",) and found.flags[side] == ()
+    assert found.error[side] > found.error[middle]  # s = +1: the larger wheel angle leads
 
 
 @pytest.mark.parametrize("form", PROFILES)

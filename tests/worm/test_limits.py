@@ -9,7 +9,7 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.design import changed
-from meshwright.limits import Request, limits_of
+from meshwright.limits import Request
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 
@@ -81,7 +81,7 @@ def test_a_worm_point_touches_twice_a_revolution_and_once_at_a_second_type_limit
 def test_normals_of_a_section_pass_through_its_pitch_point(profile, offset, flank):
     drive = _drive(profile, flank=flank)
     _, _, pitch_line, _ = _rack(drive)
-    found = limits_of(drive, Request(section_y=offset, radii=(18.0, 20.4, 23.0)))
+    found = drive.limits(Request(section_y=offset, radii=(18.0, 20.4, 23.0)))
     assert [c.radius for c in found.section_profile] == pytest.approx([18.0, 20.4, 23.0], abs=1e-11)
     for c in found.section_profile:
         assert c.point[1] == pytest.approx(offset, abs=1e-12)
@@ -95,7 +95,7 @@ def test_first_type_limit_of_an_archimedean_rack_is_the_classical_one(flank):
     p, ratio, pitch_line, _ = _rack(drive)
     tangent = np.tan(drive.design.value("pressure_angle_deg")) / np.cos(drive.design.value("worm_lead_angle_deg"))
     classical = pitch_line + p / ratio * tangent**2 / (1 + tangent**2)
-    (limit,) = limits_of(drive).first_type
+    (limit,) = drive.limits().first_type
     assert limit.point[0] == pytest.approx(classical, abs=1e-11)
     assert limit.point[1] == pytest.approx(0, abs=1e-13)
 
@@ -106,7 +106,7 @@ def test_second_type_limits_of_an_involute_worm_are_those_of_its_generators(flan
     drive = _drive("ZI", flank=flank)
     _, _, pitch_line, _ = _rack(drive)
     base = drive.function("profile_range_hob")()["lower_end"]
-    found = limits_of(drive, Request(radii=(17.0, 20.0, 23.0))).second_type
+    found = drive.limits(Request(radii=(17.0, 20.0, 23.0))).second_type
     assert len(found) == 6
     for c in found:
         generator = np.arctan2(c.point[1], c.point[0]) - drive.design.flank * np.arccos(base / c.radius)
@@ -117,7 +117,7 @@ def test_second_type_limits_of_an_involute_worm_are_those_of_its_generators(flan
 @pytest.mark.parametrize("profile", PROFILES)
 def test_first_type_limits_are_singular_points_of_the_wheel(profile, flank):
     drive = _drive(profile, flank=flank)
-    for c in limits_of(drive, Request(section_y=2.0)).first_type:
+    for c in drive.limits(Request(section_y=2.0)).first_type:
         at = drive.flank("wheel")([[c.parameters["t_hob"], c.parameters["psi_fixed_hob"]]])
         assert abs(at.regular[0]) < 1e-8
         # there the normal of the line of action in the section passes through the wheel's centre
@@ -142,7 +142,7 @@ def _line_of_action(drive, contact, offset, step=1e-6):
 @pytest.mark.parametrize("profile", PROFILES)
 def test_every_normal_meets_both_meshing_axes_at_any_shaft_angle(profile, flank, shaft_angle):
     drive = _drive(profile, flank=flank, shaft_angle_deg=shaft_angle)
-    found = limits_of(drive)
+    found = drive.limits()
     assert found.axes_exist and len(found.axes) == 2
     for t, psi in zip(*_places(drive), strict=True):
         at = drive.function("generation")(t, psi)
@@ -154,7 +154,7 @@ def test_every_normal_meets_both_meshing_axes_at_any_shaft_angle(profile, flank,
 def test_meshing_axes_at_right_angles_are_the_pitch_line_and_the_line_at_its_lead_angle():
     drive = _drive("ZN")
     p, _, pitch_line, _ = _rack(drive)
-    first, second = limits_of(drive).axes
+    first, second = drive.limits().axes
     assert first.inclination == pytest.approx(np.pi / 2, abs=1e-13)
     assert first.point[0] == pytest.approx(pitch_line, abs=1e-11)
     assert second.inclination == pytest.approx(np.arctan(p / pitch_line), abs=1e-13)
@@ -167,7 +167,7 @@ def test_meshing_axes_need_not_exist():
     sigma = np.radians(110.0)
     for distance, exists in ((p / ratio / np.sin(sigma), False), (1.5 * p / ratio / np.sin(sigma), True)):
         drive = _drive("ZN", shaft_angle_deg=110.0, cutting_shaft_angle_deg=110.0, cutting_center_distance_mm=distance)
-        found = limits_of(drive)
+        found = drive.limits()
         assert found.axes_exist is exists and len(found.axes) == 2 * exists
 
 
@@ -175,7 +175,7 @@ def test_meshing_axes_need_not_exist():
 @pytest.mark.parametrize("profile", ["ZK", "ZC"])
 def test_a_ground_profile_turns_back_at_its_edge_of_regression(profile, flank):
     tables = plain(profile, flank=flank)
-    (edge,) = limits_of(Drive.from_tables(tables)).regression
+    (edge,) = Drive.from_tables(tables).limits().regression
     helicoid = WormDrive.of(tables).worm
 
     def squared(t):
@@ -191,7 +191,7 @@ def test_a_ground_profile_turns_back_at_its_edge_of_regression(profile, flank):
 def test_contact_beyond_the_edge_of_regression_is_flagged():
     """The conference paper's design: at a lead angle of 30° the edge lies above the nominal root."""
     drive = Drive.load("zk-zn-45")
-    (edge,) = limits_of(drive).regression
+    (edge,) = drive.limits().regression
     nominal_root = drive.design.value("worm_pitch_radius_mm") - 1.2 * drive.design.value("normal_module_mm")
     assert edge.radius > nominal_root
     at = drive.flank("pinion")([[edge.parameters["t_worm"] * (1 + share), 0.0] for share in (-0.01, 0.01)])
@@ -200,8 +200,8 @@ def test_contact_beyond_the_edge_of_regression_is_flagged():
 
 def test_the_undercut_line_passes_through_the_first_type_limit():
     drive = _drive("ZN", flank="right")
-    (limit,) = limits_of(drive).first_type
-    found = limits_of(drive, Request(axial=(0.0,))).undercut
+    (limit,) = drive.limits().first_type
+    found = drive.limits(Request(axial=(0.0,))).undercut
     assert any(np.allclose(u.point, limit.wheel_point, atol=1e-6) for u in found)
 
 
@@ -216,14 +216,14 @@ def _undercut_within_blank(teeth):
     drive = Drive.from_tables(
         changed(plain("ZA", wheel_teeth=teeth), {f"blank.{key}": value for key, value in blank.items()})
     )
-    return [u for u in limits_of(drive).undercut if u.on_flank]
+    return [u for u in drive.limits().undercut if u.on_flank]
 
 
 def test_thread_thickness_at_the_tip_and_pointed_radius():
     """Axial thread thickness of an Archimedean worm: half the axial pitch at r1, less 2 tan α_x a millimetre up."""
     tables = changed(plain("ZA"), {"blank.worm_tip_radius_mm": 24.0})
     drive = Drive.from_tables(tables)
-    (worm,) = limits_of(drive).tip_thickness
+    (worm,) = drive.limits().tip_thickness
     r = drive.design.value("worm_pitch_radius_mm")
     lead = drive.design.value("worm_lead_angle_deg")
     slope = np.tan(drive.design.value("pressure_angle_deg")) / np.cos(lead)
@@ -233,7 +233,7 @@ def test_thread_thickness_at_the_tip_and_pointed_radius():
 
 
 def test_limits_of_the_left_hand_drive_are_the_mirror_image():
-    right, left = (limits_of(_drive("ZK", hand=hand), Request(section_y=0.0)) for hand in ("right", "left"))
+    right, left = (_drive("ZK", hand=hand).limits(Request(section_y=0.0)) for hand in ("right", "left"))
     mirror = np.array([1, -1, 1])
     for name in ("first_type", "second_type", "section_profile", "undercut", "regression"):
         pairs = list(zip(getattr(right, name), getattr(left, name), strict=True))

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.limits import limits_of
 from meshwright.results import ARCSEC
 from tests.worm.designs import packaged
 
@@ -49,7 +48,7 @@ def test_printed_contact_ratios_are_the_printed_windows_over_a_pitch_cut_off_aft
 
 
 def test_at_right_angles_the_constant_branch_turns_back_at_a_pitchfork():
-    (point,) = limits_of(Drive.load("zk-zn-90")).branch_points
+    (point,) = Drive.load("zk-zn-90").limits().branch_points
     assert point.kind == "pitchfork"
     assert np.degrees(point.angle) == pytest.approx(4.832354, abs=1e-6)
 
@@ -61,10 +60,10 @@ def test_beyond_the_pitchfork_the_error_falls_and_the_published_zero_is_impossib
 
 
 def test_branch_points_of_the_other_flank_are_its_half_turn():
-    (point,) = limits_of(Drive.from_tables(packaged("zk-zn-90", flank="left"))).branch_points
+    (point,) = Drive.from_tables(packaged("zk-zn-90", flank="left")).limits().branch_points
     assert np.degrees(point.angle) == pytest.approx(-4.832354, abs=1e-6)
 
 
 @pytest.mark.parametrize("shaft_angle", [30, 45, 60])
 def test_below_right_angles_the_constant_branch_does_not_turn_back(shaft_angle):
-    assert all(point.kind == "crossing" for point in limits_of(Drive.load(f"zk-zn-{shaft_angle}")).branch_points)
+    assert all(point.kind == "crossing" for point in Drive.load(f"zk-zn-{shaft_angle}").limits().branch_points)

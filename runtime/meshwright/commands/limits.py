@@ -2,7 +2,7 @@
 
 from meshwright.commands import options as common
 from meshwright.files import write_json, write_text
-from meshwright.limits import Request, limits_of
+from meshwright.limits import Request
 
 
 def add_arguments(parser):
@@ -16,7 +16,7 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    found = limits_of(drive, Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid))
+    found = drive.limits(Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid))
     if options.json:
         document = {"schema": "meshwright.limits/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | found.plain())

@@ -12,11 +12,18 @@ from meshwright.files import write_csv, write_json, write_text
 from meshwright.pattern import contour
 
 
+#: Contact points nearer than this are one, mm.
+SAME_POINT = 1e-5
+
+
 def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
     parser.add_argument(
         "--contour", type=int, metavar="N", help="add the contact patch by separation in N directions, 3 or more (JSON)"
+    )
+    parser.add_argument(
+        "--all-contacts", action="store_true", help="search for further contacts of the same tooth pair at each angle"
     )
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE", help="write as CSV")
@@ -32,6 +39,8 @@ def run(options):
     points = result.to_points()
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
+    if options.all_contacts:
+        _add_other_contacts(points, drive, result)
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -49,6 +58,16 @@ def _add_contours(points, drive, result, count):
             step(f"contact patch at {np.degrees(angle):.1f}°")
             patch = contour(drive, angle, count, result=result)
             point["contour"] = [] if patch is None else _radii(patch)
+
+
+def _add_other_contacts(points, drive, result):
+    """The other contacts of the tooth pair at each angle; relative errors refer to the same contact as the points."""
+    with progress(len(points)) as step:
+        for k, (point, angle) in enumerate(zip(points, result.angles, strict=True)):
+            step(f"contacts at {np.degrees(angle):.1f}°")
+            found = drive.contacts(angle).relative_to(result.reference_error)
+            same = np.linalg.norm(found.points - result.points[k], axis=1) < SAME_POINT
+            point["other_contacts"] = [c for c, known in zip(found.to_points(), same, strict=True) if not known]
 
 
 def _radii(patch):
@@ -94,9 +113,15 @@ def _table(drive, points):
             f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
             f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
             f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags']])}"
+            f"{' '.join([point['status'], *point['flags'], *_others(point)])}"
         )
     return "\n".join(lines) + "\n"
+
+
+def _others(point):
+    """A remark on further contacts of the tooth pair, if any were sought and found."""
+    others = point.get("other_contacts")
+    return (f"(+{len(others)} contact{'s' * (len(others) > 1)})",) if others else ()
 
 
 def _cell(value, form):

@@ -2,11 +2,11 @@
 
 A family adds its limits as a module with ``limits(drive, request) -> Limits``, listed in :data:`FAMILIES`; the
 generated flank functions (with their singular function and margins) and the drive's own generated functions are
-all it needs.
+all it needs. Families whose tooth pairs may touch at several points at once add a search to :data:`SEARCHES`.
 """
 
 from meshwright.errors import UsageError
-from meshwright.limits import cylindrical_worm, face_worm, spherical
+from meshwright.limits import contacts, cylindrical_worm, face_worm, spherical
 from meshwright.limits.results import Limits, Request
 
 FAMILIES = {
@@ -14,13 +14,29 @@ FAMILIES = {
     "face-worm": face_worm.limits,
     "spherical": spherical.limits,
 }
+SECTIONS = {"cylindrical-worm": cylindrical_worm.section}
+SEARCHES = {"cylindrical-worm": contacts.contacts}
 
-__all__ = ["FAMILIES", "Limits", "Request", "limits_of"]
+__all__ = ["FAMILIES", "Limits", "Request", "contacts_of", "limits_of", "section_of"]
 
 
 def limits_of(drive, request=None):
     """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad."""
+    return _of_family(drive, FAMILIES, "limits")(drive, request or Request())
+
+
+def section_of(drive, request):
+    """Contact points of the section y = ``request.section_y``: see :attr:`Limits.section_profile`."""
+    return _of_family(drive, SECTIONS, "sections")(drive, request)
+
+
+def contacts_of(drive, angle):
+    """Every contact of one tooth pair at a pinion angle, rad: a :class:`~meshwright.results.TCA`, one row each."""
+    return _of_family(drive, SEARCHES, "a search for all contacts")(drive, angle)
+
+
+def _of_family(drive, table, what):
     family = drive.design.family
-    if family not in FAMILIES:
-        raise UsageError(f"limits of {family}: not available; families that have them: {', '.join(FAMILIES)}")
-    return FAMILIES[family](drive, request or Request())
+    if family not in table:
+        raise UsageError(f"drive = {family!r}: {what} not available; families that have it: {', '.join(table)}")
+    return table[family]

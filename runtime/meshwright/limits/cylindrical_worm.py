@@ -19,9 +19,6 @@ RADIUS_REACH = 2.0
 #: How many radii a section profile has unless they are given.
 SECTION_POINTS = 11
 
-#: Share of the regular sheet |Ψ − Ψ0| < 90° that is searched for undercut.
-SHEET_SHARE = 0.98
-
 
 def limits(drive, request):
     """All limits of the drive; see :class:`~meshwright.limits.results.Limits`."""
@@ -180,18 +177,10 @@ def _undercut(drive, hob, request):
         return zeros(lambda t: flank(np.stack([t, np.full_like(t, psi)], axis=1)).regular, samples)
 
     if request.axial:
-        places = _undercut_at(flank, line, np.linspace(*_sheet(hob), 8 * request.grid), request.axial)
+        places = _undercut_at(flank, line, np.linspace(*hob.sheet(), 8 * request.grid), request.axial)
     else:
-        places = [(t, psi) for psi in np.linspace(*_sheet(hob), request.grid) for t in line(psi)]
+        places = [(t, psi) for psi in np.linspace(*hob.sheet(), request.grid) for t in line(psi)]
     return tuple(_undercut_point(flank, hob, t, psi) for t, psi in places)
-
-
-def _sheet(hob):
-    """Range of Ψ on which the wheel's regular sheet lies at the pitch point: where the normal's x keeps its sign."""
-    across, along, _ = hob(hob.pitch_point)["normal"]
-    middle = np.arctan2(-along, across)
-    middle -= np.pi * np.round(middle / np.pi)
-    return middle - SHEET_SHARE * np.pi / 2, middle + SHEET_SHARE * np.pi / 2
 
 
 def _undercut_at(flank, line, angles, positions):

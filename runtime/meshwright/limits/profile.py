@@ -10,6 +10,9 @@ from meshwright.limits.zeros import zeros
 #: Steps of the search along a profile, in natural sizes of its parameter, and how far it goes.
 STEP, REACH = 0.05, 20.0
 
+#: Share of the regular sheet |Ψ − Ψ0| < 90° that is searched.
+SHEET_SHARE = 0.98
+
 
 @dataclass(frozen=True)
 class Profile:
@@ -22,6 +25,10 @@ class Profile:
     name: str
 
     @cached_property
+    def _function(self):
+        return self.drive.function(f"profile_{self.name}")
+
+    @cached_property
     def _range(self):
         return {key: float(v) for key, v in self.drive.function(f"profile_range_{self.name}")().items()}
 
@@ -32,7 +39,7 @@ class Profile:
 
     def __call__(self, t):
         """Point (…, 3), unit normal (…, 3), growth of the squared radius and axial section at parameters t."""
-        return self.drive.function(f"profile_{self.name}")(t)
+        return self._function(t)
 
     def radius(self, t):
         """Distance of the profile point from the axis."""
@@ -83,6 +90,13 @@ class Profile:
         """Parameter at a radius, or None where the profile does not reach it."""
         found = zeros(lambda t: self.radius(t) - radius, self._sides)
         return found[0] if found else None
+
+    def sheet(self):
+        """Range of the rack angle Ψ of the wheel's regular sheet at the pitch point: the normal's x keeps its sign."""
+        across, along, _ = self(self.pitch_point)["normal"]
+        middle = np.arctan2(-along, across)
+        middle -= np.pi * np.round(middle / np.pi)
+        return middle - SHEET_SHARE * np.pi / 2, middle + SHEET_SHARE * np.pi / 2
 
     def least_radius(self):
         """Radius of the inner end."""

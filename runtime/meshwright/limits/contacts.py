@@ -1,0 +1,90 @@
+"""All contacts of one tooth pair of a cylindrical worm drive at one angle: a search over the whole sheet of the wheel."""
+
+import numpy as np
+
+from meshwright import analysis
+from meshwright._library import ffi, library
+from meshwright.limits.profile import Profile
+
+#: Lines Ψ = constant on which contacts are sought, and profile points on each.
+LINES, POINTS = 41, 120
+
+#: How far from the reference radius the profile is searched, in normal modules.
+DEPTH = 3.0
+
+#: Steps in Ψ beside a contact that has been found at which others are sought: near a branch point they lie close.
+NEARBY = (-0.1, -0.03, 0.03, 0.1)
+
+#: Places of the hob's parameters (t, Ψ) among the unknowns.
+T_HOB, PSI = 2, 3
+
+#: Two solutions nearer than this, in natural sizes of the unknowns, are one.
+SAME = 1e-6
+
+
+def contacts(drive, angle):
+    """Every contact of the tooth pair at a pinion angle (rad), as a :class:`~meshwright.results.TCA`, one row each.
+
+    Solutions on the spurious sheet, where the wheel's flank does not lie, are rejected; points that bodies cannot
+    make keep their flags. Rows are in ascending order of the rack angle Ψ.
+    """
+    if drive.design.mirrored:
+        angle = -angle
+    lines, found = np.linspace(*Profile(drive, "hob").sheet(), LINES), []
+    for _ in range(2):
+        found = _distinct(drive, [*found, *_solutions(drive, angle, lines)])
+        places = np.array([x[PSI] for x in found])
+        lines = np.concatenate([(places[:-1] + places[1:]) / 2, *(places + step for step in NEARBY)])
+    return analysis.at_solutions(drive, np.full(len(found), angle), np.array(found).reshape(-1, drive.model.nx))
+
+
+def _solutions(drive, angle, lines):
+    refined = (_refined(drive, angle, seed) for seed in _seeds(drive, angle, lines))
+    return [x for x in refined if x is not None]
+
+
+def _seeds(drive, angle, lines):
+    """Starts (nx,): points of the hob's flank at the right cutting angle, and the worm's flank at the same depth.
+
+    The hob replaces the worm but for its size: equal depth below the reference cylinder, equal polar angle.
+    """
+    value = drive.design.value
+    hob, worm = Profile(drive, "hob"), Profile(drive, "worm")
+    oversize = value("hob_pitch_radius_mm") - value("worm_pitch_radius_mm")
+    cutting_angle = angle * value("worm_threads") / value("hob_threads")
+    t_hob = hob.samples(value("hob_pitch_radius_mm") + DEPTH * value("normal_module_mm"), POINTS)
+    t_worm = worm.samples(value("worm_pitch_radius_mm") + DEPTH * value("normal_module_mm"), POINTS)
+    worm_radius, worm_point = worm.radius(t_worm), worm(t_worm)["point"]
+    worm_angle = np.unwrap(np.arctan2(worm_point[:, 1], worm_point[:, 0]))
+    generation = drive.function("generation")
+    for psi in lines:
+        at = generation(t_hob, psi)
+        ahead = at["phi_hob"] - cutting_angle
+        with np.errstate(invalid="ignore"):
+            crossings = np.flatnonzero(ahead[:-1] * ahead[1:] <= 0.0)
+        for k in crossings:
+            share = ahead[k] / (ahead[k] - ahead[k + 1])
+            x, y, _ = at["point"][k] + share * (at["point"][k + 1] - at["point"][k])
+            depth = np.hypot(x, y) - oversize
+            turn = np.arctan2(y, x) - angle - np.interp(depth, worm_radius, worm_angle)
+            yield np.interp(depth, worm_radius, t_worm), turn, t_hob[k] + share * (t_hob[k + 1] - t_hob[k]), psi, 0.0
+
+
+def _refined(drive, angle, seed):
+    """The solution that Newton reaches from a start; None if none, or one on the spurious sheet."""
+    m, s = drive.model, drive.state(angle)
+    x, info = np.array(seed, dtype=float), ffi.new("mw_info *")
+    if library().mw_refine(m, analysis.pointer(s), analysis.pointer(x), info) < 0:
+        return None
+    margins = drive.flank("wheel")([x[T_HOB : PSI + 1]]).margins
+    return x if margins["spurious_sheet"][0] > 0.0 else None
+
+
+def _distinct(drive, solutions):
+    scale = np.empty(drive.model.nx)
+    drive.model.scale(analysis.pointer(drive.state()), analysis.pointer(scale))
+    kept = []
+    for x in sorted(solutions, key=lambda x: x[PSI]):
+        if all(np.abs((x - other) / scale).max() > SAME for other in kept):
+            kept.append(x)
+    return kept
