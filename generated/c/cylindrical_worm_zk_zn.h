@@ -85,7 +85,7 @@ typedef struct mw_region {
 typedef struct mw_function {
     const char *name;
     int arguments, outputs;
-    void (*evaluate)(const double *s, const double *q, double *o);
+    mw_surface evaluate;
 } mw_function;
 
 /* A drive. p[np] parameters (NaN: open), s[ns] state, x[nx] unknowns, R[nx], J[nx*nx] row-major dR/dx,
