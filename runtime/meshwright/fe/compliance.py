@@ -1,0 +1,97 @@
+"""Tooth compliance beyond the half-space: FE of a coarse tooth less the half-space on the same patches.
+
+The compliance of a flank is C = half-space(fine cells) + W [FE(patches) - half-space(patches)] W^T: the second term is
+smooth, so a coarse mesh gives it well, and it is factorised once for a tooth shape and used for every position and
+load.  Source of the method: S. Vijayakar, A combined surface integral and finite element solution for a
+three-dimensional contact problem (1991).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.fe.body import PlacedTooth, mesh_body
+from meshwright.fe.elastic import factorise
+from meshwright.fe.halfspace import mean_displacement
+from meshwright.fe.hexahedra import Floats, nodal_areas
+from meshwright.fe.pair import Member
+from meshwright.fe.tooth import MeshDensity
+
+_PATCH = 2
+_DENSITY = MeshDensity(coarse_rows=(4, 12, 16), fillet_rows=4, rim_rows=3)
+
+
+@dataclass(frozen=True)
+class ToothCompliance:
+    """Smooth part of the compliance of the working flank of a member.
+
+    profile, face: patch centres, as fractions of the flank's arc length (P,) and of its face width (Q,).
+    own: (P Q, P Q) mm/N between patches of one tooth; later: (P Q, P Q) displacement of the tooth one pitch
+    later (``pairs_later`` + 1) by load on this one; its transpose is the reverse.
+    """
+
+    profile: Floats
+    face: Floats
+    own: Floats
+    later: Floats
+
+    def weights(self, profile: Floats, face: Floats) -> Floats:
+        """Bilinear weights (N, P Q) of the patches at N places on the flank; held constant past the outer centres."""
+        along, across = _linear_weights(self.profile, profile), _linear_weights(self.face, face)
+        return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
+
+
+def tooth_compliance(member: Member) -> ToothCompliance:
+    """Compute it from three neighbouring teeth whose rim is held at the bore and at the outer cuts."""
+    motions = [member.tooth_motion(later) for later in (-1, 0, 1)]
+    if not np.allclose(member.tooth_motion(1), member.form.next_tooth, atol=1e-6):
+        motions = motions[::-1]
+    body = mesh_body(member.form, [PlacedTooth(motion, None) for motion in motions], _DENSITY)
+    later = 2 if np.allclose(motions[2], member.tooth_motion(1)) else 0
+    name = f"flank_{member.working}"
+    patches = [_patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), _DENSITY) for tooth in body.teeth]
+    forces = np.moveaxis(patches[1], 0, -1)
+    moved = factorise(body.mesh, member.material, body.rim).displacements(-forces)
+    own, neighbour = (-np.einsum("pnd,ndq->pq", patches[k], moved) for k in (1, later))
+    shape = (_DENSITY.coarse_rows[1] // _PATCH, _DENSITY.coarse_rows[2] // _PATCH)
+    own = own - _half_space(member, body.mesh.nodes[body.mesh.face_nodes(body.teeth[1][name])], shape)
+    centres = [(np.arange(count) + 0.5) / count for count in shape]
+    return ToothCompliance(centres[0], centres[1], 0.5 * (own + own.T), neighbour)
+
+
+def _patch_vectors(nodes: Floats, quads: Floats, density: MeshDensity) -> Floats:
+    """(P Q, N, 3) consistent nodal forces of a unit load along the outward normal, spread evenly over each patch."""
+    rows, columns = density.coarse_rows[1:]
+    by_patch = quads.reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH, 4).transpose(0, 2, 1, 3, 4)
+    vectors = np.zeros((rows * columns // _PATCH**2, len(nodes), 3))
+    for patch, faces in zip(vectors, by_patch.reshape(len(vectors), -1, 4), strict=True):
+        used, areas = nodal_areas(nodes, faces)
+        patch[used] = areas / np.linalg.norm(areas.sum(axis=0))
+    return vectors
+
+
+def _half_space(member: Member, corners: Floats, shape: tuple[int, int]) -> Floats:
+    """(P Q, P Q) mean half-space displacement in mm of patches by unit loads, on the flank laid flat."""
+    rows, columns = (count * _PATCH for count in shape)
+    grid = corners.reshape(rows, columns, 4, 3).mean(axis=2)
+    steps = [np.linalg.norm(np.diff(grid, axis=axis), axis=-1).mean() for axis in (0, 1)]
+    half = [0.5 * _PATCH * step for step in steps]
+    offset = [2.0 * h * np.arange(count) for h, count in zip(half, shape, strict=True)]
+    x, y = np.meshgrid(*offset, indexing="ij")
+    area = 4.0 * half[0] * half[1]
+    kernel = mean_displacement(x, y, half[0], half[1], member.material.plane_strain_modulus) / area
+    p, q = (index.ravel() for index in np.meshgrid(*(np.arange(count) for count in shape), indexing="ij"))
+    return kernel[np.abs(p[:, None] - p[None]), np.abs(q[:, None] - q[None])]
+
+
+def _linear_weights(centres: Floats, places: Floats) -> Floats:
+    """(N, P) weights of linear interpolation between ``centres`` (P,) at ``places`` (N,)."""
+    held = np.clip(places, centres[0], centres[-1])
+    index = np.clip(np.searchsorted(centres, held) - 1, 0, len(centres) - 2)
+    share = (held - centres[index]) / (centres[index + 1] - centres[index])
+    weights = np.zeros((len(places), len(centres)))
+    rows = np.arange(len(places))
+    weights[rows, index], weights[rows, index + 1] = 1.0 - share, share
+    return weights

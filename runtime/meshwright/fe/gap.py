@@ -1,0 +1,120 @@
+"""The gap between two flanks, measured along the contact normal on a grid in the tangent plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.fe.hexahedra import Floats
+from meshwright.fe.pair import GearPair, Member, PairTouch
+from meshwright.fe.profile import SectionCurves
+
+_NEWTON_STEPS = 20
+_STEP_TOLERANCE = 1e-13
+_DIFFERENCE = 1e-5
+
+
+@dataclass(frozen=True)
+class ContactGrid:
+    """Cells of the tangent plane of one pair, N of them.
+
+    centres (N, 2) in mm along (major, minor) axis from the contact point; half_major, half_minor: half lengths of a
+    cell.  gap (N,) in mm, positive apart.  points (N, 3): pinion surface points in the fixed frame.  inside (N,): both
+    flanks are there.  place: for each member the fractions (N, 2) of flank arc length and face width.
+    """
+
+    centres: Floats
+    half_major: float
+    half_minor: float
+    gap: Floats
+    points: Floats
+    inside: Floats
+    place: dict[str, Floats]
+
+    @property
+    def area(self) -> float:
+        """Area of a cell in mm^2."""
+        return 4.0 * self.half_major * self.half_minor
+
+
+def contact_grid(
+    gear: GearPair, contact: PairTouch, angles: tuple[float, float], reach: tuple[float, float], cells: int
+) -> ContactGrid:
+    """Grid of cells x cells around a contact point with both members at given angles.
+
+    angles: pinion and wheel angle in rad of the whole bodies; reach: half lengths of the grid along the major and
+    minor axis in mm.
+    """
+    touch = contact.touch
+    ticks = (2.0 * np.arange(cells) + 1.0) / cells - 1.0
+    x, y = (axis.ravel() for axis in np.meshgrid(ticks * reach[0], ticks * reach[1], indexing="ij"))
+    minor = np.cross(touch.normal, touch.major_direction)
+    plane = np.stack([touch.major_direction, minor, touch.normal])
+    feet = touch.point + np.outer(x, touch.major_direction) + np.outer(y, minor)
+    surfaces = {}
+    for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1])):
+        pose = member.pose(angle - contact.pairs_later * member.pitch)
+        surfaces[name] = _Footprint.of(member, pose, feet, plane)
+    gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ touch.normal
+    inside = surfaces["pinion"].inside & surfaces["wheel"].inside
+    place = {name: footprint.place for name, footprint in surfaces.items()}
+    half = (reach[0] / cells, reach[1] / cells)
+    return ContactGrid(np.stack([x, y], axis=1), *half, gap, surfaces["pinion"].points, inside, place)
+
+
+@dataclass(frozen=True)
+class _Footprint:
+    """Where the normals of the tangent plane through N feet pierce a flank: fixed frame."""
+
+    points: Floats
+    inside: Floats
+    place: Floats
+
+    @staticmethod
+    def of(member: Member, pose: Floats, feet: Floats, plane: Floats) -> _Footprint:
+        curves = member.form.side(member.working).flank
+        rotation = pose[:3, :3]
+        feet_body = (feet - pose[:3, 3]) @ rotation
+        plane_body = plane @ rotation
+        profile, face = _pierce(curves, member.form.faces, feet_body, plane_body)
+        points = curves.surface(profile, face)[0]
+        section = curves.section(points)
+        low, high = member.form.faces
+        held = np.clip(section, low, high)
+        first, last = curves.first(held), curves.last(held)
+        fraction = (profile - first) / (last - first)
+        inside = (section >= low) & (section <= high) & (fraction >= 0.0) & (fraction <= 1.0)
+        # A cell off the flank has no pressure; its gap only has to be finite.
+        place = np.stack([fraction, (section - low) / (high - low)], axis=1)
+        return _Footprint(points @ rotation.T + pose[:3, 3], inside, place)
+
+
+def _pierce(
+    curves: SectionCurves, faces: tuple[float, float], feet: Floats, plane: Floats
+) -> tuple[Floats, Floats]:
+    """Surface parameters (N,), (N,) with tangent-plane coordinates equal to those of ``feet`` (N, 3)."""
+    profile, face = (np.full(len(feet), value) for value in _nearest(curves, faces, feet.mean(axis=0)))
+    tangents = plane[:2]
+    for _ in range(_NEWTON_STEPS):
+        miss = (curves.surface(profile, face)[0] - feet) @ tangents.T
+        steps = [_DIFFERENCE * max(1.0, float(np.abs(value).max())) for value in (profile, face)]
+        columns = []
+        for d_profile, d_face in ((steps[0], 0.0), (0.0, steps[1])):
+            ahead = curves.surface(profile + d_profile, face + d_face)[0]
+            behind = curves.surface(profile - d_profile, face - d_face)[0]
+            columns.append((ahead - behind) @ tangents.T / (2.0 * (d_profile + d_face)))
+        change = np.linalg.solve(np.stack(columns, axis=-1), miss[..., None])[..., 0]
+        profile, face = profile - change[:, 0], face - change[:, 1]
+        if np.abs(miss).max() < _STEP_TOLERANCE * 1e2:
+            break
+    return profile, face
+
+
+def _nearest(curves: SectionCurves, faces: tuple[float, float], point: Floats) -> tuple[float, float]:
+    """Parameters of the tabulated flank point next to ``point``, a start for Newton's method."""
+    section = np.clip(np.atleast_1d(curves.section(point)), *faces)
+    rail = curves.rail(section)
+    index = int(np.argmin(np.linalg.norm(rail.table[0] - point, axis=1)))
+    profile = rail.profile[:, index : index + 1]
+    return float(profile[0, 0]), float(curves.solve(section, profile)[0, 0])

@@ -1,0 +1,58 @@
+"""Normal displacement of an elastic half-space under pressed rectangles.
+
+Source: A. E. H. Love, The stress produced in a semi-infinite solid by pressure on part of the boundary (1929);
+K. L. Johnson, Contact Mechanics, (3.25).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshwright.fe.hexahedra import Floats
+
+
+def rectangle_displacement(x: Floats, y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
+    """Displacement in mm at (x, y) mm from the centre of a rectangle under a pressure of 1 MPa.
+
+    half_x, half_y: half lengths of its sides; modulus: plane-strain modulus E/(1 - nu^2), or the contact modulus
+    for the sum over two bodies.
+    """
+    corners = (
+        (_corner(x + half_x, y + half_y), 1.0),
+        (_corner(x - half_x, y + half_y), -1.0),
+        (_corner(x + half_x, y - half_y), -1.0),
+        (_corner(x - half_x, y - half_y), 1.0),
+    )
+    return sum(sign * value for value, sign in corners) / (np.pi * modulus)
+
+
+def _corner(x: Floats, y: Floats) -> Floats:
+    return x * _inverse_sinh_ratio(y, x) + y * _inverse_sinh_ratio(x, y)
+
+
+def _inverse_sinh_ratio(numerator: Floats, denominator: Floats) -> Floats:
+    """asinh(numerator / |denominator|); zero where the denominator is, since the product with it vanishes."""
+    size = np.abs(denominator)
+    return np.arcsinh(np.divide(numerator, size, out=np.zeros_like(numerator), where=size > 0.0))
+
+
+def influence_matrix(centres: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
+    """(N, N) displacement at cell centres (N, 2) by unit pressures on equal rectangular cells."""
+    difference = centres[:, None, :] - centres[None, :, :]
+    return rectangle_displacement(difference[..., 0], difference[..., 1], half_x, half_y, modulus)
+
+
+def mean_displacement(offset_x: Floats, offset_y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
+    """Mean displacement of a rectangle by a unit pressure on an equal one at given centre offsets.
+
+    Gauss quadrature over the observed rectangle, its four quarters apart, since the kernel has kinks on the axes.
+    """
+    points, weights = np.polynomial.legendre.leggauss(6)
+    points, weights = 0.5 * (points + 1.0), 0.5 * weights
+    signed = np.concatenate([-points, points])
+    both = 0.5 * np.concatenate([weights, weights])
+    total = np.zeros_like(offset_x)
+    for px, wx in zip(signed * half_x, both, strict=True):
+        for py, wy in zip(signed * half_y, both, strict=True):
+            total += wx * wy * rectangle_displacement(offset_x + px, offset_y + py, half_x, half_y, modulus)
+    return total
