@@ -20,7 +20,7 @@ from meshwright.fe.pair import Member
 from meshwright.fe.tooth import MeshDensity
 
 _PATCH = 2
-_DENSITY = MeshDensity(coarse_rows=(4, 12, 16), fillet_rows=4, rim_rows=3)
+_DENSITY = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from meshwright.fe.model import Load, hertz_of, loaded_side
 from meshwright.fe.pair import GearPair, PairTouch, lever_arm, touches, unloaded_wheel_angle
 
 _CELLS = 31
+_FIRST_CELLS = 15
 _REACH = 1.35
 _LEAST_SHARE = 0.05
 _ACTIVE_SET_STEPS = 200
@@ -78,10 +79,10 @@ def loaded_contact(
     wheel_angle = unloaded_wheel_angle(gear, contacts)
     whole = np.array([load.torque / arm for arm in arms])
     forces = whole
-    for _ in range(2):
+    for cells in (_FIRST_CELLS, _CELLS):
         # The first pass finds the forces, the second fits each grid to its own ellipse.
         grids = [
-            _grid(gear, c, (pinion_angle, wheel_angle), max(float(f), _LEAST_SHARE * float(w)))
+            _grid(gear, c, (pinion_angle, wheel_angle), max(float(f), _LEAST_SHARE * float(w)), cells)
             for c, f, w in zip(contacts, forces, whole, strict=True)
         ]
         pressures, rotation = _equilibrium(gear, contacts, grids, load, compliance)
@@ -97,9 +98,17 @@ def loaded_contact(
     return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag)
 
 
-def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float) -> ContactGrid:
+def _grid(
+    gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float, cells: int
+) -> ContactGrid:
     ellipse = hertz_of(gear, contact, force)
-    return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), _CELLS)
+    return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
+
+
+def _in_ellipse(grid: ContactGrid) -> Floats:
+    """Cells inside the Hertz ellipse that the grid was made for."""
+    extent = np.abs(grid.centres).max(axis=0) + np.array([grid.half_major, grid.half_minor])
+    return np.hypot(*(_REACH * grid.centres / extent).T) < 1.0
 
 
 def _equilibrium(
@@ -121,7 +130,8 @@ def _equilibrium(
     )
     gap = np.concatenate([g.gap for g in grids])
     inside = np.concatenate([g.inside for g in grids])
-    pressure, rotation = active_set(matrix, gap, arms, areas, inside, load.torque)
+    start = np.concatenate([_in_ellipse(g) for g in grids])
+    pressure, rotation = active_set(matrix, gap, arms, areas, inside, start, load.torque)
     return np.split(pressure, np.cumsum([len(g.gap) for g in grids])[:-1]), rotation
 
 
@@ -143,14 +153,15 @@ def _smooth(
 
 
 def active_set(
-    matrix: Floats, gap: Floats, arms: Floats, areas: Floats, inside: Floats, torque: float
+    matrix: Floats, gap: Floats, arms: Floats, areas: Floats, inside: Floats, start: Floats, torque: float
 ) -> tuple[Floats, float]:
     """Pressures (N,) >= 0 and rotation with gap + matrix p - rotation arms >= 0, zero where p > 0, moment = torque.
 
-    Raises ArithmeticError if the set of touching cells does not settle.
+    start (N,): cells thought to touch.  Raises ArithmeticError if the set of touching cells does not settle.
     """
-    best = np.where(inside, gap / arms, np.inf)
-    active = inside & (best <= np.partition(best, min(8, len(best) - 1))[min(8, len(best) - 1)])
+    active = inside & start
+    if not active.any():
+        active = inside & (gap <= gap[inside].min())
     scale = float(np.abs(np.diag(matrix)).max())
     for _ in range(_ACTIVE_SET_STEPS):
         pressure = np.zeros(len(gap))

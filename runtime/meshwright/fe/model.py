@@ -17,6 +17,10 @@ from meshwright.fe.tooth import ContactZone, MeshDensity
 
 # The contact starts from an overlap of this part of the Hertz approach: from a gap the solver diverges.
 _START_OVERLAP = 0.5
+# Teeth without a pair beyond the outermost ones, so that no loaded tooth stands beside a held cut.
+_IDLE_TEETH = 1
+# A pair without load is meshed as if it carried this part of the largest force.
+_LEAST_FORCE = 0.02
 
 BodyName = Literal["pinion", "wheel"]
 
@@ -33,17 +37,20 @@ class Load:
 class PairModel:
     """A deck in the frame of the loaded member (its axis is z) and what is needed to read its results.
 
-    hertz: for each pair the contact under the force its mesh was graded to.  start_rotation: rotation in rad
+    orders: which pair (``pairs_later``) each tooth of a body belongs to.  frame: 4 x 4 motion from the fixed frame to
+    that of the deck.  angles: angle of each member.  hertz: for each pair the contact under the force its mesh was graded to.  start_rotation: rotation in rad
     about +z of the loaded member from the first unloaded touch to the overlap at which the analysis starts.
     direction: +1 or -1, sign of the torque about +z.
     """
 
     deck: Deck
     bodies: dict[BodyName, BodyMesh]
+    orders: dict[BodyName, list[int]]
     contacts: tuple[PairTouch, ...]
     hertz: tuple[HertzContact, ...]
     load: Load
     frame: Floats
+    angles: dict[BodyName, float]
     start_rotation: float
     direction: int
 
@@ -68,23 +75,29 @@ def hertz_of(gear: GearPair, contact: PairTouch, force: float) -> HertzContact:
 
 
 def build_model(
-    gear: GearPair, pinion_angle: float, pairs: int, load: Load, forces: Floats | None, density: MeshDensity
+    gear: GearPair,
+    pinion_angle: float,
+    pairs: int,
+    load: Load,
+    forces: Floats,
+    density: MeshDensity,
+    idle: int = _IDLE_TEETH,
 ) -> PairModel:
-    """Model ``pairs`` tooth pairs around a pinion angle.
+    """Model ``pairs`` tooth pairs around a pinion angle and ``idle`` more teeth of each member on either side.
 
-    forces: expected normal force in N of each pair in contact, by which its mesh is graded (the result of the
-    semi-analytic contact); None shares the torque equally.  A pair with no force gets a coarse mesh.
+    forces: expected normal force in N of each pair that touches, by which its mesh is graded.  A tooth that touches
+    nothing gets a coarse mesh.  Raises ValueError if no pair touches at this angle.
     """
     contacts = touches(gear, pinion_angle, pairs)
     if not contacts:
         raise ValueError(f"no tooth pair touches at a pinion angle of {np.degrees(pinion_angle):g} deg")
     loaded, direction = loaded_side(gear, load)
     arms = [abs(lever_arm(loaded, contact.touch.point, contact.touch.normal)) for contact in contacts]
-    if forces is None:
-        forces = np.array([load.torque / arm / len(contacts) for arm in arms])
-    hertz = tuple(hertz_of(gear, c, max(float(f), 0.02 * max(forces))) for c, f in zip(contacts, forces, strict=True))
+    least = _LEAST_FORCE * float(max(forces))
+    hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
+    orders = {name: tooth_order(member, pairs, idle) for name, member in _members(gear).items()}
     bodies = {
-        name: mesh_body(member.form, _teeth(gear, name, pinion_angle, pairs, contacts, hertz), density)
+        name: mesh_body(member.form, _teeth(gear, name, orders[name], contacts, hertz), density)
         for name, member in _members(gear).items()
     }
     lead = int(np.argmax(forces))
@@ -102,23 +115,23 @@ def build_model(
         f"meshwright: {len(contacts)} tooth pairs, pinion at {np.degrees(pinion_angle):.6f} deg",
         tuple(parts),
         rims=_rims(bodies, load, direction),
-        contacts=_contact_pairs(bodies, gear, contacts, pairs),
+        contacts=_contact_pairs(bodies, gear, contacts, orders),
         remarks=(
             f"{load.torque / 1000.0:g} N m about z of the {load.member}; the rim of the other member is held.",
             f"The {load.member} starts {abs(start):.3e} rad past the first touch.",
         ),
     )
-    return PairModel(deck, bodies, contacts, hertz, load, frame, start, direction)
+    return PairModel(deck, bodies, orders, contacts, hertz, load, frame, angles, start, direction)
 
 
 def _members(gear: GearPair) -> dict[BodyName, Member]:
     return {"pinion": gear.pinion, "wheel": gear.wheel}
 
 
-def tooth_order(member: Member, pairs: int) -> list[int]:
+def tooth_order(member: Member, pairs: int, idle: int) -> list[int]:
     """Which pair (``pairs_later``) each tooth of the body belongs to, in the order of ``next_tooth``."""
-    first = -((pairs - 1) // 2)
-    order = list(range(first, first + pairs))
+    first = -((pairs - 1) // 2) - idle
+    order = list(range(first, first + pairs + 2 * idle))
     later, following = member.tooth_motion(1), member.form.next_tooth
     return order if np.allclose(later, following, atol=1e-6) else order[::-1]
 
@@ -126,8 +139,7 @@ def tooth_order(member: Member, pairs: int) -> list[int]:
 def _teeth(
     gear: GearPair,
     name: BodyName,
-    pinion_angle: float,
-    pairs: int,
+    order: list[int],
     contacts: tuple[PairTouch, ...],
     hertz: tuple[HertzContact, ...],
 ) -> list[PlacedTooth]:
@@ -145,20 +157,16 @@ def _teeth(
             ellipse.semi_major,
             ellipse.semi_minor,
         )
-    return [
-        PlacedTooth(member.tooth_motion(later), zones.get(later)) for later in tooth_order(member, pairs)
-    ]
+    return [PlacedTooth(member.tooth_motion(later), zones.get(later)) for later in order]
 
 
 def _contact_pairs(
-    bodies: dict[BodyName, BodyMesh], gear: GearPair, contacts: tuple[PairTouch, ...], pairs: int
+    bodies: dict[BodyName, BodyMesh], gear: GearPair, contacts: tuple[PairTouch, ...], orders: dict[BodyName, list[int]]
 ) -> tuple[ContactPair, ...]:
     faces = {}
     for name, member in _members(gear).items():
-        order = tooth_order(member, pairs)
-        faces[name] = {
-            later: bodies[name].teeth[place][f"flank_{member.working}"] for place, later in enumerate(order)
-        }
+        flank = f"flank_{member.working}"
+        faces[name] = {later: bodies[name].teeth[place][flank] for place, later in enumerate(orders[name])}
     return tuple(
         ContactPair(
             f"PAIR{number}", "PINION", faces["pinion"][c.pairs_later], "WHEEL", faces["wheel"][c.pairs_later]

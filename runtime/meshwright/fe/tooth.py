@@ -14,7 +14,7 @@ Seen along a section, with the profile parameter running from the root land to t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -80,7 +80,8 @@ class MeshDensity:
     fillet_rows: int = 6
     land_rows: int = 1
     rim_rows: int = 4
-    coarse_rows: tuple[int, int, int] = (4, 6, 6)
+    coarse_rows: tuple[int, int, int] = (2, 4, 6)
+    coarse_fillet_rows: int = 4
     fillet_split: float = 0.5
 
 
@@ -105,6 +106,8 @@ def face_rows(form: ToothForm, zone: ContactZone | None, density: MeshDensity) -
 
 def mesh_tooth(form: ToothForm, zone: ContactZone | None, density: MeshDensity, rows: int) -> ToothMesh:
     """Mesh a tooth with ``rows`` elements over the face width, graded to ``zone`` or coarse without one."""
+    if zone is None:
+        density = replace(density, fillet_rows=density.coarse_fillet_rows)
     low, high = form.faces
     even = np.linspace(low, high, rows + 1)
     values = even if zone is None else low + graded(high - low, _face_zone(form, zone, density), density.growth, rows)
