@@ -27,6 +27,20 @@ def _field(parameter):
     return (annotated, ...) if parameter["required"] else (annotated | None, None)
 
 
+def _material_fields():
+    """Elastic constants of both members, or of one; what is left out is that of both, or steel."""
+    modulus = Annotated[float, Field(gt=0.0)]
+    poisson = Annotated[float, Field(gt=-1.0, lt=0.5)]
+    return {
+        f"{key}{ending}": (Annotated[kind | None, Field(description=f"{meaning}{of}")], None)
+        for key, kind, meaning in (
+            ("youngs_modulus_mpa", modulus, "Young's modulus"),
+            ("poisson_ratio", poisson, "Poisson's ratio"),
+        )
+        for ending, of in (("", " of both members"), ("_pinion", " of the pinion"), ("_wheel", " of the wheel"))
+    }
+
+
 def _variant_fields(descriptions):
     """Keys whose words choose the drive within the family."""
     words = {}
@@ -51,6 +65,7 @@ def design_model(family):
     tables["design"] |= _variant_fields(descriptions)
     if descriptions[0]["handed"]:
         tables["design"]["hand"] = (HAND, "right")
+    tables["material"] = _material_fields()
     models = {
         name: create_model(f"{family}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
     }

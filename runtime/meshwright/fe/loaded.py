@@ -58,6 +58,12 @@ class LoadedContact:
     rotation: float
     transmission_error: float
 
+    @property
+    def mesh_stiffness(self) -> float:
+        """Normal force over the deflection along the contact normal, N/mm: torque / (arm^2 rotation)."""
+        arm = self.load.torque / sum(pair.force for pair in self.pairs)
+        return self.load.torque / (arm**2 * self.rotation)
+
 
 def loaded_contact(
     gear: GearPair,

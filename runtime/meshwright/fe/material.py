@@ -53,3 +53,29 @@ def max_principal(stress: NDArray[np.float64]) -> NDArray[np.float64]:
     rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]
     tensor = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
     return np.linalg.eigvalsh(tensor)[..., -1]
+
+
+STEEL = Material(206000.0, 0.3)
+
+
+@dataclass(frozen=True)
+class Materials:
+    """Material of each member."""
+
+    pinion: Material
+    wheel: Material
+
+    @classmethod
+    def of_table(cls, table: dict[str, float | None]) -> Materials:
+        """From a design's ``[material]`` table: a member's own key, else that of both, else steel."""
+
+        def material(member: str) -> Material:
+            def constant(key: str, default: float) -> float:
+                own, both = table.get(f"{key}_{member}"), table.get(key)
+                return next(value for value in (own, both, default) if value is not None)
+
+            return Material(
+                constant("youngs_modulus_mpa", STEEL.youngs_modulus), constant("poisson_ratio", STEEL.poisson_ratio)
+            )
+
+        return cls(material("pinion"), material("wheel"))

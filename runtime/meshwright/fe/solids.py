@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
@@ -13,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from meshwright.drive import Drive
 from meshwright.errors import DesignError, UsageError
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.material import Material
+from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.profile import SectionCurves, Surface
 from meshwright.fe.tooth import ToothForm, ToothSide
@@ -29,16 +28,8 @@ _TIP_SAMPLES = 33
 MemberName = Literal["pinion", "wheel"]
 
 
-@dataclass(frozen=True)
-class Materials:
-    """Material of each member."""
-
-    pinion: Material
-    wheel: Material
-
-
-def gear_pair(drive: Drive, materials: Materials, rim_thickness: float | None = None) -> GearPair:
-    """The loaded-contact view of a drive.
+def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
+    """The loaded-contact view of a drive, materials from its design.
 
     rim_thickness: radial depth of the rim below the root in mm; None takes 4.5 modules, at most 0.8 root radii.
     Raises UsageError for a family that has no solid model, DesignError where the flanks touch along a line.
@@ -48,6 +39,7 @@ def gear_pair(drive: Drive, materials: Materials, rim_thickness: float | None = 
         raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives yet; there are {known}")
     form = _FORMS[drive.design.family]
     _check_point_contact(drive)
+    materials = Materials.of_table(drive.design.tables["material"])
     members = {
         name: _member(drive, name, form(drive, name, rim_thickness), getattr(materials, name))
         for name in ("pinion", "wheel")

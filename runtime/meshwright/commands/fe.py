@@ -1,0 +1,104 @@
+"""Stresses by finite elements (CalculiX): contact pressure, stress below the surface, bending stress in the fillets.
+
+Writes input, results, VTU and pictures into a folder; an accepted position is not solved twice. Without the solver
+ccx it writes the input and says how to install it.
+Exit status 1 if a run misses its acceptance gate, or there is no solver; such a position has no stress in it.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from meshwright.commands import loading
+from meshwright.commands import options as common
+from meshwright.commands.progress import progress
+from meshwright.errors import UsageError
+from meshwright.files import write_json, write_text
+
+
+def add_arguments(parser):
+    loading.add_arguments(parser)
+    parser.add_argument("--phi-deg", metavar="A:B:STEP|v1,v2,…", default="0", help="pinion angles, degrees; default 0")
+    parser.add_argument("--folder", metavar="DIR", help="where the runs are kept; default: NAME-fe")
+    parser.add_argument("--time-limit-s", type=float, default=1800.0, metavar="S", help="of one run; default 1800")
+    parser.add_argument("--threads", type=int, default=1, metavar="N", help="of the solver; a second one gains little")
+    parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.fe/1)")
+
+
+def run(options):
+    fe = loading.finite_elements()
+    drive, gear, load, pairs = loading.loaded_gears(fe, options)
+    angles = common.angles(options.phi_deg)
+    for angle in angles:
+        if not fe.pair.touches(gear, angle, pairs):
+            raise UsageError(f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; `meshwright ratio` says where")
+    settings = fe.analysis.Settings(pairs, options.time_limit_s, options.threads)
+    ccx = fe.solver.find_ccx()
+    if ccx is None:
+        print(f"meshwright: {fe.solver.INSTALL_HINT}; the input is written, not solved", file=sys.stderr)
+    folder = Path(options.folder or f"{Path(options.design).stem}-fe")
+    positions = []
+    with progress(2 * len(angles) + 2) as step:
+        compliance = loading.compliances(fe, gear, step)
+        for angle in angles:
+            step(f"mesh at {np.degrees(angle):.4g} deg")
+            place = folder / f"{options.torque_nm:g}nm_{np.degrees(angle):+.4f}deg"
+            prepared = fe.analysis.prepare(gear, compliance, angle, load, settings, place)
+            step(f"solve {prepared.model.deck.element_count} elements at {np.degrees(angle):.4g} deg")
+            positions.append(_position(fe, prepared, ccx, settings))
+    if len(positions) > 1:
+        _picture_of_cycle(fe, positions, folder)
+    _write(options, positions)
+    return 0 if all(_accepted(position) for position in positions) else 1
+
+
+def _position(fe, prepared, ccx, settings):
+    earlier = fe.analysis.earlier_result(prepared)
+    if earlier is not None:
+        return earlier
+    if ccx is None:
+        return fe.analysis.without_solver(prepared)
+    return fe.analysis.solve(prepared, ccx, settings)
+
+
+def _accepted(position):
+    return all(check["held"] for check in position["gate"].values())
+
+
+def _picture_of_cycle(fe, positions, folder):
+    accepted = [position for position in positions if _accepted(position)]
+    if len(accepted) > 1:
+        path = folder / "stress_over_angle.png"
+        fe.pictures.stress_over_angle(accepted, path)
+        for position in accepted:
+            position["files"]["stress_over_angle"] = str(path)
+
+
+def _write(options, positions):
+    whole = {"schema": positions[0]["schema"], "torque_nm": options.torque_nm, "points": positions}
+    if options.json:
+        write_json(options.json, positions[0] if len(positions) == 1 else whole)
+    else:
+        write_text("-", "".join(map(_page, positions)))
+
+
+def _page(position):
+    lines = [
+        f"{position['torque_nm']:g} N m on the {position['torque_on']}, pinion at {position['pinion_angle_deg']:.6g} deg: "
+        f"{position['elements']} elements, {position['nodes']} nodes"
+    ]
+    for name, check in position["gate"].items():
+        value = "no value" if check["value"] is None else f"{check['value']:.4g}"
+        lines.append(f"  gate {name:<24} {value:>10}  limit {check['limit']:<8g} {'held' if check['held'] else 'MISSED'}")
+    for pair in position["pairs"]:
+        lines.append(
+            f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, contact pressure {pair['peak_pressure_mpa']:.5g} MPa, "
+            f"von Mises below the surface {pair['subsurface_von_mises_mpa']:.5g} MPa"
+        )
+    for name, stress in (position["bending"] or {}).items():
+        lines.append(
+            f"  fillets of the {name}: von Mises {stress['von_mises_mpa']:.5g} MPa, "
+            f"largest principal {stress['max_principal_mpa']:.5g} MPa"
+        )
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,55 @@
+"""Options and steps that the commands of loaded contact share."""
+
+import numpy as np
+
+from meshwright.commands import options as common
+from meshwright.errors import UsageError
+
+#: Pairs that can share the load at once, and the member whose torque is usually stated, by family.
+PAIRS = {"spherical": 3, "face-worm": 5}
+STATED_TORQUE = {"spherical": "pinion", "face-worm": "wheel"}
+
+
+def add_arguments(parser):
+    common.add_design(parser)
+    parser.add_argument("--torque-nm", type=float, required=True, metavar="T", help="torque, N m, above zero")
+    parser.add_argument(
+        "--torque-on", choices=("pinion", "wheel"), help="whose torque; default: wheel of a worm gear, else pinion"
+    )
+    parser.add_argument("--pairs", type=int, metavar="N", help="tooth pairs modelled; default: as many as can share")
+    parser.add_argument("--rim-mm", type=float, metavar="MM", help="depth of the rim below the root; default 4.5 modules")
+
+
+def finite_elements():
+    """The package of loaded contact, whose libraries are an extra."""
+    try:
+        from meshwright import fe
+        from meshwright.fe import analysis, compliance, loaded, model, pictures, solids, solver
+    except ModuleNotFoundError as error:
+        raise UsageError(
+            f"{error.name} is not installed; `pip install 'meshwright[fe,plot]'` brings it"
+        ) from error
+    assert analysis and compliance and loaded and model and pictures and solids and solver
+    return fe
+
+
+def loaded_gears(fe, options):
+    """(drive, gear pair, load, pairs) that the options ask for."""
+    if not (np.isfinite(options.torque_nm) and options.torque_nm > 0.0):
+        raise UsageError(f"--torque-nm {options.torque_nm:g}: the torque must be above zero; --torque-on says on what")
+    if options.pairs is not None and not 1 <= options.pairs <= 9:
+        raise UsageError(f"--pairs {options.pairs}: choose 1 to 9 pairs")
+    drive = common.drive_of(options)
+    gear = fe.solids.gear_pair(drive, options.rim_mm)
+    member = options.torque_on or STATED_TORQUE[drive.design.family]
+    load = fe.model.Load(1000.0 * options.torque_nm, member)
+    return drive, gear, load, options.pairs or PAIRS[drive.design.family]
+
+
+def compliances(fe, gear, step):
+    """Smooth tooth compliance of both members."""
+    found = {}
+    for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel)):
+        step(f"teeth of the {name}")
+        found[name] = fe.compliance.tooth_compliance(member)
+    return found

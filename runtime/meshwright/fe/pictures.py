@@ -1,0 +1,128 @@
+"""Pictures of a solved position: mesh with von Mises stress, pressure over the flanks, stress over the pinion angle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from meshwright.fe.hexahedra import FACES, Floats, HexMesh, Ints
+from meshwright.fe.material import von_mises
+from meshwright.fe.model import BodyName, PairModel
+from meshwright.fe.stress import Solution
+
+_DPI = 150
+_COLOURS = "viridis"
+
+
+def draw(model: PairModel, solution: Solution, folder: Path) -> dict[str, str]:
+    """Draw mesh with stress of both bodies and the pressures; returns the files by name."""
+    files = {}
+    for name in model.bodies:
+        files[f"von_mises_{name}"] = folder / f"von_mises_{name}.png"
+        _von_mises(model, solution, name).savefig(files[f"von_mises_{name}"], dpi=_DPI)
+    files["pressure"] = folder / "pressure.png"
+    _pressure(model, solution).savefig(files["pressure"], dpi=_DPI)
+    return {name: str(path) for name, path in files.items()}
+
+
+def stress_over_angle(positions: list[dict], path: Path) -> None:
+    """Contact and bending stress of ``meshwright.fe/1`` positions over the pinion angle."""
+    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    contact, bending = figure.subplots(2, 1, sharex=True)
+    ordered = sorted(positions, key=lambda position: position["pinion_angle_deg"])
+    angles = [position["pinion_angle_deg"] for position in ordered]
+    for key, label in (("peak_pressure_mpa", "pressure"), ("subsurface_von_mises_mpa", "von Mises below the surface")):
+        contact.plot(angles, [max(pair[key] for pair in p["pairs"]) for p in ordered], "o-", label=label)
+    for name in ("pinion", "wheel"):
+        values = [position["bending"][name]["max_principal_mpa"] for position in ordered]
+        bending.plot(angles, values, "o-", label=f"{name}, largest principal")
+    for axes, title in ((contact, "contact stress"), (bending, "stress in the fillets")):
+        axes.set(ylabel=f"{title} / MPa", ylim=(0.0, None))
+        axes.grid(alpha=0.3)
+        axes.legend()
+    bending.set_xlabel("pinion angle / deg")
+    figure.savefig(path, dpi=_DPI)
+
+
+def boundary(mesh: HexMesh) -> Ints:
+    """Nodes (F, 4) of the faces that belong to one element only."""
+    quads = mesh.elements[:, FACES].reshape(-1, 4)
+    _, first, counts = np.unique(np.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
+    return quads[first[counts == 1]]
+
+
+def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
+    mesh = model.deck.part(name.upper()).mesh
+    stress = von_mises(solution.stresses[name])
+    quads = boundary(mesh)
+    values = stress[quads].mean(axis=1)
+    figure = Figure(figsize=(8.0, 6.5), layout="constrained")
+    axes = figure.add_subplot(projection="3d")
+    # The contact is a small bright spot: the scale ends where the fillets are still told apart.
+    scale = Normalize(0.0, 1.5 * solution.bending[name].von_mises)
+    colours = ScalarMappable(scale, _COLOURS)
+    faces = Poly3DCollection(mesh.nodes[quads], facecolors=colours.to_rgba(values), edgecolors="0.25", linewidths=0.1)
+    axes.add_collection3d(faces)
+    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(high - low)
+    axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
+    axes.view_init(*_view(model, name))
+    bar = figure.colorbar(colours, ax=axes, shrink=0.7, extend="max")
+    bar.set_label(f"von Mises stress / MPa (largest on the surface {values.max():.0f})")
+    axes.set_title(f"{name}, {_position(model)}")
+    return figure
+
+
+def _view(model: PairModel, name: BodyName) -> tuple[float, float]:
+    """Elevation and azimuth in degrees that look at the flanks in contact from their side."""
+    normal = model.frame[:3, :3] @ model.contacts[0].touch.normal
+    outward = normal if name == "pinion" else -normal
+    return 35.0, float(np.degrees(np.arctan2(outward[1], outward[0])))
+
+
+def _pressure(model: PairModel, solution: Solution) -> Figure:
+    loaded = [k for k, (_, values) in enumerate(solution.pressures) if values.max() > 0.0]
+    figure = Figure(figsize=(7.0, 2.8 * len(loaded) + 0.5), layout="constrained")
+    peak = max(solution.pressures[k][1].max() for k in loaded)
+    for axes, k in zip(figure.subplots(len(loaded), 1, squeeze=False)[:, 0], loaded, strict=True):
+        drawn = _flank_pressure(axes, model, solution, k, peak)
+    bar = figure.colorbar(drawn, ax=figure.axes)
+    bar.set_label("contact pressure / MPa")
+    figure.suptitle(_position(model))
+    return figure
+
+
+def _flank_pressure(axes: Axes, model: PairModel, solution: Solution, number: int, peak: float) -> ScalarMappable:
+    pair = model.deck.contacts[number]
+    mesh = model.deck.part(pair.slave_part).mesh
+    quads = mesh.face_nodes(pair.slave)
+    nodes, values = solution.pressures[number]
+    touch = model.contacts[number].touch
+    rotation = model.frame[:3, :3]
+    centre = rotation @ touch.point + model.frame[:3, 3]
+    plane = np.stack([touch.major_direction, np.cross(touch.normal, touch.major_direction)]) @ rotation.T
+    local: Floats = (mesh.nodes - centre) @ plane.T
+    field = np.zeros(len(mesh.nodes))
+    field[nodes] = values
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    drawn = axes.tripcolor(*local.T, triangles, field, shading="gouraud", vmin=0.0, vmax=peak, cmap=_COLOURS)
+    axes.triplot(*local.T, triangles, color="white", linewidth=0.1)
+    axes.set(
+        xlabel="along the major axis / mm",
+        ylabel="along the minor axis / mm",
+        title=f"pair {model.contacts[number].pairs_later:+d}: largest pressure {values.max():.0f} MPa",
+        aspect="equal",
+    )
+    return drawn
+
+
+def _position(model: PairModel) -> str:
+    torque = f"{model.load.torque / 1000.0:g} N m on the {model.load.member}"
+    return f"pinion at {np.degrees(model.angles['pinion']):.3f} deg, {torque}"
