@@ -1,7 +1,6 @@
 """The solver: tests that need it are skipped, and say so, where it cannot be had."""
 
 import pytest
-
 from meshwright.fe.solver import INSTALL_HINT, find_ccx
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import ToothForm, ToothSide
 
@@ -24,6 +23,7 @@ class SphericalGear:
     bore: float = 12.5
     flank: int = 1
     tool_tip: float = 0.38
+    dedendum: float = 1.25
 
     @property
     def r(self):
@@ -32,7 +32,7 @@ class SphericalGear:
     @property
     def junction_x(self):
         """Rack section height at which the edge meets the tip arc."""
-        return -1.25 * self.module + self.tool_tip * self.module * (1.0 - np.sin(self.alpha))
+        return -self.dedendum * self.module + self.tool_tip * self.module * (1.0 - np.sin(self.alpha))
 
     def _section_profile(self, x, y, nx, ny, theta):
         s, sigma, radius = self.flank, self.sigma, self.radius
@@ -75,7 +75,9 @@ class SphericalGear:
         return r + big - np.sqrt((big - a) ** 2 - z**2)
 
     def side(self):
-        flank = SectionCurves(self.flank_surface, lambda p: p[..., 2], lambda z: np.full_like(z, self.junction_x), self._tip)
+        flank = SectionCurves(
+            self.flank_surface, lambda p: p[..., 2], lambda z: np.full_like(z, self.junction_x), self._tip
+        )
         fillet = SectionCurves(
             self.fillet_surface,
             lambda p: p[..., 2],

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from spherical_gear import SphericalGear
-
 from meshwright.fe.material import Material
 from meshwright.fe.pair import GearPair, Member, Touch
+from spherical_gear import SphericalGear
 
 STEEL = Material(205000.0, 0.29)  # AISI 1045 of the spherical report, table 4.1
 
@@ -42,7 +41,10 @@ def spherical_pair(pinion: SphericalGear, wheel: SphericalGear, material: Materi
         face = [g.sigma * np.sin(alpha) / g.radius if g.sigma else 0.0 for g in (pinion, wheel)]
         if along * np.sin(alpha) > 0.98 * pinion.module or -along * np.sin(alpha) > 0.98 * pinion.module:
             return None
-        bends = [f / (1.0 + g.sigma * h / g.radius) for f, g, h in zip(face, (pinion, wheel), (along * np.sin(alpha), -along * np.sin(alpha)), strict=True)]
+        bends = [
+            f / (1.0 + g.sigma * h / g.radius)
+            for f, g, h in zip(face, (pinion, wheel), (along * np.sin(alpha), -along * np.sin(alpha)), strict=True)
+        ]
         return Touch(
             angle,
             angle * pinion.teeth / wheel.teeth,

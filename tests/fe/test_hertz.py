@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad
-
 from meshwright.fe.hertz import axis_ratio, elliptic_contact, line_contact
 from meshwright.fe.material import Material, contact_modulus, max_principal, von_mises
+from scipy.integrate import dblquad
 
 STEEL = Material(205000.0, 0.29)
 MODULUS = contact_modulus(STEEL, STEEL)
@@ -15,7 +14,9 @@ FORCE = 100e3 / (66 * np.cos(ALPHA))
 
 
 @pytest.mark.parametrize(
-    ("sigma", "pressure", "stress"), [(-1, 1054, 604), (0, 1364, 801), (1, 1542, 918)], ids=["concave", "spur", "convex"]
+    ("sigma", "pressure", "stress"),
+    [(-1, 1054, 604), (0, 1364, 801), (1, 1542, 918)],
+    ids=["concave", "spur", "convex"],
 )
 def test_pitch_point_of_spherical_pairs(sigma, pressure, stress):
     """Convex pinion, 33/47 teeth, 100 N m: peak pressure and subsurface von Mises stress to the printed digits."""
@@ -47,7 +48,7 @@ def test_sphere_is_approached_continuously():
 
 
 def test_a_long_ellipse_is_locally_a_line():
-    """A very long ellipse has at its centre the pressure and width of the line contact with the same load per length."""
+    """A very long ellipse is at its centre the line contact with the same load per length."""
     contact = elliptic_contact(1000.0, 1e-9, 0.1, MODULUS, 0.29)
     per_length = 0.5 * np.pi * contact.peak_pressure * contact.semi_minor
     line = line_contact(per_length, 0.1, MODULUS, 0.29)
@@ -72,7 +73,9 @@ def test_subsurface_stress_against_boussinesq(ratio):
 
     def lateral(x, y):
         big, flat = np.sqrt(x * x + y * y + z * z), x * x + y * y
-        return (1 - 2 * nu) / flat * ((1 - z / big) * (x * x - y * y) / flat + z * y * y / big**3) - 3 * z * x * x / big**5
+        return (1 - 2 * nu) / flat * (
+            (1 - z / big) * (x * x - y * y) / flat + z * y * y / big**3
+        ) - 3 * z * x * x / big**5
 
     stress = [
         integral(lateral),

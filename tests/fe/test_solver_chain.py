@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from blocks_in_contact import block, graded_lengths, press
-
 from meshwright.fe.blocks import Block
 from meshwright.fe.deck import Deck, Part, Support, write
 from meshwright.fe.hertz import elliptic_contact, line_contact
@@ -18,7 +17,7 @@ STEEL = Material(205000.0, 0.29)
 MODULUS = contact_modulus(STEEL, STEEL)
 
 # R. H. MacNeal and R. L. Harder, A proposed standard set of problems to test finite element accuracy (1985), patch
-# test for solids: inner nodes, displacements 1e-3 (2x+y+z, x+2y+z, x+y+2z)/2, E = 1e6, nu = 0.25, stresses 2000 and 400.
+# test for solids: inner nodes, displacements 1e-3 (2x+y+z, x+2y+z, x+y+2z)/2, E = 1e6, nu = 0.25.
 PATCH_INNER = np.array(
     [
         [0.249, 0.342, 0.192],

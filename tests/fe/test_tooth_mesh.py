@@ -2,14 +2,15 @@
 
 import numpy as np
 import pytest
-from spherical_gear import SphericalGear
-
 from meshwright.fe.body import PlacedTooth, mesh_body
 from meshwright.fe.hexahedra import FACES
 from meshwright.fe.tooth import ContactZone, MeshDensity, face_rows, mesh_tooth
+from spherical_gear import SphericalGear
 
 PINION = SphericalGear(33, 1, 66.0)
-WHEELS = {name: SphericalGear(47, sigma, 94.0, bore=15.0) for name, sigma in (("concave", -1), ("spur", 0), ("convex", 1))}
+WHEELS = {
+    name: SphericalGear(47, sigma, 94.0, bore=15.0) for name, sigma in (("concave", -1), ("spur", 0), ("convex", 1))
+}
 GEARS = [PINION, *WHEELS.values()]
 DENSITY = MeshDensity()
 

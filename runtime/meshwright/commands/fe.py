@@ -32,7 +32,9 @@ def run(options):
     angles = common.angles(options.phi_deg)
     for angle in angles:
         if not fe.pair.touches(gear, angle, pairs):
-            raise UsageError(f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; `meshwright ratio` says where")
+            raise UsageError(
+                f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; `meshwright ratio` says where"
+            )
     settings = fe.analysis.Settings(pairs, options.time_limit_s, options.threads)
     ccx = fe.solver.find_ccx()
     if ccx is None:
@@ -85,15 +87,19 @@ def _write(options, positions):
 
 def _page(position):
     lines = [
-        f"{position['torque_nm']:g} N m on the {position['torque_on']}, pinion at {position['pinion_angle_deg']:.6g} deg: "
+        f"{position['torque_nm']:g} N m on the {position['torque_on']}, "
+        f"pinion at {position['pinion_angle_deg']:.6g} deg: "
         f"{position['elements']} elements, {position['nodes']} nodes"
     ]
     for name, check in position["gate"].items():
         value = "no value" if check["value"] is None else f"{check['value']:.4g}"
-        lines.append(f"  gate {name:<24} {value:>10}  limit {check['limit']:<8g} {'held' if check['held'] else 'MISSED'}")
+        lines.append(
+            f"  gate {name:<24} {value:>10}  limit {check['limit']:<8g} {'held' if check['held'] else 'MISSED'}"
+        )
     for pair in position["pairs"]:
         lines.append(
-            f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, contact pressure {pair['peak_pressure_mpa']:.5g} MPa, "
+            f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, "
+            f"contact pressure {pair['peak_pressure_mpa']:.5g} MPa, "
             f"von Mises below the surface {pair['subsurface_von_mises_mpa']:.5g} MPa"
         )
     for name, stress in (position["bending"] or {}).items():

@@ -90,9 +90,7 @@ class _Footprint:
         return _Footprint(points @ rotation.T + pose[:3, 3], inside, place)
 
 
-def _pierce(
-    curves: SectionCurves, faces: tuple[float, float], feet: Floats, plane: Floats
-) -> tuple[Floats, Floats]:
+def _pierce(curves: SectionCurves, faces: tuple[float, float], feet: Floats, plane: Floats) -> tuple[Floats, Floats]:
     """Surface parameters (N,), (N,) with tangent-plane coordinates equal to those of ``feet`` (N, 3)."""
     profile, face = (np.full(len(feet), value) for value in _nearest(curves, faces, feet.mean(axis=0)))
     tangents = plane[:2]

@@ -104,9 +104,7 @@ def loaded_contact(
     return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag)
 
 
-def _grid(
-    gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float, cells: int
-) -> ContactGrid:
+def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float, cells: int) -> ContactGrid:
     ellipse = hertz_of(gear, contact, force)
     return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
 

@@ -38,8 +38,9 @@ class PairModel:
     """A deck in the frame of the loaded member (its axis is z) and what is needed to read its results.
 
     orders: which pair (``pairs_later``) each tooth of a body belongs to.  frame: 4 x 4 motion from the fixed frame to
-    that of the deck.  angles: angle of each member.  hertz: for each pair the contact under the force its mesh was graded to.  start_rotation: rotation in rad
-    about +z of the loaded member from the first unloaded touch to the overlap at which the analysis starts.
+    that of the deck.  angles: angle of each member.  hertz: for each pair the contact under
+    the force its mesh was graded to.  start_rotation: rotation in rad about +z of the loaded member from the first
+    unloaded touch to the overlap at which the analysis starts.
     direction: +1 or -1, sign of the torque about +z.
     """
 
@@ -168,9 +169,7 @@ def _contact_pairs(
         flank = f"flank_{member.working}"
         faces[name] = {later: bodies[name].teeth[place][flank] for place, later in enumerate(orders[name])}
     return tuple(
-        ContactPair(
-            f"PAIR{number}", "PINION", faces["pinion"][c.pairs_later], "WHEEL", faces["wheel"][c.pairs_later]
-        )
+        ContactPair(f"PAIR{number}", "PINION", faces["pinion"][c.pairs_later], "WHEEL", faces["wheel"][c.pairs_later])
         for number, c in enumerate(contacts, start=1)
     )
 

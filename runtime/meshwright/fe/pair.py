@@ -18,7 +18,7 @@ class Member:
     """Pinion (worm) or wheel.
 
     working: the tooth side in contact.  pose: member angle in rad to the 4 x 4 motion from the body frame to the
-    fixed frame; the member's axis is the z axis of its body frame.  pitch: angle between successive teeth, 2 pi / teeth.
+    fixed frame; the member's axis is the z axis of its body frame.  pitch: angle between successive teeth.
     turning: +1 if a growing member angle turns the body about +z of its own frame, -1 if about -z.
     """
 

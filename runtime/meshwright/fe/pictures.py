@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -58,7 +59,7 @@ def boundary(mesh: HexMesh) -> Ints:
 
 
 def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
-    mesh = model.deck.part(name.upper()).mesh
+    mesh = _loaded_teeth(model, name)
     stress = von_mises(solution.stresses[name])
     quads = boundary(mesh)
     values = stress[quads].mean(axis=1)
@@ -69,30 +70,56 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     colours = ScalarMappable(scale, _COLOURS)
     faces = Poly3DCollection(mesh.nodes[quads], facecolors=colours.to_rgba(values), edgecolors="0.25", linewidths=0.1)
     axes.add_collection3d(faces)
-    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+    low, high = mesh.nodes[quads].min(axis=(0, 1)), mesh.nodes[quads].max(axis=(0, 1))
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(high - low)
     axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
     axes.view_init(*_view(model, name))
     bar = figure.colorbar(colours, ax=axes, shrink=0.7, extend="max")
     bar.set_label(f"von Mises stress / MPa (largest on the surface {values.max():.0f})")
-    axes.set_title(f"{name}, {_position(model)}")
+    axes.set_title(f"von Mises stress of the {name}; {_position(model)}")
     return figure
 
 
+def _loaded_teeth(model: PairModel, name: BodyName) -> HexMesh:
+    """The body without its idle teeth, which would hide the loaded flanks."""
+    mesh = model.deck.part(name.upper()).mesh
+    touching = {contact.pairs_later for contact in model.contacts}
+    count = len(mesh.elements)
+    starts = [int(min(faces.elements.min() for faces in tooth.values())) for tooth in model.bodies[name].teeth]
+    ends = [*starts[1:], count]
+    keep = [
+        np.arange(start, end)
+        for start, end, later in zip(starts, ends, model.orders[name], strict=True)
+        if later in touching
+    ]
+    return HexMesh(mesh.nodes, mesh.elements[np.concatenate(keep)])
+
+
 def _view(model: PairModel, name: BodyName) -> tuple[float, float]:
-    """Elevation and azimuth in degrees that look at the flanks in contact from their side."""
-    normal = model.frame[:3, :3] @ model.contacts[0].touch.normal
+    """Elevation and azimuth in degrees that look at the flanks in contact, a little from the tip."""
+    rotation = model.frame[:3, :3]
+    normal = rotation @ model.contacts[0].touch.normal
     outward = normal if name == "pinion" else -normal
-    return 35.0, float(np.degrees(np.arctan2(outward[1], outward[0])))
+    mesh = model.deck.part(name.upper()).mesh
+    up = rotation @ model.contacts[0].touch.point + model.frame[:3, 3] - mesh.nodes.mean(axis=0)
+    across = up - (up @ outward) * outward
+    sight = outward + 0.5 * across / np.linalg.norm(across)
+    return 20.0, float(np.degrees(np.arctan2(sight[1], sight[0])))
 
 
 def _pressure(model: PairModel, solution: Solution) -> Figure:
+    """Each loaded pair in a row: the whole flank, and its contact zone magnified."""
     loaded = [k for k, (_, values) in enumerate(solution.pressures) if values.max() > 0.0]
-    figure = Figure(figsize=(7.0, 2.8 * len(loaded) + 0.5), layout="constrained")
+    figure = Figure(figsize=(10.0, 3.2 * len(loaded) + 0.6), layout="constrained")
     peak = max(solution.pressures[k][1].max() for k in loaded)
-    for axes, k in zip(figure.subplots(len(loaded), 1, squeeze=False)[:, 0], loaded, strict=True):
-        drawn = _flank_pressure(axes, model, solution, k, peak)
+    for (whole, zone), k in zip(figure.subplots(len(loaded), 2, squeeze=False), loaded, strict=True):
+        title = f"pair {model.contacts[k].pairs_later:+d}: largest pressure {solution.pressures[k][1].max():.0f} MPa"
+        drawn = _flank_pressure(whole, model, solution, k, peak)
+        whole.set(aspect="equal", title="pinion flank", ylabel="along the minor axis / mm")
+        _flank_pressure(zone, model, solution, k, peak)
+        reach = 1.6 * np.array([model.hertz[k].semi_major, model.hertz[k].semi_minor])
+        zone.set(xlim=(-reach[0], reach[0]), ylim=(-reach[1], reach[1]), title=title)
     bar = figure.colorbar(drawn, ax=figure.axes)
     bar.set_label("contact pressure / MPa")
     figure.suptitle(_position(model))
@@ -113,13 +140,11 @@ def _flank_pressure(axes: Axes, model: PairModel, solution: Solution, number: in
     field[nodes] = values
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     drawn = axes.tripcolor(*local.T, triangles, field, shading="gouraud", vmin=0.0, vmax=peak, cmap=_COLOURS)
-    axes.triplot(*local.T, triangles, color="white", linewidth=0.1)
-    axes.set(
-        xlabel="along the major axis / mm",
-        ylabel="along the minor axis / mm",
-        title=f"pair {model.contacts[number].pairs_later:+d}: largest pressure {values.max():.0f} MPa",
-        aspect="equal",
-    )
+    edges = local[quads][:, [0, 1, 2, 3, 0]]
+    axes.add_collection(LineCollection(edges, colors="white", linewidths=0.15))
+    axes.set_xlabel("along the major axis / mm")
+    flank = local[np.unique(quads)]
+    axes.set(xlim=(flank[:, 0].min(), flank[:, 0].max()), ylim=(flank[:, 1].min(), flank[:, 1].max()))
     return drawn
 
 

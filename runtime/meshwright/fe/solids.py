@@ -82,7 +82,9 @@ def _member(drive: Drive, name: MemberName, form: ToothForm, material: Material)
     turned = angles if name == "pinion" else found.wheel_angles
     start, end = placements(drive, angles).matrices[name]
     if not np.all(np.isfinite([start, end])):
-        raise DesignError("design", drive.design.tables["name"], "no contact at a pinion angle of 0", "check the design")
+        raise DesignError(
+            "design", drive.design.tables["name"], "no contact at a pinion angle of 0", "check the design"
+        )
     step = start[:3, :3].T @ end[:3, :3]
     turning = 1 if (step[1, 0] > 0.0) == (turned[1] > turned[0]) else -1
     zero = start @ _about_z(-turning * turned[0])

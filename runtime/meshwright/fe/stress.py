@@ -90,9 +90,7 @@ def _pressures(model: PairModel, field: NodalField, number: int) -> tuple[Ints, 
     return nodes, np.nan_to_num(field.at(nodes + model.deck.first_node(pair.slave_part))[:, column])
 
 
-def _pair(
-    model: PairModel, number: int, pressure: tuple[Ints, Floats], stresses: dict[BodyName, Floats]
-) -> PairStress:
+def _pair(model: PairModel, number: int, pressure: tuple[Ints, Floats], stresses: dict[BodyName, Floats]) -> PairStress:
     pair, hertz = model.deck.contacts[number], model.hertz[number]
     mesh = model.deck.part(pair.slave_part).mesh
     quads = mesh.face_nodes(pair.slave)

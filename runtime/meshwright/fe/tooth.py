@@ -176,14 +176,9 @@ def _zone_centres(zone: ContactZone, rail: Rail) -> Floats:
     return fraction[held]
 
 
-def _even_rows(
-    zone: ContactZone | None, form: ToothForm, rails: dict[str, _SideRails], density: MeshDensity
-) -> Floats:
+def _even_rows(zone: ContactZone | None, form: ToothForm, rails: dict[str, _SideRails], density: MeshDensity) -> Floats:
     """Fractions (K, J) of even rows, as many as the loaded side has."""
-    if zone is None:
-        count = density.coarse_rows[1]
-    else:
-        count = _zone_rows(zone, rails[zone.side].flank, density).shape[1] - 1
+    count = density.coarse_rows[1] if zone is None else _zone_rows(zone, rails[zone.side].flank, density).shape[1] - 1
     sections = len(rails["left"].flank.values)
     return np.broadcast_to(np.linspace(0.0, 1.0, count + 1), (sections, count + 1))
 
@@ -263,7 +258,8 @@ def _assemble(s: _Sections, density: MeshDensity) -> ToothMesh:
         "flank_left": _rows(side("tooth", "i0"), blocks["tooth"], rows, None),
         "flank_right": _rows(side("tooth", "i1"), blocks["tooth"], rows, None),
         "fillet_left": _joined(
-            _rows(side("tooth", "i0"), blocks["tooth"], 0, rows), _rows(side("left_rim", "j1"), blocks["left_rim"], land, None)
+            _rows(side("tooth", "i0"), blocks["tooth"], 0, rows),
+            _rows(side("left_rim", "j1"), blocks["left_rim"], land, None),
         ),
         "fillet_right": _joined(
             _rows(side("tooth", "i1"), blocks["tooth"], 0, rows),

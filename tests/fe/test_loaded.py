@@ -1,0 +1,148 @@
+"""Semi-analytic loaded contact and its parts against closed forms."""
+
+import json
+
+import numpy as np
+import pytest
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.fe.blocks import Block
+from meshwright.fe.compliance import tooth_compliance
+from meshwright.fe.elastic import assemble, factorise
+from meshwright.fe.halfspace import influence_matrix, mean_displacement, rectangle_displacement
+from meshwright.fe.hexahedra import nodal_areas
+from meshwright.fe.loaded import loaded_contact
+from meshwright.fe.material import Material
+from meshwright.fe.model import Load
+from meshwright.fe.solids import gear_pair
+from test_solver_chain import linear_field, macneal_harder_patch
+
+TORQUE = Load(100e3, "pinion")
+MATES = {"concave": 1054, "spur": 1364, "convex": 1542}
+
+
+@pytest.fixture(scope="module")
+def concave():
+    return gear_pair(Drive.load("spherical-table-4-4-concave"))
+
+
+@pytest.fixture(scope="module")
+def compliance(concave):
+    return {name: tooth_compliance(getattr(concave, name)) for name in ("pinion", "wheel")}
+
+
+def test_square_under_uniform_pressure():
+    """Centre 8 ln(1 + sqrt 2) a/(pi E'), corner half of it; far away that of a point force."""
+    centre = rectangle_displacement(np.array([0.0, 1.0, 300.0]), np.array([0.0, 1.0, 400.0]), 1.0, 1.0, 2.0)
+    assert centre[0] == pytest.approx(8 * np.log(1 + np.sqrt(2)) / (2 * np.pi), rel=1e-14)
+    assert centre[1] == pytest.approx(centre[0] / 2, rel=1e-14)
+    assert centre[2] == pytest.approx(4 / (np.pi * 2 * 500), rel=1e-5)
+
+
+def test_mean_displacement_of_a_loaded_square():
+    """Mean 0.473 side p/E'·2 of a uniformly loaded square (Timoshenko and Goodier, 0.95 p sqrt(A)/E')."""
+    mean = mean_displacement(np.zeros(1), np.zeros(1), 0.5, 0.5, 1.0)
+    assert mean[0] == pytest.approx(0.95, abs=0.005)
+
+
+def test_influence_is_symmetric():
+    centres = np.random.default_rng(1).uniform(-1, 1, (20, 2))
+    matrix = influence_matrix(centres, 0.1, 0.05, 1e5)
+    assert np.abs(matrix - matrix.T).max() < 1e-20
+
+
+def test_elements_pass_the_patch_test():
+    """No inner nodal forces under a linear field on the standard patch of irregular hexahedra."""
+    mesh, _ = macneal_harder_patch()
+    forces = (assemble(mesh, Material(1e6, 0.25)) @ linear_field(mesh.nodes).ravel()).reshape(-1, 3)
+    assert np.abs(forces[:8]).max() < 1e-12 * np.abs(forces).max()
+
+
+def test_cantilever():
+    """Tip deflection of a slender beam, two elements deep: F L^3/3EI with the shear term, within 1 %."""
+    length, side, force, steel = 20.0, 1.0, 1.0, Material(2e5, 0.3)
+    points = np.stack(
+        np.meshgrid(np.linspace(0, length, 41), np.linspace(0, side, 3), np.linspace(0, side, 3), indexing="ij"),
+        axis=-1,
+    )
+    block = Block(points)
+    mesh = block.mesh()
+    nodes, areas = nodal_areas(mesh.nodes, mesh.face_nodes(block.side("i1")))
+    loads = np.zeros((len(mesh.nodes), 3, 1))
+    loads[nodes, 1, 0] = force * areas[:, 0] / areas[:, 0].sum()
+    body = factorise(mesh, steel, np.unique(mesh.face_nodes(block.side("i0"))))
+    deflection = body.displacements(loads)[nodes, 1, 0].mean()
+    shear = 1.2 * force * length / (steel.youngs_modulus / 2.6 * side**2)
+    assert deflection == pytest.approx(force * length**3 / (3 * steel.youngs_modulus * side**4 / 12) + shear, rel=0.01)
+
+
+@pytest.mark.parametrize("mate", MATES)
+def test_half_spaces_give_hertz(mate):
+    """Rigid teeth with elastic half-spaces: Hertz pressure and approach at the pitch point."""
+    gear = gear_pair(Drive.load(f"spherical-table-4-4-{mate}"))
+    found = loaded_contact(gear, 0.0, 1, TORQUE, None)
+    (pair,) = found.pairs
+    arm = 66.0 * np.cos(np.radians(20.0))
+    assert pair.force == pytest.approx(100e3 / arm, rel=1e-3)
+    assert pair.peak_pressure == pytest.approx(MATES[mate], rel=2e-3)
+    assert pair.hertz.peak_pressure == pytest.approx(MATES[mate], rel=1e-3)
+    assert found.rotation * arm == pytest.approx(pair.hertz.approach, rel=3e-3)
+
+
+def test_two_pairs_share_the_torque(concave, compliance):
+    """Moments add up to the torque; the driven wheel lags; two pairs are stiffer than one."""
+    both = loaded_contact(concave, 0.35 * concave.pinion.pitch, 3, TORQUE, compliance)
+    one = loaded_contact(concave, 0.0, 3, TORQUE, compliance)
+    arm = 66.0 * np.cos(np.radians(20.0))
+    assert len(both.pairs) == 2 and len(one.pairs) == 1
+    assert sum(pair.force for pair in both.pairs) * arm == pytest.approx(TORQUE.torque, rel=1e-3)
+    assert both.mesh_stiffness > 1.3 * one.mesh_stiffness
+    assert one.transmission_error == pytest.approx(-concave.ratio * one.rotation, rel=1e-6)
+
+
+def test_teeth_are_softer_than_half_spaces(concave, compliance):
+    with_teeth = loaded_contact(concave, 0.0, 1, TORQUE, compliance)
+    without = loaded_contact(concave, 0.0, 1, TORQUE, None)
+    assert with_teeth.rotation > 1.1 * without.rotation
+    assert with_teeth.pairs[0].peak_pressure == pytest.approx(without.pairs[0].peak_pressure, rel=5e-3)
+
+
+def test_torque_on_either_member(concave):
+    """Equal moments on either axis give the same pressure, and rotations in the ratio of the teeth."""
+    on_pinion = loaded_contact(concave, 0.0, 1, Load(100e3, "pinion"), None)
+    on_wheel = loaded_contact(concave, 0.0, 1, Load(100e3 * 47 / 33, "wheel"), None)
+    assert on_wheel.pairs[0].peak_pressure == pytest.approx(on_pinion.pairs[0].peak_pressure, rel=1e-4)
+    assert on_wheel.transmission_error == pytest.approx(on_pinion.transmission_error, rel=1e-3)
+
+
+def test_command(capsys):
+    status = main(["loaded", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg=0,3,40", "--json", "-"])
+    document = json.loads(capsys.readouterr().out)
+    assert status == 1  # at 40 degrees the reference pair and its neighbours have left contact
+    assert document["schema"] == "meshwright.loaded/1"
+    single, double, none = document["points"]
+    assert set(single) >= {"pinion_angle_deg", "loaded_transmission_error_arcsec", "mesh_stiffness_n_per_um", "pairs"}
+    assert [pair["share"] for pair in single["pairs"]] == [1.0]
+    assert sum(pair["share"] for pair in double["pairs"]) == pytest.approx(1.0)
+    assert none["pairs"] == [] and none["loaded_transmission_error_arcsec"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--torque-nm", "0"], "--torque-nm"),
+        (["--torque-nm", "nan"], "--torque-nm"),
+        (["--torque-nm", "1", "--pairs", "0"], "--pairs"),
+        (["--torque-nm", "1", "--rim-mm", "99"], "--rim-mm"),
+        (["--torque-nm", "1", "--set", "material.poisson_ratio=0.5"], "material.poisson_ratio"),
+    ],
+)
+def test_bad_input(capsys, arguments, said):
+    assert main(["loaded", "spherical-table-4-4-concave", *arguments]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_line_contact_is_refused(capsys):
+    design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
+    assert main(["loaded", *design, "--torque-nm", "1"]) == 2
+    assert "design" in capsys.readouterr().err
