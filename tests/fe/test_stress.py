@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe import analysis
@@ -98,14 +97,12 @@ def turned(model, angle):
 
 
 def test_gate_refuses_garbage_with_a_good_return_code(ccx, concave, compliance, tmp_path):
-    """A solver that says "Job finished" and returns 0 with a rotation of 1.5e8 rad, as recorded from a mortar run."""
+    """ "Job finished", return code 0 and a rotation of 1.5e8 rad, which mortar runs from a gap have printed."""
     prepared, settings = prepared_at(concave, compliance, tmp_path, COARSE)
     run = run_ccx(ccx, prepared.input_file, LIMIT)
     dat = prepared.input_file.with_suffix(".dat")
     sound = dat.read_text().splitlines()
-    turned_row = next(
-        k for k, line in enumerate(sound) if "displacements" in line and "ROTATION_PINION" in line
-    ) + 2
+    turned_row = next(k for k, line in enumerate(sound) if "displacements" in line and "ROTATION_PINION" in line) + 2
     garbage = [*sound[:turned_row], sound[turned_row][:38] + "  1.500000E+08", *sound[turned_row + 1 :]]
     dat.write_text("\n".join(garbage) + "\n")
     document, solution = judge(prepared, run)
