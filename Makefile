@@ -9,7 +9,7 @@ OBJECTS := $(VENV)/objects
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate audit build check run lint test solver test-fe
+.PHONY: setup generate audit bench build check run lint test solver test-fe
 
 setup: $(READY)
 
@@ -69,3 +69,7 @@ test: build check solver
 # The longer finite-element validation.
 test-fe: build solver
 	$(PY) -m pytest tests/fe -m slow
+
+# Points a second of every kernel and of the baselines, in one table.
+bench: build
+	PYTHONPATH=.:tests $(PY) -m benchmarks.bench

@@ -63,15 +63,15 @@ static void predict(int nx, const double *phi, int uniform, size_t k, double *x)
     }
 }
 
-/* Newton in every lane until its step is small; a lane that is done keeps its numbers. Clears alive[l] where the
- * steps do not shrink. */
-static void newton(const mw_lane_model *k, int nx, const double *s, double *x, int *alive)
+/* Newton in every lane until its step is small; a lane that is done keeps its numbers. Returns 1 if one step was enough
+ * for all; else clears alive[l] where the steps do not shrink. */
+static int newton(const mw_lane_model *k, int nx, const double *s, double *x, int *alive)
 {
     double size[MW_LANES], previous[MW_LANES], before[MW_MAX_UNKNOWNS * MW_LANES];
     int open = 0;
     k->step(s, x, size);
-    for (int l = 0; l < MW_LANES; l++) open |= !(size[l] < MW_FUSED_TOLERANCE);
-    if (!open) return;
+    for (int l = 0; l < MW_LANES; l++) open += !(size[l] < MW_FUSED_TOLERANCE);
+    if (!open) return 1;
     int active[MW_LANES];
     for (int l = 0; l < MW_LANES; l++) {
         active[l] = alive[l] && !(size[l] < MW_FUSED_TOLERANCE);
@@ -80,7 +80,7 @@ static void newton(const mw_lane_model *k, int nx, const double *s, double *x, i
     for (int iteration = 2; iteration <= MW_MAX_FUSED; iteration++) {
         int any = 0;
         for (int l = 0; l < MW_LANES; l++) any |= active[l];
-        if (!any) return;
+        if (!any) return 0;
         memcpy(before, x, sizeof(double) * (size_t)nx * MW_LANES);
         memcpy(previous, size, sizeof size);
         k->step(s, x, size);
@@ -95,33 +95,47 @@ static void newton(const mw_lane_model *k, int nx, const double *s, double *x, i
     }
     for (int l = 0; l < MW_LANES; l++)
         if (active[l]) alive[l] = 0;
+    return 0;
 }
 
-/* Clears alive[l] where an unknown is outside the part on which its flank lies. */
-static void keep_within_bounds(const mw_model *m, const double *x, int *alive)
+/* How far the unknowns of each lane are inside the part on which the flanks lie; negative outside. */
+static int all_inside(const mw_model *m, const double *x, double *inside)
 {
-    for (int j = 0; j < m->nx; j++)
-        for (int l = 0; l < MW_LANES; l++)
-            alive[l] &= x[j * MW_LANES + l] >= m->unknowns[j].lower && x[j * MW_LANES + l] <= m->unknowns[j].upper;
+    int outside = 0;
+    for (int l = 0; l < MW_LANES; l++) inside[l] = HUGE_VAL;
+    for (int j = 0; j < m->nx; j++) {
+        const double *own = x + j * MW_LANES, lower = m->unknowns[j].lower, upper = m->unknowns[j].upper;
+        MW_LANE_LOOP {
+            const double above = own[l] - lower, below = upper - own[l];
+            const double least = above < below ? above : below;
+            inside[l] = least < inside[l] ? least : inside[l];
+        }
+    }
+    for (int l = 0; l < MW_LANES; l++) outside += inside[l] < 0.0;
+    return !outside;
 }
 
-static void follow(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
-                   double *x, size_t *solved)
+static void follow(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n,
+                   const double *start, double *x, size_t *solved)
 {
     const int nx = m->nx, uniform = equally_spaced(phi, n);
     const size_t size = (size_t)nx * MW_LANES;
+    double inside[MW_LANES];
     int alive[MW_LANES];
     for (int l = 0; l < MW_LANES; l++) {
         alive[l] = 1;
-        solved[l] = 0;
+        solved[l] = n;
     }
     for (size_t point = 0; point < n; point++, x += size) {
         if (point == 0) memcpy(x, start, sizeof(double) * size);
         else predict(nx, phi, uniform, point, x);
         k->set_phi(s, phi + point * MW_LANES);
-        newton(k, nx, s, x, alive);
-        keep_within_bounds(m, x, alive);
-        for (int l = 0; l < MW_LANES; l++) solved[l] += (size_t)alive[l];
+        const int quick = newton(k, nx, s, x, alive);
+        if (all_inside(m, x, inside) && quick) continue;
+        for (int l = 0; l < MW_LANES; l++) {
+            alive[l] &= !(inside[l] < 0.0);
+            if (!alive[l] && solved[l] == n) solved[l] = point;
+        }
     }
 }
 

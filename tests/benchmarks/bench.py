@@ -1,0 +1,208 @@
+"""``make bench``: points a second of every kernel in one table and one run.
+
+Quote ratios, not seconds: they are what one run on one machine can compare. Nothing here asserts a time. The baselines
+start each point from the one before; ``casadi-c-extrapolated`` starts from this runtime's own extrapolation.
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import casadi
+import numpy as np
+
+from benchmarks import baselines
+from benchmarks.timing import best, compile_c, compiler, instructions
+from derive import drives
+from derive.schedule import schedule
+from derive.tape import Stage
+from meshwright import Drive
+from meshwright._library import ffi, library
+
+ROOT = Path(__file__).resolve().parents[2]
+RUNTIME, GENERATED, HERE = ROOT / "runtime" / "c", ROOT / "generated" / "c", Path(__file__).parent
+
+#: Design, first angle and step (rad) of each drive; the recess-action drive first.
+CASES = (
+    ("recess-action-full", 0.3, 1.75e-3),
+    ("spherical-table-2-3", -0.1, 1e-5),
+    ("face-worm-cylindrical-convex", -1.0, 1e-4),
+)
+POINTS = 20000
+
+#: Floating-point operations of one sine and cosine together, branches of the selection not counted.
+SINCOS = 41
+
+
+@dataclass(frozen=True)
+class Case:
+    """A design traced over equally spaced angles: what every kernel solves."""
+
+    drive: Drive
+    angles: np.ndarray
+    points: np.ndarray
+
+    @property
+    def parameters(self):
+        return self.drive.design.parameters
+
+    @property
+    def start(self):
+        return self.points[0]
+
+    @property
+    def name(self):
+        return self.drive.design.description["name"]
+
+    def text(self):
+        numbers = [*self.parameters, self.angles[0], self.angles[1] - self.angles[0], *self.start]
+        return f"{len(self.parameters)} " + " ".join(repr(float(v)) for v in numbers)
+
+
+def case_of(design, first, step):
+    drive = Drive.load(design)
+    angles = first + step * np.arange(POINTS)
+    return Case(drive, angles, drive.trace(angles)[0])
+
+
+def _pointer(array, kind="double[]"):
+    return ffi.from_buffer(kind, array)
+
+
+def lane_points(case, width):
+    """Points a second of many designs over the same angles in lanes; None if this processor has none so wide."""
+    lanes, lib = library().mw_lanes(width), library()
+    if lanes == ffi.NULL:
+        return None
+    m, n, designs = case.drive.model, 250, POINTS // 250
+    parameters, angles = np.tile(case.parameters, (designs, 1)), case.angles[:n].copy()
+    start, work = case.start.copy(), np.empty(lib.mw_lanes_work(lanes, m, n))
+    x, status = np.empty((designs, n, m.nx)), np.empty((designs, n), dtype=np.int32)
+    arguments = (lanes, m, _pointer(parameters), designs, _pointer(angles), n, _pointer(start), _pointer(work))
+    seconds = best(lambda: lib.mw_trace_designs(*arguments, _pointer(x), _pointer(status, "int[]")), repeats=30)
+    assert not status.any()
+    return designs * n / seconds
+
+
+def _run(program, case, *arguments):
+    command = [str(program), *map(str, arguments)]
+    return float(subprocess.run(command, input=case.text(), capture_output=True, text=True, check=True).stdout.split()[0])
+
+
+def _counted(program, case, folder, *options):
+    """Instructions a point, from the difference of two runs."""
+    stdin = folder / "input"
+    stdin.write_text(case.text())
+    few, many = (instructions(stdin, program, n, *options) for n in (1000, 3000))
+    return None if few is None else (many - few) / 2000
+
+
+def scalar_program(case, folder, *options):
+    sources = [HERE / "scalar_trace.c", *(p for p in RUNTIME.glob("*.c") if not p.name.startswith(("lanes", "library")))]
+    name = case.name
+    defines = [f'-DHEADER="{name}.h"', f"-DMODEL={name}_model", f"-DMODEL_NX={name}_NX"]
+    return compile_c(sources, folder / "scalar", f"-I{GENERATED}", f"-I{RUNTIME}", *defines, *options)
+
+
+def casadi_function(case):
+    values = casadi.Function.load(str(ROOT / "generated" / "casadi" / f"{case.name}.casadi"))
+    count = values.size1_in(0)
+    x, q = casadi.SX.sym("x", values.size1_in(2)), casadi.SX.sym("q", count + 1)
+    return casadi.Function("g", [x, q], [values(q[:count], q[count], x)[0]])
+
+
+def casadi_program(case, folder):
+    solver = casadi.rootfinder("solver", "fast_newton", casadi_function(case), {"abstol": 1e-11, "abstolStep": 1e-9})
+    generator = casadi.CodeGenerator("solver.c", {"with_header": True})
+    generator.add(solver)
+    generator.generate(f"{folder}/")
+    options = f"-I{folder}", f"-DUNKNOWNS={len(case.start)}"
+    return compile_c([HERE / "casadi_trace.c", folder / "solver.c"], folder / "casadi", *options)
+
+
+def measure(case, folder):
+    """Points a second of every kernel, and instructions a point where callgrind counts them."""
+    plan = schedule(drives.catalogue()[case.name]())
+    scalar, generated = scalar_program(case, folder), casadi_program(case, folder)
+    rates = {
+        "scalar": _run(scalar, case, POINTS, 20),
+        "lanes2": lane_points(case, 2),
+        "lanes4": lane_points(case, 4),
+        "lanes8": lane_points(case, 8),
+        "casadi-c": _run(generated, case, POINTS, 20, 0),
+        "casadi-c-extrapolated": _run(generated, case, POINTS, 20, 1),
+        "casadi-rootfinder": baselines.casadi_rootfinder_points(casadi_function(case), case),
+        "scipy": baselines.scipy_points(plan, case),
+        "numpy-batched": baselines.numpy_points(plan, case),
+    }
+    counts = {
+        "scalar": _counted(scalar, case, folder),
+        "casadi-c": _counted(generated, case, folder, 1, 0),
+        "casadi-c-extrapolated": _counted(generated, case, folder, 1, 1),
+    }
+    return rates, counts, plan
+
+
+def operations(plan):
+    """Floating-point operations of one Newton step."""
+    tape = plan.tape
+    known = {i for i, stage in enumerate(tape.stages) if stage <= Stage.INSTANT}
+    order = tape.needed([*plan.step, *plan.step_size], known)
+    turned = {tape.nodes[i].args[0] for i in order if tape.nodes[i].op in ("sin", "cos")}
+    return sum(tape.nodes[i].op not in ("sin", "cos") for i in order) + SINCOS * len(turned)
+
+
+def peak(folder):
+    """Measured fused multiply-add peak of one core, floating-point operations a second."""
+    options = ("-march=native", "-ffp-contract=fast", "-funroll-loops", "-mprefer-vector-width=512")
+    program = compile_c([HERE / "peak.c"], folder / "peak", *options)
+    return float(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout.split()[0])
+
+
+def stages():
+    """Seconds of each stage of a full regeneration, and its sum for the recess-action drive."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "derive", "--output", folder]
+        log = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stderr
+    return [(m[1], m[2], float(m[3])) for m in re.finditer(r"^(\S+) +(.+?) +([\d.]+) s$", log, re.MULTILINE)]
+
+
+def main():
+    print(f"compiler {' '.join(compiler())}; every kernel without contraction, one core; quote the ratios")
+    growth = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        top = peak(folder)
+        for design, first, step in CASES:
+            case = case_of(design, first, step)
+            rates, counts, plan = measure(case, folder)
+            for kernel, rate in rates.items():
+                shown = "not on this processor" if rate is None else f"{rate:.4g} points/s {rate / rates['scipy']:.1f}x SciPy"
+                print(f"{case.name} {kernel} {shown}", flush=True)
+            _remarks(case, rates, counts, plan, top)
+            growth.append((case.name, len(case.start), operations(plan), rates["scalar"]))
+    print("\ncost over the number of unknowns: drive, unknowns, operations a step, ns a point, ns an unknown")
+    for name, unknowns, count, rate in growth:
+        print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
+    print("\nregeneration, seconds a stage")
+    log = stages()
+    for stage in dict.fromkeys(entry[0] for entry in log):
+        total = sum(t for s, _, t in log if s == stage)
+        one = sum(t for s, n, t in log if s == stage and n == growth[0][0])
+        print(f"  {stage:<9} {total:7.2f} all drives {one:7.2f} {growth[0][0]}")
+
+
+def _remarks(case, rates, counts, plan, top):
+    if None not in counts.values():
+        for kernel, count in counts.items():
+            print(f"  {kernel}: {count:.0f} instructions a point, {count / counts['scalar']:.1f} times the scalar kernel's")
+    widest = max(r for k, r in rates.items() if k.startswith("lanes") and r)
+    share = widest * operations(plan) / top
+    print(f"  widest lanes: {operations(plan)} operations a step, {100 * share:.0f} % of the measured peak of {top:.3g}/s")
+
+
+if __name__ == "__main__":
+    main()
