@@ -29,9 +29,10 @@ solver:
 generate: setup
 	$(PY) -m derive
 
-# Prove everything anew, write generated/audit/index.html and re-check the record with its own checker.
+# Prove everything anew, write generated/audit/index.html and re-check record and code with their own checkers.
 audit: generate
 	$(PY) generated/audit/check.py
+	$(PY) generated/audit/check_code.py
 
 # The shared library and the data that the Python package ships; the lane kernels take the time.
 build: setup

@@ -52,7 +52,7 @@ def main(arguments=None):
 
 def _remove_superseded(folder, files):
     for path in folder.glob("*/*"):
-        if path.relative_to(folder).as_posix() not in files:
+        if path.is_file() and path.relative_to(folder).as_posix() not in files:
             path.unlink()
 
 

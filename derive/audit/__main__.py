@@ -1,4 +1,5 @@
-"""``python -m derive.audit verify|explain EQ|html``: check the committed record, walk from an equation or a C function to its sources, write the pages.
+"""``python -m derive.audit verify|explain EQ|html``: check the committed record, walk from an equation or a C function
+to its sources, write the pages.
 
 Exit status: 0 done, 1 the record is rejected, 2 bad input.
 """
@@ -11,7 +12,7 @@ import signal
 import sys
 from pathlib import Path
 
-from derive.audit import check, explain
+from derive.audit import check, check_code, explain
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -23,12 +24,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--generated", type=Path, default=GENERATED, help="folder of generated files")
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("verify", help="recompute every hash and re-check every certificate")
-    commands.add_parser("explain", help="walk back to the sources").add_argument("name", metavar="EQ", help="an equation id or the name of a generated function")
-    commands.add_parser("html", help="write the pages anew").add_argument("--output", type=Path, help="folder; default: generated/audit")
+    commands.add_parser("explain", help="walk back to the sources").add_argument(
+        "name", metavar="EQ", help="an equation id or the name of a generated function"
+    )
+    commands.add_parser("html", help="write the pages anew").add_argument(
+        "--output", type=Path, help="folder; default: generated/audit"
+    )
     options = parser.parse_args(arguments)
     folder = options.generated / "audit"
     if options.command == "verify":
-        return check.main([str(folder)])
+        return max(check.main([str(folder)]), check_code.main([str(folder)]))
     if options.command == "explain":
         return _explain(options.generated, options.name)
     return _html(options.generated, options.output or folder)

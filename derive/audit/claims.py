@@ -49,7 +49,13 @@ class Scope:
         return Statement(identifier, self.read(left), self.read(right), self.definitions, self.jets, self.signs)
 
 
-def scope(key: str, text: str, jets: Mapping[str, tuple[str, ...]] | None = None, signs: Sequence[str] = (), extends: Scope | None = None) -> Scope:
+def scope(
+    key: str,
+    text: str,
+    jets: Mapping[str, tuple[str, ...]] | None = None,
+    signs: Sequence[str] = (),
+    extends: Scope | None = None,
+) -> Scope:
     """Read definitions, one `name = expression` a line; a line that starts with a space continues the one before."""
     merged = dict(extends.jets if extends else {}) | dict(jets or {})
     definitions = dict(extends.definitions if extends else {})
@@ -67,8 +73,8 @@ Texts = str | Sequence[str]
 class Claim:
     """One printed statement.
 
-    readings   label -> equations `left = right` that together are what that reading says; more than one label only where the text
-               is damaged or says two things
+    readings   label -> equations `left = right` that together are what that reading says; more than one label only
+               where the text is damaged or says two things
     corrected  the equations that should stand there, where no one-token change of the print is true
     confusable groups of symbols that a misprint may exchange, for the search of a correction
     contradiction  equations whose truth makes the claim false, for claims that are not equations themselves
@@ -101,7 +107,10 @@ class Claim:
 
 @dataclass(frozen=True)
 class Figure:
-    """A printed number and the formula it should come from, evaluated in double precision; or only its sign, ">0" or "<0"."""
+    """A printed number and the formula it should come from, evaluated in double precision.
+
+    Or only its sign, ">0" or "<0".
+    """
 
     formula: str
     printed: str
@@ -137,7 +146,10 @@ class Figure:
 
 @dataclass(frozen=True)
 class FigureClaim:
-    """Printed numbers judged against their formulas. `final` if what the formula gives is not what should be printed instead."""
+    """Printed numbers judged against their formulas.
+
+    `final` if what the formula gives is not what should be printed instead.
+    """
 
     key: str
     where: str

@@ -17,7 +17,9 @@ class Unknown(Exception):
 
 
 def explain(generated: Path, name: str) -> list[str]:
-    """Lines of text for an equation id (`cylindrical_worm.meshing`, `recess-action/eq-7`) or a function of a generated header."""
+    """Lines of text for an equation id (`cylindrical_worm.meshing`, `recess-action/eq-7`) or a function of a generated
+    header.
+    """
     objects = _objects(generated / "audit")
     verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
     key = name if name in verdicts else name.replace(".", "/", 1)
@@ -54,13 +56,22 @@ def _functions(generated: Path) -> dict[str, tuple[str, int, list[str]]]:
     for path in sorted((generated / "c").glob("*.h")):
         text = path.read_text(encoding="utf-8")
         for function, keys in functions_of(text).items():
-            found[function] = (path.relative_to(generated.parent).as_posix(), text[: text.index(f" {function}(")].count("\n") + 1, keys)
+            found[function] = (
+                path.relative_to(generated.parent).as_posix(),
+                text[: text.index(f" {function}(")].count("\n") + 1,
+                keys,
+            )
     return found
 
 
 def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[str]:
     source = objects[verdict["source"]]
-    lines = [f"{verdict['id']}: {verdict['status']}", verdict["plain"], "", f"source     {source['document']}, {source['locator']}"]
+    lines = [
+        f"{verdict['id']}: {verdict['status']}",
+        verdict["plain"],
+        "",
+        f"source     {source['document']}, {source['locator']}",
+    ]
     if source["verbatim"]:
         lines.append(f"printed    {source['verbatim']}")
     if source["ocr_doubt"]:
@@ -70,7 +81,11 @@ def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[s
             lines += ["", reading["label"]]
             for part in reading["parts"]:
                 lines += _part(objects, part)
-    users = [f"{function}   {path}:{line}" for function, (path, line, keys) in _functions(generated).items() if verdict["id"] in keys]
+    users = [
+        f"{function}   {path}:{line}"
+        for function, (path, line, keys) in _functions(generated).items()
+        if verdict["id"] in keys
+    ]
     if users:
         lines += ["", "generated functions that rest on it", *(f"  {user}" for user in users)]
     return lines
@@ -78,13 +93,19 @@ def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[s
 
 def _part(objects: dict[str, dict], part: dict) -> list[str]:
     equation, certificate = objects[part["equation"]], objects[part["certificate"]]
-    lines = [f"  {text(equation['lhs'])} = {text(equation['rhs']) if certificate['kind'] != 'numeric' else equation['rhs']}"]
+    lines = [
+        f"  {text(equation['lhs'])} = {text(equation['rhs']) if certificate['kind'] != 'numeric' else equation['rhs']}"
+    ]
     for name, key in equation["where"].items():
         step = objects[key]
         lines.append(f"    {name} := {text(step['tree'])}    [{step['op']} {key[:12]}]")
-    lines.append(f"    {certificate['outcome']} by {certificate['kind']} {certificate['sha256'][:12]}, equation {equation['sha256'][:12]}")
+    shown, stated = certificate["sha256"][:12], equation["sha256"][:12]
+    lines.append(f"    {certificate['outcome']} by {certificate['kind']} {shown}, equation {stated}")
     if certificate["outcome"] == "refuted" and "point" in certificate:
-        values = {**certificate["point"]["symbols"], **{f"tan({name}/2)": value for name, value in certificate["point"]["half_tangents"].items()}}
+        values = {
+            **certificate["point"]["symbols"],
+            **{f"tan({name}/2)": value for name, value in certificate["point"]["half_tangents"].items()},
+        }
         lines.append("    at " + ", ".join(f"{name} = {value}" for name, value in values.items()))
         lines.append(f"    left {', '.join(certificate['lhs'])}; right {', '.join(certificate['rhs'])}")
     return lines
@@ -102,13 +123,21 @@ def _text(tree: Tree | list) -> tuple[str, int]:
     if operation in ("+", "*", "/", "@"):
         level = PRECEDENCE[operation]
         joiner = {"+": " + ", "*": "*", "/": "/", "@": " @ "}[operation]
-        return joiner.join(_within(argument, level + (k > 0 and operation in "/@")) for k, argument in enumerate(arguments)), level
+        return joiner.join(
+            _within(argument, level + (k > 0 and operation in "/@")) for k, argument in enumerate(arguments)
+        ), level
     if operation == "-":
         return "-" + _within(arguments[0], 2), 1
     if operation == "^":
         return f"{_within(arguments[0], 4)}^{arguments[1]}", 3
     if operation == "jet":
-        return arguments[0] + ("'" * arguments[1] if len(arguments) == 2 else f"[{', '.join(map(str, arguments[1:]))}]" if any(arguments[1:]) else ""), 9
+        return arguments[0] + (
+            "'" * arguments[1]
+            if len(arguments) == 2
+            else f"[{', '.join(map(str, arguments[1:]))}]"
+            if any(arguments[1:])
+            else ""
+        ), 9
     if operation == "at":
         return f"{_within(arguments[0], 9)}.{'xyz'[arguments[1]]}", 9
     if operation == "entry":

@@ -1,6 +1,7 @@
 """Build the record: every claim judged by the prover, every object hashed and linked, one root over all.
 
-Input: chapters, each a document with its claims. Output: a Ledger whose `objects` are ready to be written as canonical JSON.
+Input: chapters, each a document with its claims. Output: a Ledger whose `objects` are ready to be written as canonical
+JSON.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from derive.audit.check import number_of, root_of, sha256_of, status_of
+from derive.audit.check import root_of, sha256_of, status_of
 from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, as_list
 from derive.prove import Decision, Outcome, Statement, certificate, decide
 from derive.prove.edits import correction
@@ -83,7 +84,11 @@ class Ledger:
 
     def equation_ids(self, prefix: str) -> list[str]:
         """The ids of all equations of a chapter, sorted."""
-        return sorted(item["id"] for item in self.objects.values() if item["object"] == "equation" and item["id"].startswith(prefix))
+        return sorted(
+            item["id"]
+            for item in self.objects.values()
+            if item["object"] == "equation" and item["id"].startswith(prefix)
+        )
 
 
 def build(chapters: Sequence[Chapter]) -> Ledger:
@@ -123,13 +128,18 @@ def _judge(ledger: Ledger, document: Document, claim: Claim, source: str) -> Ver
     if not readings:
         return Verdict(claim, "ambiguous" if claim.missing else claim.kind)
     outcomes = [str(reading.outcome) for reading in readings]
-    corrected, change = _correct(ledger, claim, identifier, readings[0], source) if set(outcomes) == {"refuted"} else (None, "")
+    corrected, change = (
+        _correct(ledger, claim, identifier, readings[0], source) if set(outcomes) == {"refuted"} else (None, "")
+    )
     status = status_of(outcomes, [str(corrected.outcome)] if corrected else [], [], bool(claim.damage))
     return Verdict(claim, status, readings, corrected, change=change)
 
 
 def _reading(ledger: Ledger, claim: Claim, identifier: str, label: str, texts: Sequence[str], source: str) -> Reading:
-    return Reading(label, tuple(_judge_text(ledger, claim, f"{identifier}/{label}/{k}", text, source) for k, text in enumerate(texts, 1)))
+    return Reading(
+        label,
+        tuple(_judge_text(ledger, claim, f"{identifier}/{label}/{k}", text, source) for k, text in enumerate(texts, 1)),
+    )
 
 
 def _judge_text(ledger: Ledger, claim: Claim, identifier: str, text: str, source: str) -> Judged:
@@ -163,15 +173,24 @@ def _enter_steps(ledger: Ledger, scope: str, statement: Statement) -> dict[str, 
     for name, tree in statement.used.items():
         operation = OPERATIONS.get(tree[0], "define") if isinstance(tree, tuple) else "define"
         inputs = sorted(entered[other] for other in symbols(tree) if other in entered)
-        entered[name] = ledger.add({"object": "step", "id": f"{scope}.{name}", "op": operation, "tree": tree, "inputs": inputs})
+        entered[name] = ledger.add(
+            {"object": "step", "id": f"{scope}.{name}", "op": operation, "tree": tree, "inputs": inputs}
+        )
     return entered
 
 
-def _correct(ledger: Ledger, claim: Claim, identifier: str, reading: Reading, source: str) -> tuple[Reading | None, str]:
+def _correct(
+    ledger: Ledger, claim: Claim, identifier: str, reading: Reading, source: str
+) -> tuple[Reading | None, str]:
     """What should stand there: the claim's own correction, else the first one-token change that is true."""
     if claim.corrected:
-        statements = [claim.scope.statement(f"{identifier}/corrected/{k}", text) for k, text in enumerate(as_list(claim.corrected), 1)]
-        return Reading("corrected", tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)), ""
+        statements = [
+            claim.scope.statement(f"{identifier}/corrected/{k}", text)
+            for k, text in enumerate(as_list(claim.corrected), 1)
+        ]
+        return Reading(
+            "corrected", tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)
+        ), ""
     changes, parts = [], []
     for number, part in enumerate(reading.parts, 1):
         if part.outcome is Outcome.PROVED:
@@ -182,21 +201,32 @@ def _correct(ledger: Ledger, claim: Claim, identifier: str, reading: Reading, so
             return None, ""
         edit, statement = found
         changes.append(edit.change)
-        parts.append(_enter(ledger, claim, replace(statement, id=f"{identifier}/corrected/{number}"), "corrected", source))
+        parts.append(
+            _enter(ledger, claim, replace(statement, id=f"{identifier}/corrected/{number}"), "corrected", source)
+        )
     return Reading("corrected", tuple(parts)), "; ".join(dict.fromkeys(changes))
 
 
 def _judge_figures(ledger: Ledger, document: Document, claim: FigureClaim, source: str) -> Verdict:
     identifier = f"{document.key}/{claim.key}"
-    parts = tuple(_judge_figure(ledger, f"{identifier}/{k}", figure, "printed", source) for k, figure in enumerate(claim.figures, 1))
+    parts = tuple(
+        _judge_figure(ledger, f"{identifier}/{k}", figure, "printed", source)
+        for k, figure in enumerate(claim.figures, 1)
+    )
     reading = Reading(AS_PRINTED, parts)
     if reading.outcome is Outcome.PROVED:
         return Verdict(claim, "proved", (reading,))
     if claim.final or any(part.figure.is_sign for part in parts):
         return Verdict(claim, "false", (reading,))
-    amended = claim.corrected or [part.figure if part.outcome is Outcome.PROVED else part.figure.amended() for part in parts]
+    amended = claim.corrected or [
+        part.figure if part.outcome is Outcome.PROVED else part.figure.amended() for part in parts
+    ]
     corrected = Reading(
-        "corrected", tuple(_judge_figure(ledger, f"{identifier}/corrected/{k}", figure, "corrected", source) for k, figure in enumerate(amended, 1))
+        "corrected",
+        tuple(
+            _judge_figure(ledger, f"{identifier}/corrected/{k}", figure, "corrected", source)
+            for k, figure in enumerate(amended, 1)
+        ),
     )
     return Verdict(claim, status_of(["refuted"], [str(corrected.outcome)], [], damaged=False), (reading,), corrected)
 
@@ -205,14 +235,24 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
     outcome = Outcome.PROVED if figure.holds else Outcome.REFUTED
     equation = ledger.add(
         {
-            "object": "equation", "id": identifier, "kind": kind, "lhs": parse_formula(figure.formula), "rhs": figure.printed,
-            "unit": figure.unit, "where": {}, "sources": [source],
+            "object": "equation",
+            "id": identifier,
+            "kind": kind,
+            "lhs": parse_formula(figure.formula),
+            "rhs": figure.printed,
+            "unit": figure.unit,
+            "where": {},
+            "sources": [source],
         }
     )
     shown = ledger.add(
         {
-            "object": "certificate", "kind": "numeric", "equation": equation, "outcome": str(outcome),
-            "value": f"{figure.value:.9g}", "half_unit": figure.half_unit,
+            "object": "certificate",
+            "kind": "numeric",
+            "equation": equation,
+            "outcome": str(outcome),
+            "value": f"{figure.value:.9g}",
+            "half_unit": figure.half_unit,
         }
     )
     return Judged(outcome, equation, shown, figure=figure)
@@ -236,4 +276,7 @@ def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
 
 
 def _reading_body(reading: Reading) -> dict:
-    return {"label": reading.label, "parts": [{"equation": part.equation, "certificate": part.certificate} for part in reading.parts]}
+    return {
+        "label": reading.label,
+        "parts": [{"equation": part.equation, "certificate": part.certificate} for part in reading.parts],
+    }

@@ -12,7 +12,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from derive.audit.claims import Claim, Document
+from derive.audit.claims import Document
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.render import LaTeX, MathML, difference, symbol_text
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
@@ -20,6 +20,7 @@ from derive.prove.certificate import decimal
 from derive.prove.points import arctangent
 from derive.prove.polynomial import Terms
 from derive.prove.prover import Instance
+from derive.prove.tree import parse_formula
 
 STATUS_TEXT = {
     "proved": "proved",
@@ -74,28 +75,49 @@ class Entry:
     change: str
 
 
-def pages(ledger: Ledger, chapters: list[Chapter], functions: Mapping[str, Mapping[str, list[str]]] | None = None) -> dict[str, str]:
+def pages(
+    ledger: Ledger, chapters: list[Chapter], functions: Mapping[str, Mapping[str, list[str]]] | None = None
+) -> dict[str, str]:
     """File name -> text of every page. `functions` maps generated headers to their functions and equation ids."""
-    shown = [(chapter.document, [_entry(chapter.document, verdict) for verdict in ledger.verdicts[chapter.document.key]]) for chapter in chapters]
+    shown = [
+        (chapter.document, [_entry(chapter.document, verdict) for verdict in ledger.verdicts[chapter.document.key]])
+        for chapter in chapters
+    ]
     sources = [(document, entries) for document, entries in shown if document.sha256]
     common = {
         "root": ledger.root,
         "navigation": [(document.key, document.name, bool(document.sha256)) for document, _ in shown],
         "status_text": STATUS_TEXT,
     }
-    corrections = [(document, entry) for document, entries in sources for entry in entries if entry.status in ("proved_with_correction", "false", "ambiguous")]
+    corrections = [
+        (document, entry)
+        for document, entries in sources
+        for entry in entries
+        if entry.status in ("proved_with_correction", "false", "ambiguous")
+    ]
     counts = {document.key: Counter(entry.status for entry in entries) for document, entries in shown}
     texts = {
         "index.html": _render("index.html.jinja", **common, shown=shown, counts=counts, corrections=corrections),
         "validation.html": _render(
-            "validation.html.jinja", **common, verified=VERIFIED, not_verified=NOT_VERIFIED, corrections=corrections, functions=functions or {}, ledger=ledger,
+            "validation.html.jinja",
+            **common,
+            verified=VERIFIED,
+            not_verified=NOT_VERIFIED,
+            corrections=corrections,
+            functions=functions or {},
+            ledger=ledger,
             kinds=Counter(item["object"] for item in ledger.objects.values()),
         ),
         "audit.tex": _render("audit.tex.jinja", **common, shown=shown, tex=_tex),
     }
     for document, entries in shown:
         texts[f"{document.key}.html"] = _render(
-            "chapter.html.jinja", **common, document=document, entries=entries, symbols=_symbols(document), counts=counts[document.key]
+            "chapter.html.jinja",
+            **common,
+            document=document,
+            entries=entries,
+            symbols=_symbols(document),
+            counts=counts[document.key],
         )
     return texts
 
@@ -106,7 +128,9 @@ def _render(template: str, **values) -> str:
 
 def _symbols(document: Document) -> list[tuple[Markup, str, str]]:
     """Symbol, unit and meaning, in the letters of the source."""
-    return [(Markup(f"<i>{Markup.escape(shown)}</i>"), unit, meaning) for shown, unit, meaning in document.symbols.values()]
+    return [
+        (Markup(f"<i>{Markup.escape(shown)}</i>"), unit, meaning) for shown, unit, meaning in document.symbols.values()
+    ]
 
 
 def _entry(document: Document, verdict: Verdict) -> Entry:
@@ -145,26 +169,29 @@ def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
         left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
     definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())
     return Part(
-        Markup(mathml.equation(left, right)), LaTeX().equation(left, right), str(part.outcome), definitions, _evidence(part), _denominators(part),
-        _instance(part.decision.instance, statement.signs), statement.id,
+        Markup(mathml.equation(left, right)), LaTeX().equation(left, right), str(part.outcome), definitions,
+        _evidence(part), _denominators(part), _instance(part.decision.instance, statement.signs), statement.id,
     )  # fmt: skip
 
 
 def _figure_part(mathml: MathML, part: Judged) -> Part:
-    from derive.prove.tree import parse_formula
-
     figure = part.figure
     tree = parse_formula(figure.formula)
     if figure.is_sign:
-        sign = {">0": ">", "<0": "<"}[figure.printed]
-        shown = f'<math display="block"><mrow>{mathml.write(tree)}<mo>=</mo><mn>{figure.value:.6g}</mn><mo>{escape_sign(sign)}</mo><mn>0</mn></mrow></math>'
+        value, aside = f"{figure.value:.6g}", f"printed as {'above' if figure.printed == '>0' else 'below'} zero"
     else:
-        shown = f'<math display="block"><mrow>{mathml.write(tree)}<mo>=</mo><mn>{figure.value:.7g}</mn><mspace width="1em"/><mtext>printed {figure.printed} {figure.unit}</mtext></mrow></math>'
-    return Part(Markup(shown), rf"{LaTeX().write(tree)} = {figure.value:.7g}", str(part.outcome), (), f"numeric, certificate {part.certificate[:12]}", (), None, part.equation[:12])
-
-
-def escape_sign(sign: str) -> str:
-    return {"<": "&lt;", ">": "&gt;"}[sign]
+        value, aside = f"{figure.value:.7g}", f"printed {figure.printed} {figure.unit}"
+    shown = mathml.figure(tree, value, aside)
+    return Part(
+        Markup(shown),
+        rf"{LaTeX().write(tree)} = {figure.value:.7g}",
+        str(part.outcome),
+        (),
+        f"numeric, certificate {part.certificate[:12]}",
+        (),
+        None,
+        part.equation[:12],
+    )
 
 
 def _evidence(part: Judged) -> str:
@@ -172,8 +199,20 @@ def _evidence(part: Judged) -> str:
     name = f"certificate {part.certificate[:12]}"
     if str(part.outcome) == "proved":
         terms = sum(len(component.numerator) for component in decision.components)
-        used = sorted({r.generator for component in decision.components for r, cofactor in zip(decision.relations, component.cofactors, strict=True) if cofactor})
-        how = f"{terms} terms cancel" + (f" by the relations of {', '.join(map(_pretty, used))}" if used else " without any relation") if terms else "both sides expand to the same polynomial"
+        used = sorted(
+            {
+                r.generator
+                for component in decision.components
+                for r, cofactor in zip(decision.relations, component.cofactors, strict=True)
+                if cofactor
+            }
+        )
+        how = (
+            f"{terms} terms cancel"
+            + (f" by the relations of {', '.join(map(_pretty, used))}" if used else " without any relation")
+            if terms
+            else "both sides expand to the same polynomial"
+        )
         return f"{name}: {how}"
     if str(part.outcome) == "refuted":
         return f"{name}: the sides differ at the point below"
@@ -201,7 +240,11 @@ def _polynomial(terms: Terms, names: tuple[str, ...]) -> str:
         return f"a denominator of {len(terms)} terms (in the certificate)"
     parts = []
     for powers, factor in sorted(terms.items(), reverse=True):
-        body = " ".join(_pretty(name) + (f"^{power}" if power > 1 else "") for name, power in zip(names, powers, strict=True) if power)
+        body = " ".join(
+            _pretty(name) + (f"^{power}" if power > 1 else "")
+            for name, power in zip(names, powers, strict=True)
+            if power
+        )
         number = str(abs(factor)) if abs(factor) != 1 or not body else ""
         parts.append(("− " if factor < 0 else "+ ") + " ".join(filter(None, (number, body))))
     return " ".join(parts).removeprefix("+ ")
@@ -215,12 +258,25 @@ def _instance(instance: Instance | None, signs: frozenset[str]) -> dict | None:
     angles = []
     for name, t in sorted(point.half_tangents.items()):
         degrees = 360 * arctangent(t) / (4 * arctangent(Fraction(1)))
-        angles.append((symbol_text(name), decimal(Fraction(round(degrees * 10**6), 10**6)), str((1 - t * t) / (1 + t * t)), str(2 * t / (1 + t * t))))
-    return {"values": values, "angles": angles, "lhs": [decimal(v) for v in instance.lhs], "rhs": [decimal(v) for v in instance.rhs]}
+        angles.append(
+            (
+                symbol_text(name),
+                decimal(Fraction(round(degrees * 10**6), 10**6)),
+                str((1 - t * t) / (1 + t * t)),
+                str(2 * t / (1 + t * t)),
+            )
+        )
+    return {
+        "values": values,
+        "angles": angles,
+        "lhs": [decimal(v) for v in instance.lhs],
+        "rhs": [decimal(v) for v in instance.rhs],
+    }
 
 
 _TEX = str.maketrans({
-    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "_": r"\_", "#": r"\#", "^": r"\^{}", "{": r"\{", "}": r"\}", "$": r"\$", "~": r"\~{}",
+    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "_": r"\_", "#": r"\#", "^": r"\^{}", "{": r"\{", "}": r"\}", ""
+        "$": r"\$", "~": r"\~{}",
 })  # fmt: skip
 
 

@@ -48,15 +48,34 @@ def _functions(family: str, variant: dict[str, str]) -> dict[str, tuple[str, ...
             worm = HELICOID + PROFILES[variant["worm_profile"]]
             wheel = HELICOID + PROFILES[variant["hob_profile"]] + HOBBED
             mesh = (*worm, *wheel, "conventions/wheel-axis", "cylindrical_worm/contact")
-            return {"flank_pinion": worm, "flank_wheel": wheel, "eval": mesh, "step": mesh, "observe": (*mesh, "cylindrical_worm/undercut")}
+            return {
+                "flank_pinion": worm,
+                "flank_wheel": wheel,
+                "eval": mesh,
+                "step": mesh,
+                "observe": (*mesh, "cylindrical_worm/undercut"),
+            }
         case "spherical":
             mesh = (*SWEPT, "cylindrical_worm/contact")
-            return {"flank_pinion": SWEPT, "flank_wheel": SWEPT, "eval": mesh, "step": mesh, "observe": (*mesh, "spherical_gears/undercut", "spherical_gears/moment")}
+            return {
+                "flank_pinion": SWEPT,
+                "flank_wheel": SWEPT,
+                "eval": mesh,
+                "step": mesh,
+                "observe": (*mesh, "spherical_gears/undercut", "spherical_gears/moment"),
+            }
         case "face-worm":
             gear = ("face_worm/cone-normal",)
             mesh = (*ENVELOPED, *gear, "cylindrical_worm/contact")
             fillet = ("face_worm/fillet-join", "face_worm/fillet-tangent")
-            return {"flank_pinion": ENVELOPED, "flank_wheel": gear, "fillet_wheel": fillet, "eval": mesh, "step": mesh, "observe": mesh}
+            return {
+                "flank_pinion": ENVELOPED,
+                "flank_wheel": gear,
+                "fillet_wheel": fillet,
+                "eval": mesh,
+                "step": mesh,
+                "observe": mesh,
+            }
     raise KeyError(f"no table of equations for the family {family!r}; add one here")
 
 
@@ -69,4 +88,6 @@ def _require_proved(ledger: Ledger, names: list[str]) -> None:
 
 def _holds(verdict: Verdict) -> bool:
     """Proved, or ambiguous with a proved reading (damaged print)."""
-    return verdict.status in ("proved", "proved_with_correction") or any(str(reading.outcome) == "proved" for reading in verdict.readings)
+    return verdict.status in ("proved", "proved_with_correction") or any(
+        str(reading.outcome) == "proved" for reading in verdict.readings
+    )

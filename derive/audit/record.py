@@ -31,7 +31,9 @@ def ledger() -> Ledger:
 def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
     """Relative path -> text of everything under audit/. `generated` are the files that the seal names."""
     functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
-    texts = store.record_files(record) | pages(record, chapters(), {path: table for path, table in functions.items() if table})
+    texts = store.record_files(record) | pages(
+        record, chapters(), {path: table for path, table in functions.items() if table}
+    )
     texts["artifacts.json"] = store.seal(record, generated)
     return {f"audit/{name}": text for name, text in texts.items()}
 

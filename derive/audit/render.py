@@ -12,9 +12,71 @@ from html import escape
 from derive.prove.tree import Tree
 
 GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "zeta": "ζ", "eta": "η", "theta": "θ", "lam": "λ", "lambda": "λ", "mu": "μ", "xi": "ξ", "pi": "π",
-    "rho": "ρ", "sigma": "σ", "Sigma": "Σ", "tau": "τ", "phi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "epsilon": "ε", "kappa": "κ", "shaft": "Σ",
-    "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh", "dv": "Δv", "slope": "slope",
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "zeta": "ζ", "eta": "η", "theta": "θ", "lam": "λ", "lambda":
+    ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        ""
+        "λ", "mu": "μ", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "Sigma": "Σ", "tau": "τ", "phi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "epsilon":
+    "ε", "kappa": "κ", "shaft": "Σ", "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh", "dv": "Δv",
+    "slope": "slope",
 }  # fmt: skip
 SUM, PRODUCT, UNARY, POWER, ATOM = range(5)
 
@@ -90,7 +152,9 @@ class Format:
     def _power(self, _, arguments) -> tuple[str, int]:
         base, exponent = arguments
         if isinstance(base, tuple) and base[0] in ("cos", "sin", "tan"):
-            return self.row(self.power(self.function(base[0]), self.number(str(exponent))) + self._argument(base[1])), UNARY
+            return self.row(
+                self.power(self.function(base[0]), self.number(str(exponent))) + self._argument(base[1])
+            ), UNARY
         return self.power(self._within(base, ATOM), self.number(str(exponent))), POWER
 
     def _argument(self, tree: Tree) -> str:
@@ -142,7 +206,10 @@ class Format:
     def _derivative(self, _, arguments) -> tuple[str, int]:
         body, *directions = arguments
         if len(directions) == 1 and directions[0][1] == 1:
-            return self.row(self.fraction(self.operator("∂"), self.operator("∂") + self.name(directions[0][0])) + self._within(body, UNARY)), PRODUCT
+            return self.row(
+                self.fraction(self.operator("∂"), self.operator("∂") + self.name(directions[0][0]))
+                + self._within(body, UNARY)
+            ), PRODUCT
         parts = []
         for symbol, rate in directions:
             factor = "" if rate == 1 else self._within(rate, UNARY) + self.times()
@@ -155,10 +222,11 @@ class Format:
 
 
 HANDLERS = {
-    "+": "sum", "-": "negative", "*": "product", "/": "quotient", "^": "power", "sqrt": "root", "jet": "jet", "mark": "mark", "d": "derivative",
-    "vec": "vector", "mat": "matrix", "T": "transpose", "at": "at", "entry": "entry", "triple": "triple", "atan2": "call",
-    **dict.fromkeys(("cos", "sin", "tan", "asin", "acos", "atan", "degrees", "radians"), "function"),
-    **dict.fromkeys(("Rx", "Ry", "Rz"), "rotation"), **dict.fromkeys(("dot", "cross", "@"), "infix"),
+    "+": "sum", "-": "negative", "*": "product", "/": "quotient", "^": "power", "sqrt": "root", "jet": "jet", "mark":
+    "mark", "d": "derivative", "vec": "vector", "mat": "matrix", "T": "transpose", "at": "at", "entry": "entry",
+    "triple": "triple", "atan2": "call", **dict.fromkeys(("cos", "sin", "tan", "asin", "acos", "atan", "degrees",
+    "radians"), "function"), **dict.fromkeys(("Rx", "Ry", "Rz"), "rotation"), **dict.fromkeys(("dot", "cross", "@"),
+    "infix"),
 }  # fmt: skip
 
 
@@ -166,7 +234,11 @@ class MathML(Format):
     def name(self, name: str) -> str:
         base, index, prime = _parts(self.names[name]) if name in self.names else _split(name)
         if prime:
-            return f"<msubsup><mi>{base}</mi><mi>{index}</mi><mo>′</mo></msubsup>" if index else f"<msup><mi>{base}</mi><mo>′</mo></msup>"
+            return (
+                f"<msubsup><mi>{base}</mi><mi>{index}</mi><mo>′</mo></msubsup>"
+                if index
+                else f"<msup><mi>{base}</mi><mo>′</mo></msup>"
+            )
         return f"<msub><mi>{base}</mi><mi>{index}</mi></msub>" if index else f"<mi>{base}</mi>"
 
     def number(self, text: str) -> str:
@@ -215,8 +287,10 @@ class MathML(Format):
         """A displayed equation."""
         return f'<math display="block"><mrow>{self.write(left)}<mo>=</mo>{self.write(right)}</mrow></math>'
 
-    def inline(self, tree: Tree) -> str:
-        return f"<math>{self.write(tree)}</math>"
+    def figure(self, formula: Tree, value: str, aside: str) -> str:
+        """A displayed number with the formula it comes from and a remark."""
+        body = f'{self.write(formula)}<mo>=</mo><mn>{value}</mn><mspace width="1em"/><mtext>{escape(aside)}</mtext>'
+        return f'<math display="block"><mrow>{body}</mrow></math>'
 
 
 class LaTeX(Format):
@@ -273,9 +347,10 @@ class LaTeX(Format):
 
 
 LATEX_GREEK = {
-    "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ": r"\lambda", "μ": r"\mu", "ξ": r"\xi",
-    "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ": r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon",
-    "κ": r"\kappa", "Δγh": r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
+    "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ":
+    r"\lambda", "μ": r"\mu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ":
+    r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "Δγh":
+    r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
 }  # fmt: skip
 LATEX_SIGNS = {"−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ", "′": "'"}
 
@@ -293,4 +368,10 @@ def difference(tree: Tree, other: Tree) -> Tree:
 
 
 def _marked_matrix(tree: tuple, other: tuple) -> Tree:
-    return ("mat", *(tuple(difference(a, b) for a, b in zip(row, others, strict=True)) for row, others in zip(tree[1:], other[1:], strict=True)))
+    return (
+        "mat",
+        *(
+            tuple(difference(a, b) for a, b in zip(row, others, strict=True))
+            for row, others in zip(tree[1:], other[1:], strict=True)
+        ),
+    )

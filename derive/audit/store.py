@@ -10,23 +10,26 @@ from pathlib import Path
 from derive.audit.ledger import Ledger
 from derive.prove.tree import canonical
 
-CHECKER = Path(__file__).with_name("check.py")
+CHECKERS = tuple(Path(__file__).with_name(name) for name in ("check.py", "check_code.py"))
 
 
 def record_files(ledger: Ledger) -> dict[str, str]:
-    """File name -> text: the ledger, the certificates and the checker."""
+    """File name -> text: the ledger, the certificates and the checkers."""
     certificates = [item for item in ledger.objects.values() if item["object"] == "certificate"]
     others = [item for item in ledger.objects.values() if item["object"] != "certificate"]
     return {
         "ledger.jsonl": _lines(others),
         "certificates.jsonl": _lines(certificates),
-        "check.py": CHECKER.read_text(encoding="utf-8"),
+        **{path.name: path.read_text(encoding="utf-8") for path in CHECKERS},
     }
 
 
 def seal(ledger: Ledger, files: Mapping[str, str]) -> str:
     """artifacts.json: the root hash, and per generated file its sha256 and the equations it names."""
-    entries = {name: {"sha256": hashlib.sha256(text.encode()).hexdigest(), "equations": equations_named(text)} for name, text in sorted(files.items())}
+    entries = {
+        name: {"sha256": hashlib.sha256(text.encode()).hexdigest(), "equations": equations_named(text)}
+        for name, text in sorted(files.items())
+    }
     return json.dumps({"root": ledger.root, "files": entries}, indent=1, sort_keys=True) + "\n"
 
 

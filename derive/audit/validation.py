@@ -1,25 +1,91 @@
 """What the record verifies and what it does not, in words."""
 
 VERIFIED = (
-    ("Every printed equation of the four documents has a verdict", "Encoded as printed, as expression trees; decided by the prover against definitions made of rotation matrices, cross products and derivatives."),
-    ("Identities hold for every profile", "Profile functions are jets: free symbols for the function and each derivative. One proof covers all flank forms."),
-    ("Proofs are re-checked by a program that shares no code with the prover", "check.py needs only Python. It recomputes every hash, adds up numerator = Σ cofactor × relation in exact integers, evaluates the trees at random "
-     "points modulo 2⁶¹ − 1 with free cosines and sines, and differentiates by dual numbers."),
-    ("False statements come with numbers", "Each refutation names a point with rational cosines and sines at which the two sides differ; the checker recomputes both sides in exact fractions."),
-    ("No statement is vacuous", "Every proof is also evaluated at a point of the variety where no denominator vanishes."),
-    ("Corrections are found, not typed", "Where a print is refuted, all one-token changes (a sign, sin for cos, an exchanged symbol, a factor) are tried; the first true one is shown. "
-     "Corrections that need more than one token are written by us and proved like everything else."),
-    ("Derived equations tolerate no change", "Every sign or term mutation of the derived equations is refuted by the test suite, which prints how many."),
-    ("The generated C is the mathematics", "The headers carry the root hash of this record. Changing one character of a header, an equation, a certificate or a cofactor is caught."),
+    (
+        "Every printed equation of the four documents has a verdict",
+        "Encoded as printed, as expression trees; decided by the prover against definitions made of rotation "
+        "matrices, cross products and derivatives.",
+    ),
+    (
+        "Identities hold for every profile",
+        "Profile functions are jets: free symbols for the function and each derivative. One proof covers all flank "
+        "forms.",
+    ),
+    (
+        "Proofs are re-checked by a program that shares no code with the prover",
+        "check.py needs only Python. It recomputes every hash, adds up numerator = Σ cofactor × relation in exact "
+        "integers, evaluates the trees at random "
+        "points modulo 2⁶¹ − 1 with free cosines and sines, and differentiates by dual numbers.",
+    ),
+    (
+        "False statements come with numbers",
+        "Each refutation names a point with rational cosines and sines at which the two sides differ; the checker "
+        "recomputes both sides in exact fractions.",
+    ),
+    (
+        "No statement is vacuous",
+        "Every proof is also evaluated at a point of the variety where no denominator vanishes.",
+    ),
+    (
+        "Corrections are found, not typed",
+        "Where a print is refuted, all one-token changes (a sign, sin for cos, an exchanged symbol, a factor) are "
+        "tried; the first true one is shown. "
+        "Corrections that need more than one token are written by us and proved like everything else.",
+    ),
+    (
+        "Derived equations tolerate no change",
+        "Every sign or term mutation of the derived equations is refuted by the test suite, which prints how many.",
+    ),
+    (
+        "The generated C is the mathematics",
+        "check_code.py reads the C functions themselves and runs them modulo 2⁶¹ − 1: the Jacobian is the derivative "
+        "of the residual entry by entry, every tangent the "
+        "derivative of its point, every flank normal of length one and perpendicular to all tangents (so an explicit "
+        "wheel flank is an envelope and its equation of meshing is solved), the residual the vector between the two "
+        "points.",
+    ),
+    (
+        "Nothing was changed afterwards",
+        "The headers carry the root hash of this record, and the record their sha256. Changing one character of a "
+        "header, an equation, a certificate or a cofactor is caught; each is a test.",
+    ),
 )
 
 NOT_VERIFIED = (
-    ("Figures of the documents", "All figures are lost in the extraction. Frames are defined by matrices here; where a figure alone fixes a sign or an order, the verdict says so."),
-    ("Missing pages", "Every even page of the spherical report is missing: its equations (2.3), (2.4), (2.8), (2.9), (2.14)–(2.18), (2.24)–(2.29), (3.1), (3.2) and (3.8)–(3.11) cannot be judged."),
-    ("Signs lost in the extraction", "Minus, minus-or-plus and less-or-equal share one glyph. Each sensible reading is judged; the print itself is not repaired."),
-    ("Numbers that need a solved contact", "Tooth contact tables are compared by the runtime's tests, not here; here only numbers that follow from other printed numbers."),
+    (
+        "Figures of the documents",
+        "All figures are lost in the extraction. Frames are defined by matrices here; where a figure alone fixes a "
+        "sign or an order, the verdict says so.",
+    ),
+    (
+        "Missing pages",
+        "Every even page of the spherical report is missing: its equations (2.3), (2.4), (2.8), (2.9), "
+        "(2.14)–(2.18), (2.24)–(2.29), (3.1), (3.2) and (3.8)–(3.11) cannot be judged.",
+    ),
+    (
+        "Signs lost in the extraction",
+        "Minus, minus-or-plus and less-or-equal share one glyph. Each sensible reading is judged; the print itself "
+        "is not repaired.",
+    ),
+    (
+        "Numbers that need a solved contact",
+        "Tooth contact tables are compared by the runtime's tests, not here; here only numbers that follow from "
+        "other printed numbers.",
+    ),
     ("Measurements and finite-element results", "They do not follow from equations."),
-    ("Existence and uniqueness of roots", "An identity f = I·g says nothing about roots gained or lost where I = 0; such factors are listed as steps with their condition. Domains of arcs and roots are guarded in the generated code."),
-    ("Floating point", "Identities are exact. Round-off of the generated code is measured by its own tests against 50-digit arithmetic."),
-    ("Probability", "The random evaluation of trees could accept a wrong tree with a probability below 2·degree/2⁶¹ for each point; three points are used, chosen anew at every run."),
+    (
+        "Existence and uniqueness of roots",
+        "An identity f = I·g says nothing about roots gained or lost where I = 0; such factors are listed as steps "
+        "with their condition. Domains of arcs and roots are guarded in the generated code.",
+    ),
+    (
+        "Floating point",
+        "Identities are exact. Round-off of the generated code is measured by its own tests against 50-digit "
+        "arithmetic.",
+    ),
+    (
+        "Probability",
+        "The random evaluation of trees could accept a wrong tree with a probability below 2·degree/2⁶¹ for each "
+        "point; three points are used, chosen anew at every run.",
+    ),
 )

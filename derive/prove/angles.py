@@ -1,7 +1,7 @@
 """Angles: integer combinations of base angles, plus quarter turns.
 
-A base angle is a symbol, or a defined name whose definition is no such combination (a rolling length over a radius, say): its
-cosine and sine are then generators of their own, moving at the rate of its value.
+A base angle is a symbol, or a defined name whose definition is no such combination (a rolling length over a radius,
+say): its cosine and sine are then generators of their own, moving at the rate of its value.
 """
 
 from __future__ import annotations

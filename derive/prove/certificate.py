@@ -74,16 +74,28 @@ def _differing(decision: Decision) -> list[int]:
 
 
 def _proof(decision: Decision) -> dict:
-    kept = [k for k in range(len(decision.relations)) if any(component.cofactors[k] for component in decision.components)]
+    kept = [
+        k for k in range(len(decision.relations)) if any(component.cofactors[k] for component in decision.components)
+    ]
     relations = [decision.relations[k] for k in kept]
     polynomials = [relation.square for relation in relations] + [divisor for _, _, divisor in decision.roots]
     for component in decision.components:
         polynomials += [component.numerator, *(factor for factor, _ in component.denominators), *component.cofactors]
-    used = sorted({decision.names.index(name) for _, name, _ in decision.roots} | {i for terms in polynomials for powers in terms for i, e in enumerate(powers) if e} | {decision.names.index(r.generator) for r in relations})
+    used = sorted(
+        {decision.names.index(name) for _, name, _ in decision.roots}
+        | {i for terms in polynomials for powers in terms for i, e in enumerate(powers) if e}
+        | {decision.names.index(r.generator) for r in relations}
+    )
     return {
         "generators": [decision.names[i] for i in used],
-        "roots": [{"radicand": radicand, "generator": name, "divisor": text_of(_restricted(divisor, used))} for radicand, name, divisor in decision.roots],
-        "relations": [{"kind": r.kind, "generator": r.generator, "square": text_of(_restricted(r.square, used))} for r in relations],
+        "roots": [
+            {"radicand": radicand, "generator": name, "divisor": text_of(_restricted(divisor, used))}
+            for radicand, name, divisor in decision.roots
+        ],
+        "relations": [
+            {"kind": r.kind, "generator": r.generator, "square": text_of(_restricted(r.square, used))}
+            for r in relations
+        ],
         "components": [_component(component, kept, used) for component in decision.components],
         "degree": max(_degree_bound(component) for component in decision.components),
     }

@@ -1,4 +1,7 @@
-"""One-token changes of an expression: to find what a misprint should read, and to show that a derived equation tolerates none."""
+"""One-token changes of an expression.
+
+To find what a misprint should read, and to show that a derived equation tolerates none.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,10 @@ class Edit:
 
 
 def edits(tree: Tree, confusable: Groups = (), signs: Sequence[str] = ()) -> Iterator[Edit]:
-    """Every expression one change away: a sign, cos for sin, one symbol for another of its group, a factor or term left out."""
+    """Every expression one change away.
+
+    A sign, cos for sin, one symbol for another of its group, a factor or term left out.
+    """
     yield Edit("sign of the whole", negated(tree))
     yield from _exchanges_throughout(tree, confusable)
     yield from _local(tree, confusable, signs)
@@ -107,7 +113,8 @@ def correction(statement: Statement, confusable: Groups = ()) -> tuple[Edit, Sta
 def _equal(evaluator: Evaluator, left: list, right: list) -> bool:
     ring = evaluator.ring
     return len(left) == len(right) and all(
-        not reduce(ring.terms((a - b).numerator), evaluator.relations, ring.index).remainder for a, b in zip(left, right, strict=True)
+        not reduce(ring.terms((a - b).numerator), evaluator.relations, ring.index).remainder
+        for a, b in zip(left, right, strict=True)
     )
 
 

@@ -45,7 +45,10 @@ class Evaluator:
         }
         radicands = [tree for kind, tree in statement.dependent_generators if kind == "root"]
         names = [f"sqrt{k}" for k in range(len(radicands))]
-        self.arcs = {tree: f"arc{k}" for k, tree in enumerate(tree for kind, tree in statement.dependent_generators if kind == "arc")}
+        self.arcs = {
+            tree: f"arc{k}"
+            for k, tree in enumerate(tree for kind, tree in statement.dependent_generators if kind == "arc")
+        }
         names += [*self.arcs.values(), *statement.free_symbols, *self._jets]
         names += [name for angle in statement.angles for name in (angle.cosine, angle.sine)]
         self.ring = PolynomialRing(tuple(names), backend)
@@ -71,7 +74,8 @@ class Evaluator:
     def _circle_and_sign_relations(self) -> tuple[Relation, ...]:
         terms, index, one = self.ring.terms, self.ring.index, self.ring.constant(1)
         circles = tuple(
-            Relation("circle", angle.sine, terms(one - self.ring.generator(angle.cosine) ** 2)) for angle in self.statement.angles
+            Relation("circle", angle.sine, terms(one - self.ring.generator(angle.cosine) ** 2))
+            for angle in self.statement.angles
         )
         signs = tuple(Relation("sign", name, terms(one)) for name in sorted(self.statement.signs) if name in index)
         return circles + signs
@@ -83,7 +87,9 @@ class Evaluator:
         for factor, times in square.factors:
             divisor *= factor**times
         terms = self.ring.terms(square.numerator * divisor)
-        known = next((relation for relation in self.relations if relation.kind == "root" and relation.square == terms), None)
+        known = next(
+            (relation for relation in self.relations if relation.kind == "root" and relation.square == terms), None
+        )
         if known is None:
             known = Relation("root", f"sqrt{sum(relation.kind == 'root' for relation in self.relations)}", terms)
             self.relations = (known, *self.relations)

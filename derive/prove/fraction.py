@@ -49,7 +49,9 @@ class Quotient:
     def __pow__(self, power: int) -> Quotient:
         if power < 0:
             return Quotient(self.ring, self.ring.constant(1)) / self**-power
-        return Quotient(self.ring, self.numerator**power, tuple((factor, times * power) for factor, times in self.factors if power))
+        return Quotient(
+            self.ring, self.numerator**power, tuple((factor, times * power) for factor, times in self.factors if power)
+        )
 
     def derivative(self, rates: Mapping[str, Quotient]) -> Quotient:
         """Directional derivative; `rates` gives the rate of every generator that moves."""
@@ -94,4 +96,6 @@ def _least_common(left: Factors, right: Factors) -> Factors:
 
 
 def _missing(common: Factors, have: Factors) -> Factors:
-    return tuple((factor, times - _power_in(factor, have)) for factor, times in common if times > _power_in(factor, have))
+    return tuple(
+        (factor, times - _power_in(factor, have)) for factor, times in common if times > _power_in(factor, have)
+    )

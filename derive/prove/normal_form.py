@@ -1,4 +1,7 @@
-"""Division by the ring's relations. Their leading terms are coprime, so they are a Groebner basis and the remainder is unique."""
+"""Division by the ring's relations.
+
+Their leading terms are coprime, so they are a Groebner basis and the remainder is unique.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Points at which statements are evaluated: rational cosines and sines, small rational parameters.
 
-A polynomial identity in an angle and its cosine and sine that held on all real points would hold as a polynomial identity, so a
-point with an exactly rational cosine and sine refutes exactly. Where the bare angle, pi, a root or an angle that depends on other
-values also occurs, their values are rational to 1e-25 and a difference counts only above 1e-9.
+A polynomial identity in an angle and its cosine and sine that held on all real points would hold as a polynomial
+identity, so a point with an exactly rational cosine and sine refutes exactly. Where the bare angle, pi, a root or an
+angle that depends on other values also occurs, their values are rational to 1e-25 and a difference counts only above
+1e-9.
 """
 
 from __future__ import annotations
@@ -18,7 +19,10 @@ from derive.prove.evaluate import Evaluator
 from derive.prove.fraction import Quotient
 from derive.prove.polynomial import Terms
 
-HALF_TANGENTS = tuple(Fraction(*pair) for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7)))
+HALF_TANGENTS = tuple(
+    Fraction(*pair)
+    for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7))
+)
 LENGTHS = tuple(map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)))
 SCALE = 10**30
 THRESHOLD = Fraction(1, 10**9)
@@ -50,8 +54,15 @@ def value_at(part: Quotient, point: Point) -> Fraction | None:
 def is_rounded(evaluator: Evaluator, parts: list[Quotient]) -> bool:
     """Does a value depend on a bare angle, on pi or on a root, which are rational only to 1e-30?"""
     statement = evaluator.statement
-    inexact = {angle.symbol for angle in statement.angles} | {PI} | {root.generator for root in evaluator.roots} | set(evaluator.arcs.values())
-    inexact |= {name for angle in statement.angles if angle.symbol in statement.used for name in (angle.cosine, angle.sine)}
+    inexact = (
+        {angle.symbol for angle in statement.angles}
+        | {PI}
+        | {root.generator for root in evaluator.roots}
+        | set(evaluator.arcs.values())
+    )
+    inexact |= {
+        name for angle in statement.angles if angle.symbol in statement.used for name in (angle.cosine, angle.sine)
+    }
     positions = [i for i, name in enumerate(evaluator.ring.names) if name in inexact]
     polys = [poly for part in parts for poly in (part.numerator, *(factor for factor, _ in part.factors))]
     return any(powers[i] for poly in polys for powers in evaluator.ring.terms(poly) for i in positions)
@@ -68,7 +79,11 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
         values[angle.symbol] = 2 * angle.divisor * arctangent(t)
     dependent = {root.generator for root in evaluator.roots} | set(evaluator.arcs.values())
     dependent |= {name for angle in statement.angles for name in (angle.cosine, angle.sine)}
-    free = [name for name in evaluator.ring.names if name not in values and name not in dependent and not name.startswith("sqrt")]
+    free = [
+        name
+        for name in evaluator.ring.names
+        if name not in values and name not in dependent and not name.startswith("sqrt")
+    ]
     for k, name in enumerate(free):
         if name in statement.signs:
             values[name] = Fraction((-1) ** (attempt + k))
@@ -91,7 +106,9 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
             values[angle.cosine], values[angle.sine] = cosine_and_sine(value / angle.divisor, values[PI])
         else:
             root = next(root for root in evaluator.roots if root.radicand == tree)
-            values[root.generator] = _sum(evaluator.ring.terms(root.divisor), evaluator.ring.names, values) * square_root(value)
+            values[root.generator] = _sum(
+                evaluator.ring.terms(root.divisor), evaluator.ring.names, values
+            ) * square_root(value)
     return point
 
 

@@ -1,4 +1,7 @@
-"""Integer polynomial rings: python-flint where it is installed, SymPy's rings otherwise, one interface and equal results."""
+"""Integer polynomial rings.
+
+Python-flint where it is installed, SymPy's rings otherwise, one interface and equal results.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +65,10 @@ class PolynomialRing:
 
 
 def text_of(terms: Terms) -> str:
-    """Canonical text: `3*0^2*4 - ...` is written as terms `coefficient*generator^power` joined by `+`, highest first."""
+    """Canonical text.
+
+    `3*0^2*4 - ...` is written as terms `coefficient*generator^power` joined by `+`, highest first.
+    """
     return "+".join(
         "*".join([str(terms[powers]), *(f"{i}^{e}" if e > 1 else str(i) for i, e in enumerate(powers) if e)])
         for powers in sorted(terms, reverse=True)

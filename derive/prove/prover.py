@@ -1,7 +1,8 @@
-"""Decide statements: proved, refuted with a point, or undecided. Nothing is simplified, nothing is tested numerically first.
+"""Decide statements: proved, refuted with a point, or undecided. Nothing is simplified, nothing is tested numerically
+first.
 
-Input: a Statement. Output: a Decision per scalar component. A remainder of zero is a theorem wherever no denominator vanishes;
-a point at which the sides differ is a refutation; anything else is undecided.
+Input: a Statement. Output: a Decision per scalar component. A remainder of zero is a theorem wherever no denominator
+vanishes; a point at which the sides differ is a refutation; anything else is undecided.
 """
 
 from __future__ import annotations
@@ -74,7 +75,10 @@ class Decision:
     @property
     def normal_form_hash(self) -> str:
         """sha256 of remainders and denominators: equal for every back end."""
-        body = [[text_of(c.remainder), [[text_of(factor), times] for factor, times in c.denominators]] for c in self.components]
+        body = [
+            [text_of(c.remainder), [[text_of(factor), times] for factor, times in c.denominators]]
+            for c in self.components
+        ]
         return hashlib.sha256(canonical([list(self.names), body]).encode()).hexdigest()
 
 
@@ -99,11 +103,15 @@ def _reduced(evaluator: Evaluator, difference: Quotient) -> Component:
     numerator = ring.terms(difference.numerator)
     reduction = reduce(numerator, evaluator.relations, ring.index)
     outcome = Outcome.UNDECIDED if reduction.remainder else Outcome.PROVED
-    return Component(outcome, numerator, _as_terms(evaluator, difference.factors), reduction.cofactors, reduction.remainder)
+    return Component(
+        outcome, numerator, _as_terms(evaluator, difference.factors), reduction.cofactors, reduction.remainder
+    )
 
 
 def _as_terms(evaluator: Evaluator, factors: Factors) -> tuple[tuple[Terms, int], ...]:
-    return tuple(sorted(((evaluator.ring.terms(factor), times) for factor, times in factors), key=lambda item: text_of(item[0])))
+    return tuple(
+        sorted(((evaluator.ring.terms(factor), times) for factor, times in factors), key=lambda item: text_of(item[0]))
+    )
 
 
 def _outcome(component: Component, refuted: bool) -> Outcome:
@@ -119,7 +127,9 @@ def _instance(evaluator: Evaluator, sides, open_parts: list[bool]) -> tuple[Inst
         if any(value is None for value in left + right):
             continue
         differing = {
-            k for k, (a, b) in enumerate(zip(left, right, strict=True)) if open_parts[k] and abs(a - b) > (THRESHOLD if rounded else 0)
+            k
+            for k, (a, b) in enumerate(zip(left, right, strict=True))
+            if open_parts[k] and abs(a - b) > (THRESHOLD if rounded else 0)
         }
         if best[0] is None or len(differing) > len(best[1]):
             best = Instance(point, tuple(left), tuple(right), rounded), differing

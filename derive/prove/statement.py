@@ -16,8 +16,8 @@ ANGLE_NODES = tuple(name for name in FUNCTIONS if name != "sqrt") + ROTATIONS
 class Statement:
     """lhs = rhs, for all values of the free symbols.
 
-    `definitions` (name -> tree, later ones may use earlier ones) are substituted; `jets` (name -> variables) are unspecified
-    functions of those variables; `signs` are symbols with square 1, such as the flank sign.
+    `definitions` (name -> tree, later ones may use earlier ones) are substituted; `jets` (name -> variables) are
+    unspecified functions of those variables; `signs` are symbols with square 1, such as the flank sign.
     """
 
     id: str
@@ -84,7 +84,9 @@ class Statement:
 
     @cached_property
     def dependent_generators(self) -> list[tuple[str, Tree]]:
-        """("root", radicand), ("arc", atan2 node) and ("angle", defined name), each after those that its value contains."""
+        """("root", radicand), ("arc", atan2 node) and ("angle", defined name), each after those that its value
+        contains.
+        """
         opaque = {angle.symbol for angle in self.angles} & set(self.used)
         found: list[tuple[str, Tree]] = []
         for name, tree in (*self.used.items(), ("", self.lhs), ("", self.rhs)):

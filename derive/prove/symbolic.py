@@ -68,7 +68,9 @@ class Translator:
         try:
             linear_form(tree, self.definitions)
         except NotationError:
-            name = next((known for known, value in self.definitions.items() if value == tree and known.startswith("angle_")), "")
+            name = next(
+                (known for known, value in self.definitions.items() if value == tree and known.startswith("angle_")), ""
+            )
             if not name:
                 name = f"angle_{sum(known.startswith('angle_') for known in self.definitions) + 1}"
                 self.definitions[name] = tree

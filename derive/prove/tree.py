@@ -1,7 +1,7 @@
 """Expression trees: the closed grammar in which every statement is written, printed, hashed and checked.
 
-A tree is a nested tuple whose first entry names the node; a symbol is a string, an integer an int. Nothing is ever evaluated,
-ordered or collapsed: a tree is what was printed, term by term.
+A tree is a nested tuple whose first entry names the node; a symbol is a string, an integer an int. Nothing is ever
+evaluated, ordered or collapsed: a tree is what was printed, term by term.
 
     scalar   int, symbol, ("+", a, b, ...), ("-", a), ("*", a, b, ...), ("/", a, b), ("^", a, n), ("sqrt", a),
              ("cos" | "sin" | "tan", angle), ("atan2", y, x), ("jet", name, order, ...), ("dot", u, v),
@@ -10,8 +10,8 @@ ordered or collapsed: a tree is what was printed, term by term.
     matrix   ("mat", (row), (row), (row)), ("Rx" | "Ry" | "Rz", angle), ("@", A, B), ("T", A)
     any      ("d", expression, (symbol, rate), ...): derivative when every listed symbol moves at its rate
 
-A jet is the value of an unspecified function or of one of its derivatives: ("jet", "xi", 2) is xi'' of a function of one variable,
-("jet", "x", 1, 0) is the first partial derivative of a function of two.
+A jet is the value of an unspecified function or of one of its derivatives: ("jet", "xi", 2) is xi'' of a function of
+one variable, ("jet", "x", 1, 0) is the first partial derivative of a function of two.
 """
 
 from __future__ import annotations
@@ -28,7 +28,15 @@ FUNCTIONS = ("cos", "sin", "tan", "sqrt")
 ROTATIONS = ("Rx", "Ry", "Rz")
 FIXED_ARITY = {
     **dict.fromkeys(FUNCTIONS + ROTATIONS, 1),
-    "-": 1, "/": 2, "T": 1, "@": 2, "dot": 2, "cross": 2, "atan2": 2, "triple": 3, "vec": 3,
+    "-": 1,
+    "/": 2,
+    "T": 1,
+    "@": 2,
+    "dot": 2,
+    "cross": 2,
+    "atan2": 2,
+    "triple": 3,
+    "vec": 3,
 }
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 NUMERIC_FUNCTIONS = ("asin", "acos", "atan", "degrees", "radians")
@@ -41,8 +49,8 @@ class NotationError(ValueError):
 def parse(text: str, jets: Mapping[str, tuple[str, ...]] | None = None) -> Tree:
     """Read an expression in the compact notation of the document modules, keeping every term as written.
 
-    `xi'` is the first derivative of a jet named in `jets` (name -> variables), `x[1, 0]` a partial derivative, `R.x` the first
-    component of a vector, `A @ B` a matrix product, `d(f, u)` and `d(f, (u, 1), (v, m))` a derivative.
+    `xi'` is the first derivative of a jet named in `jets` (name -> variables), `x[1, 0]` a partial derivative, `R.x`
+    the first component of a vector, `A @ B` a matrix product, `d(f, u)` and `d(f, (u, 1), (v, m))` a derivative.
     """
     primed = re.sub(r"(\w)('+)", lambda match: f"{match[1]}[{len(match[2])}]", text)
     try:

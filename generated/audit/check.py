@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Re-check the audit record with the standard library alone: `python check.py [folder]`, exit status 0 if everything holds.
+"""Re-check the audit record with the standard library alone: `python check.py [folder]`, exit status 0 if everything
+holds.
 
-The record is two files of canonical JSON, one object per line. `ledger.jsonl` holds sources, steps (definitions), equations,
-verdicts and artifacts; `certificates.jsonl` holds what shows each equation true or false. Every object carries the sha256 of
-the rest of itself and names the objects it rests on by their sha256, so the one root hash pins all of them.
+The record is two files of canonical JSON, one object per line. `ledger.jsonl` holds sources, steps (definitions),
+equations, verdicts and artifacts; `certificates.jsonl` holds what shows each equation true or false. Every object
+carries the sha256 of the rest of itself and names the objects it rests on by their sha256, so the one root hash pins
+all of them.
 
 What is checked:
   hashes        every object, every link, the root, and every generated file that the record names
@@ -43,7 +45,7 @@ def require(condition: object, message: str) -> None:
         raise Rejected(message)
 
 
-# ---- numbers: integers mod PRIME or Fractions, and dual numbers over either, nested once per derivative ----------------------
+# ---- numbers: integers mod PRIME or Fractions, and dual numbers over either, nested once per derivative --------------
 
 
 class Dual:
@@ -99,7 +101,7 @@ def power(a, exponent):
     return result if exponent else add(1, result)
 
 
-# ---- environments: what symbols, cosines, jets and roots are worth ------------------------------------------------------------
+# ---- environments: what symbols, cosines, jets and roots are worth ---------------------------------------------------
 
 
 class Free:
@@ -161,7 +163,10 @@ class NoRoot(Exception):
 
 
 class Exact:
-    """A rational point with exactly rational cosines and sines; bare angles, pi, roots and dependent angles to 1e-25."""
+    """A rational point with exactly rational cosines and sines.
+
+    Bare angles, pi, roots and dependent angles to 1e-25.
+    """
 
     def __init__(self, equation: dict, point: dict):
         self.equation, self.memo = equation, {}
@@ -215,7 +220,9 @@ class Moving:
     def circle(self, name: str):
         symbol = name.partition("/")[0]
         cosine, sine = self.rest.circle(name)
-        turning = parts(evaluate(symbol, self))[1] if symbol in self.equation["definitions"] else self.rates.get(symbol, 0)
+        turning = (
+            parts(evaluate(symbol, self))[1] if symbol in self.equation["definitions"] else self.rates.get(symbol, 0)
+        )
         if divisor_of(name) > 1:
             turning = mul(turning, inverse(self.constant(divisor_of(name))))
         return Dual(cosine, neg(mul(sine, turning))), Dual(sine, mul(cosine, turning))
@@ -278,7 +285,7 @@ def shortened(value: Fraction) -> Fraction:
     return Fraction(int(value * SCALE * 1000), SCALE * 1000)
 
 
-# ---- trees --------------------------------------------------------------------------------------------------------------------
+# ---- trees -----------------------------------------------------------------------------------------------------------
 
 
 def evaluate(tree, env):
@@ -416,13 +423,17 @@ def linear(tree, equation: dict) -> dict:
             for symbol, factor in linear(term, equation).items():
                 total[symbol] = total.get(symbol, Fraction(0)) + factor
         return {symbol: factor for symbol, factor in total.items() if factor}
-    scale = {"-": lambda: (Fraction(-1), tree[1]), "/": lambda: (Fraction(1, tree[2]), tree[1]), "*": lambda: (Fraction(tree[1]), tree[2])}
+    scale = {
+        "-": lambda: (Fraction(-1), tree[1]),
+        "/": lambda: (Fraction(1, tree[2]), tree[1]),
+        "*": lambda: (Fraction(tree[1]), tree[2]),
+    }
     require(tree[0] in scale and len(tree) <= 3, "not an angle")
     factor, rest = scale[tree[0]]()
     return {symbol: factor * value for symbol, value in linear(rest, equation).items()}
 
 
-# ---- polynomials: text `2*0^2*4+-1*1`, coefficient * generator^power ----------------------------------------------------------
+# ---- polynomials: text `2*0^2*4+-1*1`, coefficient * generator^power -------------------------------------------------
 
 
 def read_polynomial(text: str) -> dict:
@@ -466,7 +477,7 @@ def at_point(polynomial: dict, values: list) -> int:
     return total % PRIME
 
 
-# ---- certificates -------------------------------------------------------------------------------------------------------------
+# ---- certificates ----------------------------------------------------------------------------------------------------
 
 
 def canonical(value: object) -> str:
@@ -474,23 +485,43 @@ def canonical(value: object) -> str:
 
 
 def sha256_of(body: dict) -> str:
-    return hashlib.sha256(canonical({key: value for key, value in body.items() if key != "sha256"}).encode()).hexdigest()
+    return hashlib.sha256(
+        canonical({key: value for key, value in body.items() if key != "sha256"}).encode()
+    ).hexdigest()
 
 
 def scope_of(certificate: dict, equation: dict, definitions: dict) -> dict:
     """What an evaluation needs, after checking that angles, roots, signs and definitions are named once and apart."""
-    angles = {entry["symbol"]: entry["symbol"] + (f"/{entry['divisor']}" if entry["divisor"] > 1 else "") for entry in certificate["angles"]}
+    angles = {
+        entry["symbol"]: entry["symbol"] + (f"/{entry['divisor']}" if entry["divisor"] > 1 else "")
+        for entry in certificate["angles"]
+    }
     require(len(angles) == len(certificate["angles"]), "one angle has two names")
     roots = {
-        canonical(root["radicand"]): (root["generator"], read_polynomial(root["divisor"])) for root in certificate["roots"] if "generator" in root
+        canonical(root["radicand"]): (root["generator"], read_polynomial(root["divisor"]))
+        for root in certificate["roots"]
+        if "generator" in root
     }
     require(len(roots) == sum("generator" in root for root in certificate["roots"]), "one root has two names")
     arcs = {canonical(arc["tree"]): arc["generator"] for arc in certificate["arcs"]}
     require(len(arcs) == len(set(arcs.values())) == len(certificate["arcs"]), "arcs and their names do not match")
-    taken = [*arcs.values(), *(set(angles) - set(definitions)), *{name for name, _ in roots.values()}, *equation["signs"], *definitions]
+    taken = [
+        *arcs.values(),
+        *(set(angles) - set(definitions)),
+        *{name for name, _ in roots.values()},
+        *equation["signs"],
+        *definitions,
+    ]
     require(len(taken) == len(set(taken)), "one name means two things")
-    return {"angles": angles, "roots": roots, "arcs": arcs, "signs": equation["signs"], "jets": equation["jets"],
-            "definitions": definitions, "generators": certificate.get("generators", [])}
+    return {
+        "angles": angles,
+        "roots": roots,
+        "arcs": arcs,
+        "signs": equation["signs"],
+        "jets": equation["jets"],
+        "definitions": definitions,
+        "generators": certificate.get("generators", []),
+    }
 
 
 def relations_of(certificate: dict, scope: dict) -> list:
@@ -500,15 +531,24 @@ def relations_of(certificate: dict, scope: dict) -> list:
     relations = []
     for relation in certificate["relations"]:
         name, square = relation["generator"], read_polynomial(relation["square"])
-        require(name in index and index[name] not in [known for known, _ in relations], f"relation for {name} is invented or repeated")
+        require(
+            name in index and index[name] not in [known for known, _ in relations],
+            f"relation for {name} is invented or repeated",
+        )
         if relation["kind"] == "circle":
             angle = name[4:-1]
-            require(name == f"sin({angle})" and angle in scope["angles"].values(), f"{name} is not the sine of a listed angle")
+            require(
+                name == f"sin({angle})" and angle in scope["angles"].values(),
+                f"{name} is not the sine of a listed angle",
+            )
             require(square == {(): 1, ((index[f"cos({angle})"], 2),): -1}, f"the relation of {name} is not the circle")
         elif relation["kind"] == "sign":
             require(name in scope["signs"] and square == {(): 1}, f"{name} is not a sign")
         else:
-            require(relation["kind"] == "root" and name in [known for known, _ in scope["roots"].values()], f"relation {relation['kind']} for {name} is invented")
+            require(
+                relation["kind"] == "root" and name in [known for known, _ in scope["roots"].values()],
+                f"relation {relation['kind']} for {name} is invented",
+            )
         relations.append((index[name], square))
     return relations
 
@@ -553,14 +593,19 @@ def check_point(env: Free, certificate: dict, equation: dict, polynomials: list,
         if relation["kind"] == "root":
             for root in certificate["roots"]:
                 if root["generator"] == certificate["generators"][generator]:
-                    expected = mul(evaluate(root["radicand"], env), power(at_point(read_polynomial(root["divisor"]), values), 2))
+                    expected = mul(
+                        evaluate(root["radicand"], env), power(at_point(read_polynomial(root["divisor"]), values), 2)
+                    )
                     require(expected == at_point(square, values), "a root is not of its radicand")
     for a, b, (numerator, denominators) in zip(left, right, polynomials, strict=True):
         below = 1
         for factor, times in denominators:
             below = below * pow(at_point(factor, values), times, PRIME) % PRIME
         require(below, "a denominator is zero")
-        require(add(a, neg(b)) * below % PRIME == at_point(numerator, values), "the trees differ from numerator / denominators")
+        require(
+            add(a, neg(b)) * below % PRIME == at_point(numerator, values),
+            "the trees differ from numerator / denominators",
+        )
         require(not isinstance(env, Variety) or a == b, "the sides differ on the variety")
 
 
@@ -577,24 +622,43 @@ def check_refutation(certificate: dict, equation: dict, definitions: dict) -> No
         difference = abs(left[position] - right[position])
         require(difference > (THRESHOLD if certificate["rounded"] else 0), "the sides agree at the counterexample")
     for number, text in zip(left + right, certificate["lhs"] + certificate["rhs"], strict=True):
-        require(abs(number - Fraction(text)) <= abs(number) * Fraction(1, 10**8), "the counterexample's numbers are not those of the sides")
+        require(
+            abs(number - Fraction(text)) <= abs(number) * Fraction(1, 10**8),
+            "the counterexample's numbers are not those of the sides",
+        )
 
 
 def check_number(certificate: dict, equation: dict, definitions: dict) -> None:
     """A printed number against its formula: within half a unit of its last digit, or not, as recorded."""
     value, printed = number_of(equation["lhs"], definitions), equation["rhs"]
-    require(abs(value - float(certificate["value"])) <= 1e-8 * max(1.0, abs(value)), "the recorded value is not that of the formula")
+    require(
+        abs(value - float(certificate["value"])) <= 1e-8 * max(1.0, abs(value)),
+        "the recorded value is not that of the formula",
+    )
     if printed in (">0", "<0"):
         within = (value > 0) == (printed == ">0")
     else:
         within = abs(value - Fraction(printed)) <= Fraction(certificate["half_unit"]) + Fraction(1, 10**9)
-    require(within == (certificate["outcome"] == "proved"), "a printed number is not judged by half a unit of its last digit")
+    require(
+        within == (certificate["outcome"] == "proved"),
+        "a printed number is not judged by half a unit of its last digit",
+    )
 
 
 NUMERIC = {
-    "-": lambda a: -a, "/": lambda a, b: a / b, "+": lambda *a: math.fsum(a), "*": lambda *a: math.prod(a), "sqrt": math.sqrt,
-    "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
-    "degrees": math.degrees, "radians": math.radians,
+    "-": lambda a: -a,
+    "/": lambda a, b: a / b,
+    "+": lambda *a: math.fsum(a),
+    "*": lambda *a: math.prod(a),
+    "sqrt": math.sqrt,
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "asin": math.asin,
+    "acos": math.acos,
+    "atan": math.atan,
+    "degrees": math.degrees,
+    "radians": math.radians,
 }
 
 
@@ -609,11 +673,16 @@ def number_of(tree, definitions: dict) -> float:
     return NUMERIC[tree[0]](*(number_of(argument, definitions) for argument in tree[1:]))
 
 
-CHECKS = {"ring_nf": check_proof, "exact_point": check_refutation, "numeric": check_number, "undecided": lambda *_: None}
+CHECKS = {
+    "ring_nf": check_proof,
+    "exact_point": check_refutation,
+    "numeric": check_number,
+    "undecided": lambda *_: None,
+}
 OUTCOME_OF_KIND = {"ring_nf": "proved", "exact_point": "refuted", "undecided": "undecided"}
 
 
-# ---- the record ---------------------------------------------------------------------------------------------------------------
+# ---- the record ------------------------------------------------------------------------------------------------------
 
 
 def read_lines(path: Path) -> list[dict]:
@@ -651,7 +720,10 @@ def definitions_of(equation: dict, objects: dict[str, dict]) -> dict:
 def check_certificate(certificate: dict, objects: dict[str, dict]) -> None:
     equation = linked(objects, certificate["equation"], "equation")
     require(certificate["kind"] in CHECKS, f"unknown kind of certificate {certificate['kind']!r}")
-    require(certificate["kind"] == "numeric" or OUTCOME_OF_KIND[certificate["kind"]] == certificate["outcome"], "kind and outcome contradict")
+    require(
+        certificate["kind"] == "numeric" or OUTCOME_OF_KIND[certificate["kind"]] == certificate["outcome"],
+        "kind and outcome contradict",
+    )
     try:
         CHECKS[certificate["kind"]](certificate, equation, definitions_of(equation, objects))
     except (Rejected, ArithmeticError, LookupError, TypeError, ValueError, RecursionError) as error:
@@ -674,7 +746,9 @@ def outcome_of(reading: dict, verdict: dict, objects: dict[str, dict]) -> str:
     outcomes = set()
     for part in reading["parts"]:
         certificate = linked(objects, part["certificate"], "certificate")
-        require(certificate["equation"] == part["equation"], f"{verdict['id']}: the certificate is for another equation")
+        require(
+            certificate["equation"] == part["equation"], f"{verdict['id']}: the certificate is for another equation"
+        )
         outcomes.add(certificate["outcome"])
     require(outcomes, f"{verdict['id']}: nothing is judged")
     return next(outcome for outcome in ("refuted", "undecided", "proved") if outcome in outcomes)
@@ -684,7 +758,10 @@ def check_verdict(verdict: dict, objects: dict[str, dict]) -> None:
     roles = ("readings", "corrected", "contradiction")
     outcomes = [[outcome_of(reading, verdict, objects) for reading in verdict[role]] for role in roles]
     if outcomes[0] or outcomes[2]:
-        require(verdict["status"] == status_of(*outcomes, bool(verdict["damage"])), f"{verdict['id']}: the status does not follow from the certificates")
+        require(
+            verdict["status"] == status_of(*outcomes, bool(verdict["damage"])),
+            f"{verdict['id']}: the status does not follow from the certificates",
+        )
     else:
         judged_by_words = ("not_mathematical", "definition") + (("ambiguous",) if verdict["missing"] else ())
         require(verdict["status"] in judged_by_words, f"{verdict['id']}: nothing is judged")
@@ -729,7 +806,11 @@ def verify(folder: Path) -> dict[str, int | str]:
             require(kind in ("source", "equation"), f"unknown object {kind!r}")
     root = root_of(objects)
     kinds = [item["object"] for item in objects.values()]
-    return {**{kind: kinds.count(kind) for kind in sorted(set(kinds))}, "file": check_files(folder, root, objects), "root": root}
+    return {
+        **{kind: kinds.count(kind) for kind in sorted(set(kinds))},
+        "file": check_files(folder, root, objects),
+        "root": root,
+    }
 
 
 def main(arguments: list[str]) -> int:
@@ -739,7 +820,10 @@ def main(arguments: list[str]) -> int:
     except Rejected as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
-    print(", ".join(f"{count} {kind}{'' if count == 1 else 's'}" for kind, count in report.items() if kind != "root"), "hold")
+    print(
+        ", ".join(f"{count} {kind}{'' if count == 1 else 's'}" for kind, count in report.items() if kind != "root"),
+        "hold",
+    )
     print("root", report["root"])
     return 0
 

@@ -19,10 +19,14 @@ def small_ledger():
 @pytest.fixture
 def record(small_ledger, tmp_path):
     """That record on disk, with one generated header that it names."""
-    header = f"/* A drive.\n * Equations (hash {small_ledger.root}):\n *   rack-and-pinion/eq-1\n */\ndouble x = a - b;\n"
+    header = (
+        f"/* A drive.\n * Equations (hash {small_ledger.root}):\n *   rack-and-pinion/eq-1\n */\ndouble x = a - b;\n"
+    )
     replace_text(tmp_path / "c" / "drive.h", header)
     folder = tmp_path / "audit"
-    for name, text in (store.record_files(small_ledger) | {"artifacts.json": store.seal(small_ledger, {"c/drive.h": header})}).items():
+    for name, text in (
+        store.record_files(small_ledger) | {"artifacts.json": store.seal(small_ledger, {"c/drive.h": header})}
+    ).items():
         replace_text(folder / name, text)
     return folder
 

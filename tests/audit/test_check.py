@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -26,7 +27,7 @@ def test_shipped_checker_accepts_the_record_without_any_package(record, small_le
 
 
 def test_checker_imports_only_the_standard_library():
-    source = open(check.__file__).read()
+    source = Path(check.__file__).read_text()
     modules = {line.split()[1].split(".")[0] for line in source.splitlines() if line.startswith(("import ", "from "))}
     assert modules <= sys.stdlib_module_names
 
@@ -66,7 +67,11 @@ def test_no_record_is_reported_as_such(tmp_path):
 @pytest.fixture
 def proof(objects):
     """A certificate with at least one relation, its equation and definitions."""
-    certificate = next(item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "ring_nf" and item["relations"])
+    certificate = next(
+        item
+        for item in objects.values()
+        if item["object"] == "certificate" and item["kind"] == "ring_nf" and item["relations"]
+    )
     equation = objects[certificate["equation"]]
     return certificate, equation, check.definitions_of(equation, objects)
 
@@ -88,7 +93,11 @@ def test_altered_cofactor(proof):
 def test_altered_numerator_with_matching_cofactors(proof):
     """Numerator and cofactors doubled: the integers agree, the trees do not."""
     component = proof[0]["components"][0]
-    double = lambda text: "+".join(f"{2 * int(term.partition('*')[0])}{term[len(term.partition('*')[0]):]}" for term in text.split("+")) if text else ""
+
+    def double(text):
+        terms = [term.partition("*") for term in text.split("+")] if text else []
+        return "+".join(f"{2 * int(factor)}{star}{powers}" for factor, star, powers in terms)
+
     component["numerator"] = double(component["numerator"])
     component["cofactors"] = [double(text) for text in component["cofactors"]]
     rejected(proof, "trees differ")
@@ -151,7 +160,11 @@ def test_zero_denominator(proof):
 def test_vacuous_statement_is_rejected():
     """1/(cos^2 + sin^2 - 1) never exists on the circle."""
     certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "arcs": [], "generators": [], "relations": [],
+        "angles": [{"symbol": "a", "divisor": 1}],
+        "roots": [],
+        "arcs": [],
+        "generators": [],
+        "relations": [],
         "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
     zero = ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2], -1]
@@ -161,7 +174,9 @@ def test_vacuous_statement_is_rejected():
 
 
 def test_refutation_needs_sides_that_differ(objects):
-    certificate = next(item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "exact_point")
+    certificate = next(
+        item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "exact_point"
+    )
     equation = objects[certificate["equation"]]
     equation["rhs"] = equation["lhs"]
     with pytest.raises(check.Rejected, match="agree"):
@@ -171,7 +186,11 @@ def test_refutation_needs_sides_that_differ(objects):
 def test_wrong_derivative_is_caught_by_dual_numbers(objects):
     """d(sin)/da = -cos passed off as true."""
     certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}], "roots": [], "arcs": [], "generators": [], "relations": [],
+        "angles": [{"symbol": "a", "divisor": 1}],
+        "roots": [],
+        "arcs": [],
+        "generators": [],
+        "relations": [],
         "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
     equation = {"lhs": ["d", ["sin", "a"], ["a", 1]], "rhs": ["-", ["cos", "a"]], "signs": [], "jets": {}}
@@ -183,13 +202,22 @@ def test_wrong_derivative_is_caught_by_dual_numbers(objects):
 def test_second_derivatives_of_jets_and_roots():
     """xi(u)^2 twice, and sqrt(u^2 + 1) once, by nested dual numbers."""
     certificate = {
-        "angles": [], "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": "1"}],
-        "arcs": [], "generators": [], "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+        "angles": [],
+        "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": "1"}],
+        "arcs": [],
+        "generators": [],
+        "relations": [],
+        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
     }
-    xi = lambda n: ["jet", "xi", n]
+
+    def xi(order):
+        return ["jet", "xi", order]
+
     twice = {
-        "lhs": ["d", ["d", ["^", xi(0), 2], ["u", 1]], ["u", 1]], "rhs": ["+", ["*", 2, ["^", xi(1), 2]], ["*", 2, xi(0), xi(2)]],
-        "signs": [], "jets": {"xi": ["u"]},
+        "lhs": ["d", ["d", ["^", xi(0), 2], ["u", 1]], ["u", 1]],
+        "rhs": ["+", ["*", 2, ["^", xi(1), 2]], ["*", 2, xi(0), xi(2)]],
+        "signs": [],
+        "jets": {"xi": ["u"]},
     }
     check.check_proof(certificate, twice, {})
     root = ["sqrt", ["+", ["^", "u", 2], 1]]

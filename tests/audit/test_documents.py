@@ -1,4 +1,7 @@
-"""What the proofs say of the four documents. Verdicts come from the prover; here they are compared with what is known of the prints."""
+"""What the proofs say of the four documents.
+
+Verdicts come from the prover; here they are compared with what is known of the prints.
+"""
 
 import pytest
 
@@ -39,12 +42,23 @@ def test_misprint_is_refuted_and_its_correction_proved(verdicts, key):
     assert MISPRINTS[key] in verdict.change
 
 
-@pytest.mark.parametrize("key", [*(f"eq-{n}" for n in (2, 8, 9, 10, 11, 12, 14, 15, 21, 23, 24, 25, 28, 31, 35, 37, 38)), "acr", "table-1", "count"])
+@pytest.mark.parametrize(
+    "key",
+    [
+        *(f"eq-{n}" for n in (2, 8, 9, 10, 11, 12, 14, 15, 21, 23, 24, 25, 28, 31, 35, 37, 38)),
+        "acr",
+        "table-1",
+        "count",
+    ],
+)
 def test_the_recess_action_paper_is_right_here(verdicts, key):
     assert verdicts[f"recess-action/{key}"].status == "proved"
 
 
-@pytest.mark.parametrize("key", ["recess-action/eq-1", "recess-action/eq-5", "recess-action/eq-6", "spherical/eq-2.5", "zk-zn/eq-1", "zk-zn/eq-4"])
+@pytest.mark.parametrize(
+    "key",
+    ["recess-action/eq-1", "recess-action/eq-5", "recess-action/eq-6", "spherical/eq-2.5", "zk-zn/eq-1", "zk-zn/eq-4"],
+)
 def test_lost_signs_leave_exactly_one_reading_that_holds(verdicts, key):
     outcomes = [reading.outcome for reading in verdicts[key].readings]
     assert verdicts[key].status == "ambiguous"
@@ -53,7 +67,23 @@ def test_lost_signs_leave_exactly_one_reading_that_holds(verdicts, key):
 
 
 @pytest.mark.parametrize(
-    "key", ["helicoid", "rack-form", "eq-1", "eq-2", "eq-3", "eq-5", "psi", "normal-meets-axis", "elimination", "lemma", "planar-limit", "decomposition", "axis-2", "wheel-profile"]
+    "key",
+    [
+        "helicoid",
+        "rack-form",
+        "eq-1",
+        "eq-2",
+        "eq-3",
+        "eq-5",
+        "psi",
+        "normal-meets-axis",
+        "elimination",
+        "lemma",
+        "planar-limit",
+        "decomposition",
+        "axis-2",
+        "wheel-profile",
+    ],
 )
 def test_the_rack_and_pinion_paper_is_right_here_for_every_profile(verdicts, key):
     assert verdicts[f"rack-and-pinion/{key}"].status == "proved"
@@ -65,7 +95,11 @@ def test_the_rack_and_pinion_paper_claims_too_much(verdicts, key):
 
 
 def test_four_entries_of_table_2_are_misprinted(verdicts):
-    wrong = [part.figure.formula for part in verdicts["recess-action/table-2-wheel-angle"].readings[0].parts if part.outcome is Outcome.REFUTED]
+    wrong = [
+        part.figure.formula
+        for part in verdicts["recess-action/table-2-wheel-angle"].readings[0].parts
+        if part.outcome is Outcome.REFUTED
+    ]
     assert [formula.partition("/")[0] for formula in wrong] == ["800", "1200", "1600", "800"]
     corrected = [part.figure.printed for part in verdicts["recess-action/table-2-wheel-angle"].corrected.parts]
     assert {"2.8881", "4.3323", "5.7764"} <= set(corrected)

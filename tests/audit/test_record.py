@@ -19,7 +19,9 @@ GENERATED = ROOT / "generated"
 
 def test_committed_record_holds_within_two_seconds_with_the_standard_library_alone():
     begin = time.perf_counter()
-    result = subprocess.run([sys.executable, "-I", "-S", GENERATED / "audit" / "check.py"], capture_output=True, text=True, cwd="/")
+    result = subprocess.run(
+        [sys.executable, "-I", "-S", GENERATED / "audit" / "check.py"], capture_output=True, text=True, cwd="/"
+    )
     assert result.returncode == 0, result.stderr
     assert time.perf_counter() - begin < 2
 
@@ -34,7 +36,11 @@ def test_proving_everything_takes_less_than_twenty_seconds():
     assert time.perf_counter() - begin < 20
 
 
-@pytest.mark.parametrize("setting", [{"PYTHONHASHSEED": "1"}, {"PYTHONHASHSEED": "2", "BACKEND": "sympy"}], ids=["other hash seed", "SymPy rings"])
+@pytest.mark.parametrize(
+    "setting",
+    [{"PYTHONHASHSEED": "1"}, {"PYTHONHASHSEED": "2", "BACKEND": "sympy"}],
+    ids=["other hash seed", "SymPy rings"],
+)
 def test_root_does_not_depend_on_machine_or_back_end(setting):
     program = (
         "import os, derive.prove.polynomial as p\n"
@@ -44,7 +50,9 @@ def test_root_does_not_depend_on_machine_or_back_end(setting):
         "print(l.build([d.CHAPTER]).root)"
     )
     here = ledger.build([record.chapters()[1]]).root
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=ROOT, env={**os.environ, **setting})
+    result = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=ROOT, env={**os.environ, **setting}
+    )
     assert result.stdout.strip() == here, result.stderr
 
 

@@ -16,7 +16,12 @@ def claim(text, definitions=None, jets=None, signs=()):
     left, right = text.split(" = ")
     jets = jets or {}
     return Statement(
-        text, parse(left, jets), parse(right, jets), {name: parse(tree, jets) for name, tree in (definitions or {}).items()}, jets, frozenset(signs)
+        text,
+        parse(left, jets),
+        parse(right, jets),
+        {name: parse(tree, jets) for name, tree in (definitions or {}).items()},
+        jets,
+        frozenset(signs),
     )
 
 
@@ -83,8 +88,12 @@ def test_one_proof_covers_every_profile():
         "r": "Rz(psi)@vec(xi, eta, zeta) + vec(0, 0, p*psi)",
         "n": "cross(d(r, u), d(r, psi))",
     }
-    assert decide(claim("dot(n, cross(vec(0, 0, 1), r) + vec(0, 0, p)) = 0", helicoid, PROFILE)).outcome is Outcome.PROVED
-    assert decide(claim("dot(n, cross(vec(0, 0, 1), r) - vec(0, 0, p)) = 0", helicoid, PROFILE)).outcome is Outcome.REFUTED
+    assert (
+        decide(claim("dot(n, cross(vec(0, 0, 1), r) + vec(0, 0, p)) = 0", helicoid, PROFILE)).outcome is Outcome.PROVED
+    )
+    assert (
+        decide(claim("dot(n, cross(vec(0, 0, 1), r) - vec(0, 0, p)) = 0", helicoid, PROFILE)).outcome is Outcome.REFUTED
+    )
 
 
 def test_a_sign_stands_for_both_flanks():
@@ -109,7 +118,9 @@ def test_both_back_ends_give_the_same_normal_form(text):
     assert len(hashes) == 1
 
 
-@pytest.mark.parametrize("text", ["x = __import__('os')", "f(x) = x", "x = 1.5", "x[1] = x", "cos(x*y) = 1", "x**y = x", "sin(pi/7 + a) = 0"])
+@pytest.mark.parametrize(
+    "text", ["x = __import__('os')", "f(x) = x", "x = 1.5", "x[1] = x", "cos(x*y) = 1", "x**y = x", "sin(pi/7 + a) = 0"]
+)
 def test_what_the_grammar_does_not_contain_is_an_error(text):
     with pytest.raises(NotationError):
         decide(claim(text))

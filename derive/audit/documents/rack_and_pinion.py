@@ -1,4 +1,7 @@
-"""The rack-and-pinion paper: the worm as a sliding rack, limit points, meshing axes. All profiles generic (jets xi, eta, zeta)."""
+"""The rack-and-pinion paper.
+
+The worm as a sliding rack, limit points, meshing axes. All profiles generic (jets xi, eta, zeta).
+"""
 
 from derive.audit.claims import Claim, Document, scope
 from derive.audit.ledger import Chapter
@@ -8,7 +11,8 @@ DOCUMENT = Document(
     name="the rack-and-pinion paper",
     file="002_4ec8cac32e4cad0f.txt",
     sha256="e5b345bbea939e872007e053b0e5f46c128917df00f1527be6761ba140ba1fd8",
-    about="Right-angle cylindrical worm drives as rack and pinion. Index 1 is the worm, 2 the wheel; lambda is the helicoid's parameter.",
+    about="Right-angle cylindrical worm drives as rack and pinion. Index 1 is the worm, 2 the wheel; lambda is the "
+    "helicoid's parameter.",
     symbols={
         "u": ("u", "mm", "profile parameter of the worm"),
         "lam": ("λ", "rad", "angle parameter of the helicoid (not the lead angle)"),
@@ -136,13 +140,19 @@ discriminant = middle**2 - 4*p*A*I*sin(shaft)
 
 CLAIMS = (
     Claim(
-        "frames", "§1", "I set i_2 = -i_1, j_2 = -k_1, k_2 = -j_1.",
+        "frames",
+        "§1",
+        "I set i_2 = -i_1, j_2 = -k_1, k_2 = -j_1.",
         "The wheel frame is right-handed, and k2 is perpendicular to k1.",
-        WORM, ["cross(i2, j2) = k2", "dot(k1, k2) = 0"],
+        WORM,
+        ["cross(i2, j2) = k2", "dot(k1, k2) = 0"],
     ),
     Claim(
-        "ratio-sign", "§1", "Assume |ω(1)| = 1 and |ω(2)| = I.",
-        "As a length, I is positive. That is right for a right-hand worm (p > 0). A left-hand worm turns the wheel about +j1 with p < 0: the rack's "
+        "ratio-sign",
+        "§1",
+        "Assume |ω(1)| = 1 and |ω(2)| = I.",
+        "As a length, I is positive. That is right for a right-hand worm (p > 0). A left-hand worm turns the wheel "
+        "about +j1 with p < 0: the rack's "
         "velocity -p k1 is then met only if I carries the sign of p.",
         WORM,
         {
@@ -151,111 +161,192 @@ CLAIMS = (
         },
     ),
     Claim(
-        "family", "§1", "r(1) = B_1(φ_1) R(1) = ξ e(λ+φ_1) + η e_1(λ+φ_1) + (ζ+pλ) k_1",
+        "family",
+        "§1",
+        "r(1) = B_1(φ_1) R(1) = ξ e(λ+φ_1) + η e_1(λ+φ_1) + (ζ+pλ) k_1",
         "Turning the helicoid about its axis only adds φ1 to λ in the circular vectors.",
-        WORM, "Rz(phi1)@R1 = r1",
+        WORM,
+        "Rz(phi1)@R1 = r1",
     ),
     Claim(
-        "inverse-rotation", "§1", "B_2^{-1}(φ_2) = B_2(-φ_2)",
+        "inverse-rotation",
+        "§1",
+        "B_2^{-1}(φ_2) = B_2(-φ_2)",
         "The inverse of a rotation turns back.",
-        WORM, ["T(B2)@B2 = mat([1, 0, 0], [0, 1, 0], [0, 0, 1])", "T(B2) = Ry(phi2)"],
+        WORM,
+        ["T(B2)@B2 = mat([1, 0, 0], [0, 1, 0], [0, 0, 1])", "T(B2) = Ry(phi2)"],
     ),
     Claim(
-        "meshing", "§1", "f(u,λ,φ_1) = (ω(2)×r(2) - ω(1)×r(1))·n = 0",
+        "meshing",
+        "§1",
+        "f(u,λ,φ_1) = (ω(2)×r(2) - ω(1)×r(1))·n = 0",
         "The velocity form is minus the envelope condition (R2_u × R2_λ)·∂R2/∂φ1, for every profile.",
-        WORM, "f = -triple(R2_u, R2_lam, R2_phi1)",
+        WORM,
+        "f = -triple(R2_u, R2_lam, R2_phi1)",
     ),
     Claim(
-        "helicoid", "§1", "the identity (pω(1) + ω(1)×r(1))·n = 0 always holds",
+        "helicoid",
+        "§1",
+        "the identity (pω(1) + ω(1)×r(1))·n = 0 always holds",
         "A screw motion moves a helicoid along itself.",
-        WORM, "dot(p*omega1 + cross(omega1, r1), n) = 0",
+        WORM,
+        "dot(p*omega1 + cross(omega1, r1), n) = 0",
     ),
     Claim(
-        "rack-form", "§1", "⇒ (ω(2)×r(2) - (-pω(1)))·n = 0",
+        "rack-form",
+        "§1",
+        "⇒ (ω(2)×r(2) - (-pω(1)))·n = 0",
         "The turning worm may be replaced by one that slides by -p k1 per radian.",
-        WORM, "f = dot(cross(omega2, r2) - (-p*omega1), n)", conditions=["worm of unlimited length"],
+        WORM,
+        "f = dot(cross(omega2, r2) - (-p*omega1), n)",
+        conditions=["worm of unlimited length"],
     ),
     Claim(
-        "pitch-radius-wheel", "§1", "The derived pitch circle radius of the worm gear is R_2j = p/I.",
+        "pitch-radius-wheel",
+        "§1",
+        "The derived pitch circle radius of the worm gear is R_2j = p/I.",
         "At that distance from its axis the wheel moves as fast as the rack.",
-        WORM, "cross(omega2, -R2j*i1) = -p*omega1", conditions=["I ≠ 0", "I has the sign of p"],
+        WORM,
+        "cross(omega2, -R2j*i1) = -p*omega1",
+        conditions=["I ≠ 0", "I has the sign of p"],
     ),
     Claim(
-        "psi", "§1", "r(1) = ξ e(ψ) + η e_1(ψ) + (ζ+pψ) k_1 - pφ_1 k_1",
+        "psi",
+        "§1",
+        "r(1) = ξ e(ψ) + η e_1(ψ) + (ζ+pψ) k_1 - pφ_1 k_1",
         "With ψ = λ + φ1 the family is one surface that slides along -k1.",
-        WORM, "r1 = xi*e + eta*e1 + (zeta + p*psi)*k1 - p*phi1*k1",
+        WORM,
+        "r1 = xi*e + eta*e1 + (zeta + p*psi)*k1 - p*phi1*k1",
     ),
     Claim(
-        "sliding", "§1", "a family of surfaces translating along -k_1 at constant speed p",
+        "sliding",
+        "§1",
+        "a family of surfaces translating along -k_1 at constant speed p",
         "At fixed ψ the point moves by -p k1 per radian of φ1.",
-        RACK, "d(slid, phi1) = -p*k1",
+        RACK,
+        "d(slid, phi1) = -p*k1",
     ),
     Claim(
-        "pitch-line", "§2", "The instantaneous axis (pitch line) is given by r_j = R_1j i_1 - Q j_1",
+        "pitch-line",
+        "§2",
+        "The instantaneous axis (pitch line) is given by r_j = R_1j i_1 - Q j_1",
         "Wheel and sliding worm have the same velocity on this line.",
-        WORM, "cross(omega2, rj - A*i1) = -p*omega1",
+        WORM,
+        "cross(omega2, rj - A*i1) = -p*omega1",
     ),
     Claim(
-        "normal-meets-axis", "§2", "r(1) + S_0 n = R_1j i_1 - Q_0 j_1 with S_0 = -r(1)·k_1 / n·k_1 and Q_0 = -(r(1)+S_0 n)·j_1",
+        "normal-meets-axis",
+        "§2",
+        "r(1) + S_0 n = R_1j i_1 - Q_0 j_1 with S_0 = -r(1)·k_1 / n·k_1 and Q_0 = -(r(1)+S_0 n)·j_1",
         "The normal ends beside the pitch line by f/(I n·k1): it meets the line exactly where f = 0.",
-        WORM, "r1 + S0*n - (R1j*i1 - Q0*j1) = f/(I*dot(n, k1))*i1", conditions=["n·k1 ≠ 0"],
+        WORM,
+        "r1 + S0*n - (R1j*i1 - Q0*j1) = f/(I*dot(n, k1))*i1",
+        conditions=["n·k1 ≠ 0"],
     ),
     Claim(
-        "elimination", "§2", "By taking the dot product with (j_1 × n), I eliminate S_0 and Q_0",
+        "elimination",
+        "§2",
+        "By taking the dot product with (j_1 × n), I eliminate S_0 and Q_0",
         "Neither S nor Q survives the product, whatever their values.",
-        WORM, "dot(r1 + S*n - (R1j*i1 - Q*j1), cross(j1, n)) = dot(cross(r1, j1) - R1j*k1, n)",
+        WORM,
+        "dot(r1 + S*n - (R1j*i1 - Q*j1), cross(j1, n)) = dot(cross(r1, j1) - R1j*k1, n)",
     ),
     Claim(
-        "eq-1", "Eq (1)", "(r(1)×j_1 - R_1j k_1)·n = 0   (1)",
+        "eq-1",
+        "Eq (1)",
+        "(r(1)×j_1 - R_1j k_1)·n = 0   (1)",
         "The spatial condition is I times this one; the two agree wherever I ≠ 0.",
-        WORM, "f = I*dot(cross(r1, j1) - R1j*k1, n)", conditions=["I ≠ 0"], drops="I",
+        WORM,
+        "f = I*dot(cross(r1, j1) - R1j*k1, n)",
+        conditions=["I ≠ 0"],
+        drops="I",
     ),
     Claim(
-        "lemma", "§2", "for any non-singular point on a surface, the profile normal, surface normal, and plane normal are coplanar",
+        "lemma",
+        "§2",
+        "for any non-singular point on a surface, the profile normal, surface normal, and plane normal are coplanar",
         "The profile's tangent is n × j1, its normal in the plane (n × j1) × j1: a combination of n and j1.",
-        WORM, "triple(cross(cross(n, j1), j1), n, j1) = 0", conditions=["n not parallel to j1"],
+        WORM,
+        "triple(cross(cross(n, j1), j1), n, j1) = 0",
+        conditions=["n not parallel to j1"],
     ),
     Claim(
-        "eq-2", "Eq (2)", "{ (r(1)×j_1 - R_1j k_1)·n = 0 ; r(1)·j_1 = C   (2)",
+        "eq-2",
+        "Eq (2)",
+        "{ (r(1)×j_1 - R_1j k_1)·n = 0 ; r(1)·j_1 = C   (2)",
         "In the plane y = C this says that the planar normal (n_x, n_z) passes the pitch point (R1j, 0).",
-        WORM, "f = I*((r1.x - R1j)*n.z - r1.z*n.x)", conditions=["n not parallel to j1", "C within the worm"], drops="I",
+        WORM,
+        "f = I*((r1.x - R1j)*n.z - r1.z*n.x)",
+        conditions=["n not parallel to j1", "C within the worm"],
+        drops="I",
     ),
     Claim(
-        "wheel-profile", "§2", "R(2) = B_2^{-1}(φ_2)(r(1) - A i_1)",
+        "wheel-profile",
+        "§2",
+        "R(2) = B_2^{-1}(φ_2)(r(1) - A i_1)",
         "With this surface the envelope condition is -f.",
-        WORM, "triple(R2_u, R2_lam, R2_phi1) = -f",
+        WORM,
+        "triple(R2_u, R2_lam, R2_phi1) = -f",
     ),
     Claim(
-        "section-points", "§2", "The intersection of the cutting plane with the instantaneous axis is the pitch point; with the worm gear axis, the gear center",
+        "section-points",
+        "§2",
+        "The intersection of the cutting plane with the instantaneous axis is the pitch point; with the worm gear "
+        "axis, the gear center",
         "Pitch point and centre of the section y = C lie p/I apart.",
-        WORM, ["dot(R1j*i1 + C*j1, j1) = C", "dot(A*i1 - C*k2, j1) = C", "A - R1j = R2j"],
+        WORM,
+        ["dot(R1j*i1 + C*j1, j1) = C", "dot(A*i1 - C*k2, j1) = C", "A - R1j = R2j"],
     ),
     Claim(
-        "eq-3", "Eq (3)", "(r(2), n_p, k_2) = 0   (3)",
-        "I times the triple product is (T_u × T_λ)·(ω2 × r2), T the tangents of the wheel surface: it vanishes where the wheel surface is singular, so the "
-        "condition is necessary. It is sufficient only where n·k1 ≠ 0, because on f = 0 the normal meets ω2 × r2 with -p n·k1.",
-        LIMIT, ["I*triple(r2, n_p, k2) = dot(cross(T_u, T_lam), w)", "dot(n, w) = f - p*dot(n, k1)"],
+        "eq-3",
+        "Eq (3)",
+        "(r(2), n_p, k_2) = 0   (3)",
+        "I times the triple product is (T_u × T_λ)·(ω2 × r2), T the tangents of the wheel surface: it vanishes where "
+        "the wheel surface is singular, so the "
+        "condition is necessary. It is sufficient only where n·k1 ≠ 0, because on f = 0 the normal meets ω2 × r2 "
+        "with -p n·k1.",
+        LIMIT,
+        ["I*triple(r2, n_p, k2) = dot(cross(T_u, T_lam), w)", "dot(n, w) = f - p*dot(n, k1)"],
         conditions=["necessary; sufficient where n·k1 ≠ 0", "n_p from total derivatives: φ1 = φ1(u, λ)", "∂f/∂φ1 ≠ 0"],
     ),
     Claim(
-        "planar-limit", "§3", "for a planar curve, at the first-type limit point of its conjugate curve, the normal to the meshing line passes through the center of rotation",
-        "Where the conjugate curve stands still, the meshing line's tangent is perpendicular to the arm from the centre.",
-        SECTION, "dot(d(m, t) - phi_t*sweep, arm) = dot(d(m, t), arm)", conditions=["the meshing line is regular"],
+        "planar-limit",
+        "§3",
+        "for a planar curve, at the first-type limit point of its conjugate curve, the normal to the meshing line "
+        "passes through the center of rotation",
+        "Where the conjugate curve stands still, the meshing line's tangent is perpendicular to the arm from the "
+        "centre.",
+        SECTION,
+        "dot(d(m, t) - phi_t*sweep, arm) = dot(d(m, t), arm)",
+        conditions=["the meshing line is regular"],
     ),
     Claim(
-        "eq-4", "Eq (4)", "{ (r(2), n_p, k_2) = 0 ; r(2)·k_2 = C   (4)",
+        "eq-4",
+        "Eq (4)",
+        "{ (r(2), n_p, k_2) = 0 ; r(2)·k_2 = C   (4)",
         "k2 = -j1, so the section r(1)·j1 = C of Eq (2) is r(2)·k2 = -C.",
-        WORM, "dot(r2, k2) = dot(r1, j1)",
+        WORM,
+        "dot(r2, k2) = dot(r1, j1)",
     ),
     Claim(
-        "eq-5", "Eq (5)", "{ (∂r_h/∂φ_1, ∂r_h/∂s, j_1) = 0 ; s = S_0   (5)",
-        "The triple product is -(1/I) ∂f/∂φ1: the two contacts of one revolution coincide. The normal has to turn with φ1 as well.",
-        WORM, ["triple(d(r1, phi1) + S0*d(n, phi1), n, j1) = -d(f, phi1)/I", "triple(d(r1, phi1) + S0*d(n, phi1), n, j1) = -Q0*dot(n, k1)"],
+        "eq-5",
+        "Eq (5)",
+        "{ (∂r_h/∂φ_1, ∂r_h/∂s, j_1) = 0 ; s = S_0   (5)",
+        "The triple product is -(1/I) ∂f/∂φ1: the two contacts of one revolution coincide. The normal has to turn "
+        "with φ1 as well.",
+        WORM,
+        [
+            "triple(d(r1, phi1) + S0*d(n, phi1), n, j1) = -d(f, phi1)/I",
+            "triple(d(r1, phi1) + S0*d(n, phi1), n, j1) = -Q0*dot(n, k1)",
+        ],
         conditions=["n·k1 ≠ 0", "I ≠ 0"],
     ),
     Claim(
-        "twice", "§4", "the instantaneous axis (pitch line) intersects this ruled surface twice for |φ_1| < 2π",
-        "f is a cosine in φ1 of period 2π, so there are two contacts a revolution; |φ1| < 2π spans two revolutions and holds up to four. "
+        "twice",
+        "§4",
+        "the instantaneous axis (pitch line) intersects this ruled surface twice for |φ_1| < 2π",
+        "f is a cosine in φ1 of period 2π, so there are two contacts a revolution; |φ1| < 2π spans two revolutions "
+        "and holds up to four. "
         "The text means a half-open interval of length 2π.",
         WORM,
         contradiction=[
@@ -265,12 +356,18 @@ CLAIMS = (
         ],
     ),
     Claim(
-        "axis-1", "§5", "the derived instantaneous axis itself is one meshing axis",
+        "axis-1",
+        "§5",
+        "the derived instantaneous axis itself is one meshing axis",
         "Every contact normal has no moment about the pitch line.",
-        WORM, "I*dot(cross(r1 - R1j*i1, j1), n) = f", drops="I",
+        WORM,
+        "I*dot(cross(r1 - R1j*i1, j1), n) = f",
+        drops="I",
     ),
     Claim(
-        "decomposition", "§5", "ω_1 + ω_2 = ω(2) - ω(1);  R_1j i_1×ω_1 + R_2f i_1×ω_2 - A i_1×ω(2) = 0;  R_2f = 0, tan α = p/R_1j",
+        "decomposition",
+        "§5",
+        "ω_1 + ω_2 = ω(2) - ω(1);  R_1j i_1×ω_1 + R_2f i_1×ω_2 - A i_1×ω(2) = 0;  R_2f = 0, tan α = p/R_1j",
         "With R2f = 0 and tan α = p/R1j both equations hold.",
         AXES,
         [
@@ -281,29 +378,48 @@ CLAIMS = (
         conditions=["R1j ≠ 0"],
     ),
     Claim(
-        "axis-2", "§5", "the second meshing axis passes through the origin (R_2f = 0) and is inclined at an angle α",
+        "axis-2",
+        "§5",
+        "the second meshing axis passes through the origin (R_2f = 0) and is inclined at an angle α",
         "The moment of a normal about the line of direction p j1 - R1j k1 through o1 is p f/I.",
-        WORM, "dot(cross(r1, p*j1 - R1j*k1), n) = p*f/I", conditions=["R1j ≠ 0"],
+        WORM,
+        "dot(cross(r1, p*j1 - R1j*k1), n) = p*f/I",
+        conditions=["R1j ≠ 0"],
     ),
     Claim(
-        "lead-angle", "§5", "an angle α, which is exactly the lead angle of the worm at the pitch circle",
-        "tan α = p/R1j is the lead angle at the derived pitch radius R1j. At the nominal reference radius it is only when A = r1 + p/I (no profile shift).",
-        WORM, {"pitch circle of radius R1j": "p/(A - p/I) = p/R1j", "reference circle of radius r_ref": "p/r_ref = p/R1j"},
+        "lead-angle",
+        "§5",
+        "an angle α, which is exactly the lead angle of the worm at the pitch circle",
+        "tan α = p/R1j is the lead angle at the derived pitch radius R1j. At the nominal reference radius it is only "
+        "when A = r1 + p/I (no profile shift).",
+        WORM,
+        {"pitch circle of radius R1j": "p/(A - p/I) = p/R1j", "reference circle of radius r_ref": "p/r_ref = p/R1j"},
     ),
     Claim(
-        "worm-axis", "§5", "the other is the worm axis itself (after projection)",
-        "The moment of a contact normal about the worm axis is p n·k1, not 0: the second axis passes the worm axis at o1 but is inclined to it.",
-        WORM, "dot(cross(r1, k1), n) = 0", corrected="dot(cross(r1, k1), n) = p*dot(n, k1)",
+        "worm-axis",
+        "§5",
+        "the other is the worm axis itself (after projection)",
+        "The moment of a contact normal about the worm axis is p n·k1, not 0: the second axis passes the worm axis "
+        "at o1 but is inclined to it.",
+        WORM,
+        "dot(cross(r1, k1), n) = 0",
+        corrected="dot(cross(r1, k1), n) = p*dot(n, k1)",
     ),
     Claim(
-        "existence", "§5", "It is known that in crossed-axis gear drives where one member has a helical surface (as in worm gear pairs), meshing axes exist.",
-        "A meshing axis at shaft angle Σ is a real root τ of p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ. For p = I = A = 1 and cos Σ = -3/5 the "
+        "existence",
+        "§5",
+        "It is known that in crossed-axis gear drives where one member has a helical surface (as in worm gear "
+        "pairs), meshing axes exist.",
+        "A meshing axis at shaft angle Σ is a real root τ of p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ. For p = I "
+        "= A = 1 and cos Σ = -3/5 the "
         "discriminant is -44/25: no meshing axis.",
         ANY_SHAFT_ANGLE,
         contradiction=["dot(D, W) = quadratic", "(1 + (-3/5) + 4/5)**2 - 4*(4/5) = -44/25"],
     ),
     Claim(
-        "right-angle-roots", "§5", "the worm gear pair possesses two distinct meshing axes",
+        "right-angle-roots",
+        "§5",
+        "the worm gear pair possesses two distinct meshing axes",
         "At 90° the roots are τ = 1 (pitch line) and τ = AI/p (second axis); they are distinct unless R1j = 0.",
         ANY_SHAFT_ANGLE,
         [
@@ -313,8 +429,11 @@ CLAIMS = (
         conditions=["R1j ≠ 0"],
     ),
     Claim(
-        "uniqueness", "§5", "This property is unique to cylindrical worm gear drives",
-        "It is not tied to right-angle drives: p = 2, I = 1/2, A = 10 at cos Σ = 3/5 has the two real roots τ = 5/2 and τ = 4/5.",
+        "uniqueness",
+        "§5",
+        "This property is unique to cylindrical worm gear drives",
+        "It is not tied to right-angle drives: p = 2, I = 1/2, A = 10 at cos Σ = 3/5 has the two real roots τ = 5/2 "
+        "and τ = 4/5.",
         ANY_SHAFT_ANGLE,
         contradiction=[
             "dot(D, W) = quadratic",
@@ -323,16 +442,27 @@ CLAIMS = (
         ],
     ),
     Claim(
-        "face-width", "§4", "important for determining the effective face width of the worm gear",
-        "A recommendation, not an equation.", kind="not_mathematical",
+        "face-width",
+        "§4",
+        "important for determining the effective face width of the worm gear",
+        "A recommendation, not an equation.",
+        kind="not_mathematical",
     ),
     Claim(
-        "scope", "§6", "applicable to any straight-line or non-straight-line cylindrical worm gear drive that satisfies the orthogonal-axis and constant lead conditions",
-        "The proofs above hold for every profile (ξ, η, ζ) of constant lead at 90°; the sentence itself is a summary.", kind="not_mathematical",
+        "scope",
+        "§6",
+        "applicable to any straight-line or non-straight-line cylindrical worm gear drive that satisfies the "
+        "orthogonal-axis and constant lead conditions",
+        "The proofs above hold for every profile (ξ, η, ζ) of constant lead at 90°; the sentence itself is a summary.",
+        kind="not_mathematical",
     ),
     Claim(
-        "table-r1j", "§6 table", "Derived pitch radius of worm (rack): R_1j = A - p/I",
-        "A definition, consistent with R2j = p/I.", WORM, "R1j = A - p/I",
+        "table-r1j",
+        "§6 table",
+        "Derived pitch radius of worm (rack): R_1j = A - p/I",
+        "A definition, consistent with R2j = p/I.",
+        WORM,
+        "R1j = A - p/I",
     ),
 )
 

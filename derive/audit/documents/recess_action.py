@@ -1,7 +1,7 @@
 """The recess-action paper: ZN worm, wheel cut by an oversize ZN hob. Index 1 is the hob, 2 the wheel, 3 the worm.
 
-In the extracted text the glyph "\ufffd" stands for minus, for minus-or-plus and for less-or-equal alike, "6" for plus-or-minus; where
-it matters both readings are judged.
+In the extracted text the glyph "\ufffd" stands for minus, for minus-or-plus and for less-or-equal alike, "6" for
+plus-or-minus; where it matters both readings are judged.
 """
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
@@ -12,7 +12,8 @@ DOCUMENT = Document(
     name="the recess-action paper",
     file="000_e4dc51872e8570c2.txt",
     sha256="485337d8a4f9abeb64073640d68f01f0b85ee9cc6d0f479d3f566ead211bb0d2",
-    about="Recess-action worm drive with an oversize hob. Index 1 is the hob, 2 the wheel, 3 the worm; unprimed angles belong to the cutting, primed ones to the mesh.",
+    about="Recess-action worm drive with an oversize hob. Index 1 is the hob, 2 the wheel, 3 the worm; unprimed "
+    "angles belong to the cutting, primed ones to the mesh.",
     symbols={
         "l1": ("l1", "mm", "distance along the blade edge from the apex of both edges"),
         "th1": ("θ1", "rad", "rotation parameter of the hob's surface"),
@@ -42,14 +43,20 @@ DOCUMENT = Document(
         "phi3p": ("φ3′", "rad", "rotation of the worm in mesh"),
         "m21": ("m21", "-", "φ2/φ1 = T1/T2"),
         "w1": ("ω1", "1/s", "speed of the hob"),
-        "X1": ("X1", "mm", "component of R1"), "Y1": ("Y1", "mm", "component of R1"), "Z1": ("Z1", "mm", "component of R1"),
-        "Nx": ("Nx1", "-", "component of N1"), "Ny": ("Ny1", "-", "component of N1"), "Nz": ("Nz1", "-", "component of N1"),
+        "X1": ("X1", "mm", "component of R1"),
+        "Y1": ("Y1", "mm", "component of R1"),
+        "Z1": ("Z1", "mm", "component of R1"),
+        "Nx": ("Nx1", "-", "component of N1"),
+        "Ny": ("Ny1", "-", "component of N1"),
+        "Nz": ("Nz1", "-", "component of N1"),
         "R1": ("R1", "mm", "hob surface, in S1"),
         "R2": ("R2", "mm", "locus of the hob, in S2"),
         "V12": ("V12", "mm/s", "velocity of the hob relative to the wheel, in S1"),
         "omega1": ("ω1⁽¹⁾", "1/s", "angular velocity of the hob, in S1"),
         "omega2": ("ω2⁽¹⁾", "1/s", "angular velocity of the wheel, in S1"),
-        "T1": ("T1", "-", "threads of the hob"), "T2": ("T2", "-", "teeth of the wheel"), "T3": ("T3", "-", "threads of the worm"),
+        "T1": ("T1", "-", "threads of the hob"),
+        "T2": ("T2", "-", "teeth of the wheel"),
+        "T3": ("T3", "-", "threads of the worm"),
     },
 )
 
@@ -140,250 +147,492 @@ def rows(name: str, *expressions: str) -> list[str]:
 
 CLAIMS = (
     Claim(
-        "eq-1", "Eq (1)",
-        "R1 = [ (rt + l1 cos α1) cos θ1 � l1 sin λ1 sin α1 sin θ1 ; �(rt + l1 cos α1) sin θ1 � l1 sin λ1 sin α1 cos θ1 ; ± l1 cos λ1 sin α1 � p1 θ1 ; 1 ]",
-        "Both terms with l1 sin λ1 sin α1 follow the flank: minus for the right side, plus for the left. Read as a plain minus, the left flank is wrong; "
+        "eq-1",
+        "Eq (1)",
+        "R1 = [ (rt + l1 cos α1) cos θ1 � l1 sin λ1 sin α1 sin θ1 ; �(rt + l1 cos α1) sin θ1 � l1 sin λ1 sin α1 cos "
+        "θ1 ; ± l1 cos λ1 sin α1 � p1 θ1 ; 1 ]",
+        "Both terms with l1 sin λ1 sin α1 follow the flank: minus for the right side, plus for the left. Read as a "
+        "plain minus, the left flank is wrong; "
         "the ± in Eq (6) shows what was meant.",
         BLADE,
         {
             "� is minus": rows(
-                "R1", "(rt + l1*cos(a1))*cos(th1) - l1*sin(lam1)*sin(a1)*sin(th1)",
-                "-(rt + l1*cos(a1))*sin(th1) - l1*sin(lam1)*sin(a1)*cos(th1)", "s*l1*cos(lam1)*sin(a1) - p1*th1"),
+                "R1",
+                "(rt + l1*cos(a1))*cos(th1) - l1*sin(lam1)*sin(a1)*sin(th1)",
+                "-(rt + l1*cos(a1))*sin(th1) - l1*sin(lam1)*sin(a1)*cos(th1)",
+                "s*l1*cos(lam1)*sin(a1) - p1*th1",
+            ),
             "� in the second terms is minus-or-plus": rows(
-                "R1", "(rt + l1*cos(a1))*cos(th1) - s*l1*sin(lam1)*sin(a1)*sin(th1)",
-                "-(rt + l1*cos(a1))*sin(th1) - s*l1*sin(lam1)*sin(a1)*cos(th1)", "s*l1*cos(lam1)*sin(a1) - p1*th1"),
+                "R1",
+                "(rt + l1*cos(a1))*cos(th1) - s*l1*sin(lam1)*sin(a1)*sin(th1)",
+                "-(rt + l1*cos(a1))*sin(th1) - s*l1*sin(lam1)*sin(a1)*cos(th1)",
+                "s*l1*cos(lam1)*sin(a1) - p1*th1",
+            ),
         },
         damage=DAMAGE,
     ),
     Claim(
-        "eq-2", "Eq (2)", "rt = √( r1² � (bx/2 sin λ1)² ) � bx / (2 tan α1)",
+        "eq-2",
+        "Eq (2)",
+        "rt = √( r1² � (bx/2 sin λ1)² ) � bx / (2 tan α1)",
         "With this rt the edge crosses the pitch cylinder exactly where the groove is bx wide.",
-        WIDTH, "(rt + bx/(2*sin(a1))*cos(a1))**2 + (bx/2*sin(lam1))**2 = r1**2", conditions=["r1 ≥ bx sin λ1 / 2", "0 < α1 < 90°"],
+        WIDTH,
+        "(rt + bx/(2*sin(a1))*cos(a1))**2 + (bx/2*sin(lam1))**2 = r1**2",
+        conditions=["r1 ≥ bx sin λ1 / 2", "0 < α1 < 90°"],
     ),
-    Claim("eq-3", "Eq (3)", "bx = bn � 2 dx tan α1, bn = π mn/2", "Groove width at the shifted pitch line: a definition.", kind="definition"),
+    Claim(
+        "eq-3",
+        "Eq (3)",
+        "bx = bn � 2 dx tan α1, bn = π mn/2",
+        "Groove width at the shifted pitch line: a definition.",
+        kind="definition",
+    ),
     Claim("eq-4", "Eq (4)", "N1 = ∂R1/∂l1 × ∂R1/∂θ1, n1 = N1/|N1|", "Definition of the normal.", kind="definition"),
     Claim(
-        "eq-5", "Eq (5)",
+        "eq-5",
+        "Eq (5)",
         "∂R1/∂l1 = [ cos α1 cos θ1 � sin α1 sin λ1 sin θ1 ; � cos α1 sin θ1 � sin α1 sin λ1 cos θ1 ; ± sin α1 cos λ1 ]",
         "The derivative of Eq (1); the same two signs follow the flank.",
         BLADE,
         {
-            "� is minus": rows("R1_l", "cos(a1)*cos(th1) - sin(a1)*sin(lam1)*sin(th1)", "-cos(a1)*sin(th1) - sin(a1)*sin(lam1)*cos(th1)", "s*sin(a1)*cos(lam1)"),
+            "� is minus": rows(
+                "R1_l",
+                "cos(a1)*cos(th1) - sin(a1)*sin(lam1)*sin(th1)",
+                "-cos(a1)*sin(th1) - sin(a1)*sin(lam1)*cos(th1)",
+                "s*sin(a1)*cos(lam1)",
+            ),
             "� in the second terms is minus-or-plus": rows(
-                "R1_l", "cos(a1)*cos(th1) - s*sin(a1)*sin(lam1)*sin(th1)", "-cos(a1)*sin(th1) - s*sin(a1)*sin(lam1)*cos(th1)", "s*sin(a1)*cos(lam1)"),
+                "R1_l",
+                "cos(a1)*cos(th1) - s*sin(a1)*sin(lam1)*sin(th1)",
+                "-cos(a1)*sin(th1) - s*sin(a1)*sin(lam1)*cos(th1)",
+                "s*sin(a1)*cos(lam1)",
+            ),
         },
         damage=DAMAGE,
     ),
     Claim(
-        "eq-6", "Eq (6)",
-        "∂R1/∂θ1 = [ �(rt + l1 cos α1) sin θ1 � l1 sin λ1 sin α1 cos θ1 ; �(rt + l1 cos α1) cos θ1 ± l1 sin λ1 sin α1 sin θ1 ; �p1 ]",
+        "eq-6",
+        "Eq (6)",
+        "∂R1/∂θ1 = [ �(rt + l1 cos α1) sin θ1 � l1 sin λ1 sin α1 cos θ1 ; �(rt + l1 cos α1) cos θ1 ± l1 sin λ1 sin "
+        "α1 sin θ1 ; �p1 ]",
         "The ± of the second row is legible and right; the first row needs minus-or-plus.",
         BLADE,
         {
             "� is minus": rows(
-                "R1_th", "-(rt + l1*cos(a1))*sin(th1) - l1*sin(lam1)*sin(a1)*cos(th1)",
-                "-(rt + l1*cos(a1))*cos(th1) + s*l1*sin(lam1)*sin(a1)*sin(th1)", "-p1"),
+                "R1_th",
+                "-(rt + l1*cos(a1))*sin(th1) - l1*sin(lam1)*sin(a1)*cos(th1)",
+                "-(rt + l1*cos(a1))*cos(th1) + s*l1*sin(lam1)*sin(a1)*sin(th1)",
+                "-p1",
+            ),
             "� in the second term of row 1 is minus-or-plus": rows(
-                "R1_th", "-(rt + l1*cos(a1))*sin(th1) - s*l1*sin(lam1)*sin(a1)*cos(th1)",
-                "-(rt + l1*cos(a1))*cos(th1) + s*l1*sin(lam1)*sin(a1)*sin(th1)", "-p1"),
+                "R1_th",
+                "-(rt + l1*cos(a1))*sin(th1) - s*l1*sin(lam1)*sin(a1)*cos(th1)",
+                "-(rt + l1*cos(a1))*cos(th1) + s*l1*sin(lam1)*sin(a1)*sin(th1)",
+                "-p1",
+            ),
         },
         damage=DAMAGE,
     ),
     Claim(
-        "eq-7", "Eq (7)",
-        "R2 = [ a11X1 + a12Y1 + sin γ1 sin φ2 Z1 � cos φ2 C1 ; a21X1 + a22Y1 + sin γ1 cos φ2 Z1 � sin φ2 C1 ; � sin γ1 sin φ1 X1 � sin γ1 cos φ1 Y1 + cos γ1 Z1 ; 1 ]",
+        "eq-7",
+        "Eq (7)",
+        "R2 = [ a11X1 + a12Y1 + sin γ1 sin φ2 Z1 � cos φ2 C1 ; a21X1 + a22Y1 + sin γ1 cos φ2 Z1 � sin φ2 C1 ; � sin "
+        "γ1 sin φ1 X1 � sin γ1 cos φ1 Y1 + cos γ1 Z1 ; 1 ]",
         "Row 2 must end in + sin φ2 C1: the centre offset (-C1, 0, 0) turned by -φ2.",
         CUT,
         rows(
-            "R2", "a11*X1 + a12*Y1 + sin(gamma1)*sin(phi2)*Z1 - cos(phi2)*C1", "a21*X1 + a22*Y1 + sin(gamma1)*cos(phi2)*Z1 - sin(phi2)*C1",
-            "-sin(gamma1)*sin(phi1)*X1 - sin(gamma1)*cos(phi1)*Y1 + cos(gamma1)*Z1"),
+            "R2",
+            "a11*X1 + a12*Y1 + sin(gamma1)*sin(phi2)*Z1 - cos(phi2)*C1",
+            "a21*X1 + a22*Y1 + sin(gamma1)*cos(phi2)*Z1 - sin(phi2)*C1",
+            "-sin(gamma1)*sin(phi1)*X1 - sin(gamma1)*cos(phi1)*Y1 + cos(gamma1)*Z1",
+        ),
         damage="the sign before sin φ2 C1 is the glyph '\ufffd'",
     ),
     Claim(
-        "eq-8", "Eq (8)",
-        "a11 = cos φ1 cos φ2 + cos γ1 sin φ1 sin φ2; a12 = � sin φ1 cos φ2 + cos γ1 cos φ1 sin φ2; a21 = � cos φ1 sin φ2 + cos γ1 sin φ1 cos φ2; a22 = sin φ1 sin φ2 + cos γ1 cos φ1 cos φ2",
+        "eq-8",
+        "Eq (8)",
+        "a11 = cos φ1 cos φ2 + cos γ1 sin φ1 sin φ2; a12 = � sin φ1 cos φ2 + cos γ1 cos φ1 sin φ2; a21 = � cos φ1 "
+        "sin φ2 + cos γ1 sin φ1 cos φ2; a22 = sin φ1 sin φ2 + cos γ1 cos φ1 cos φ2",
         "Entries of the rotation from hob to wheel.",
-        CUT, ["entry(L21, 1, 1) = a11", "entry(L21, 1, 2) = a12", "entry(L21, 2, 1) = a21", "entry(L21, 2, 2) = a22"],
+        CUT,
+        ["entry(L21, 1, 1) = a11", "entry(L21, 1, 2) = a12", "entry(L21, 2, 1) = a21", "entry(L21, 2, 2) = a22"],
     ),
     Claim("ratio", "§6", "φ2 = (T1/T2) φ1", "The gearing of the hobbing machine: a definition.", kind="definition"),
     Claim(
-        "eq-9", "Eq (9)",
-        "n2 = [ a11nx1 + a12ny1 + sin γ1 sin φ2 nz1 ; a21nx1 + a22ny1 + sin γ1 cos φ2 nz1 ; � sin γ1 sin φ1 nx1 � sin γ1 cos φ1 ny1 + cos γ1 nz1 ]",
+        "eq-9",
+        "Eq (9)",
+        "n2 = [ a11nx1 + a12ny1 + sin γ1 sin φ2 nz1 ; a21nx1 + a22ny1 + sin γ1 cos φ2 nz1 ; � sin γ1 sin φ1 nx1 � "
+        "sin γ1 cos φ1 ny1 + cos γ1 nz1 ]",
         "The normal turned like the surface.",
         CUT,
         rows(
-            "n2", "a11*nx + a12*ny + sin(gamma1)*sin(phi2)*nz", "a21*nx + a22*ny + sin(gamma1)*cos(phi2)*nz",
-            "-sin(gamma1)*sin(phi1)*nx - sin(gamma1)*cos(phi1)*ny + cos(gamma1)*nz"),
+            "n2",
+            "a11*nx + a12*ny + sin(gamma1)*sin(phi2)*nz",
+            "a21*nx + a22*ny + sin(gamma1)*cos(phi2)*nz",
+            "-sin(gamma1)*sin(phi1)*nx - sin(gamma1)*cos(phi1)*ny + cos(gamma1)*nz",
+        ),
     ),
     Claim(
-        "eq-10", "Eq (10)", "N1 · V12 = N1 · (V1 � V2) = 0   (10)",
+        "eq-10",
+        "Eq (10)",
+        "N1 · V12 = N1 · (V1 � V2) = 0   (10)",
         "ω1 times the envelope condition (R2_l × R2_θ)·∂R2/∂φ1, so both vanish together.",
-        ENVELOPE, "dot(N1, V12) = w1*triple(d(R2, l1), d(R2, th1), d(R2, (phi1, 1), (phi2, m21)))", conditions=["ω1 ≠ 0"], drops="w1",
+        ENVELOPE,
+        "dot(N1, V12) = w1*triple(d(R2, l1), d(R2, th1), d(R2, (phi1, 1), (phi2, m21)))",
+        conditions=["ω1 ≠ 0"],
+        drops="w1",
     ),
     Claim(
-        "eq-11", "Eq (11)", "V12 = (ω1 � ω2) × R1 � O1O2 × ω2   (11)",
+        "eq-11",
+        "Eq (11)",
+        "V12 = (ω1 � ω2) × R1 � O1O2 × ω2   (11)",
         "The velocity of a hob point seen from the wheel.",
-        CUT, "V12 = cross(omega1 - omega2, hob) - cross(O1O2, omega2)",
+        CUT,
+        "V12 = cross(omega1 - omega2, hob) - cross(O1O2, omega2)",
     ),
     Claim("eq-12", "Eq (12)", "ω1 = ω1 [0 0 1]ᵀ", "The hob turns about its own axis.", CUT, "omega1 = w1*vec(0, 0, 1)"),
     Claim(
-        "eq-13", "Eq (13)", "x1(1) = ω1 [ �m21 sin γ1 sin φ1 ; �m21 sin γ1 cos φ1 ; m21 cos γ1 ]",
+        "eq-13",
+        "Eq (13)",
+        "x1(1) = ω1 [ �m21 sin γ1 sin φ1 ; �m21 sin γ1 cos φ1 ; m21 cos γ1 ]",
         "The left side is ω2, the wheel's angular velocity; ω1 is Eq (12).",
-        CUT, "omega1 = w1*vec(-m21*sin(gamma1)*sin(phi1), -m21*sin(gamma1)*cos(phi1), m21*cos(gamma1))", confusable=[("omega1", "omega2")],
+        CUT,
+        "omega1 = w1*vec(-m21*sin(gamma1)*sin(phi1), -m21*sin(gamma1)*cos(phi1), m21*cos(gamma1))",
+        confusable=[("omega1", "omega2")],
     ),
-    Claim("eq-14", "Eq (14)", "O1O2 = [ cos φ1 C1 ; � sin φ1 C1 ; 0 ]", "The wheel's centre seen from the hob.", CUT, "O1O2 = vec(cos(phi1)*C1, -sin(phi1)*C1, 0)"),
     Claim(
-        "eq-15", "Eq (15)",
-        "V12 = ω1 [ (m21 cos γ1 � 1)Y1 + m21(sin γ1 cos φ1 Z1 + cos γ1 sin φ1 C1) ; �(m21 cos γ1 � 1)X1 + m21(� sin γ1 sin φ1 Z1 + cos γ1 cos φ1 C1) ; m21 sin γ1(� cos φ1X1 + sin φ1Y1 + C1) ]",
+        "eq-14",
+        "Eq (14)",
+        "O1O2 = [ cos φ1 C1 ; � sin φ1 C1 ; 0 ]",
+        "The wheel's centre seen from the hob.",
+        CUT,
+        "O1O2 = vec(cos(phi1)*C1, -sin(phi1)*C1, 0)",
+    ),
+    Claim(
+        "eq-15",
+        "Eq (15)",
+        "V12 = ω1 [ (m21 cos γ1 � 1)Y1 + m21(sin γ1 cos φ1 Z1 + cos γ1 sin φ1 C1) ; �(m21 cos γ1 � 1)X1 + m21(� sin "
+        "γ1 sin φ1 Z1 + cos γ1 cos φ1 C1) ; m21 sin γ1(� cos φ1X1 + sin φ1Y1 + C1) ]",
         "Eqs (12) to (14) in Eq (11).",
         CUT,
         rows(
-            "V12", "w1*((m21*cos(gamma1) - 1)*Y1 + m21*(sin(gamma1)*cos(phi1)*Z1 + cos(gamma1)*sin(phi1)*C1))",
+            "V12",
+            "w1*((m21*cos(gamma1) - 1)*Y1 + m21*(sin(gamma1)*cos(phi1)*Z1 + cos(gamma1)*sin(phi1)*C1))",
             "w1*(-(m21*cos(gamma1) - 1)*X1 + m21*(-sin(gamma1)*sin(phi1)*Z1 + cos(gamma1)*cos(phi1)*C1))",
-            "w1*(m21*sin(gamma1)*(-cos(phi1)*X1 + sin(phi1)*Y1 + C1))"),
+            "w1*(m21*sin(gamma1)*(-cos(phi1)*X1 + sin(phi1)*Y1 + C1))",
+        ),
     ),
     Claim(
-        "eq-16", "Eq (16)",
-        "f = ω1{[(m21 cos γ1 � 1)Y1 + m21(cos φ1 sin γ1Z1 + sin φ1 cos γ1C1)]Nx1 + [�(m21 sin γ1 � 1)X1 + m21(� sin φ1 sin γ1Z1 + cos φ1 cos γ1C1)]Ny1 + [m21 sin γ1(� cos φ1X1 + sin φ1Y1 + C1)]Nz1} = 0",
+        "eq-16",
+        "Eq (16)",
+        "f = ω1{[(m21 cos γ1 � 1)Y1 + m21(cos φ1 sin γ1Z1 + sin φ1 cos γ1C1)]Nx1 + [�(m21 sin γ1 � 1)X1 + m21(� sin "
+        "φ1 sin γ1Z1 + cos φ1 cos γ1C1)]Ny1 + [m21 sin γ1(� cos φ1X1 + sin φ1Y1 + C1)]Nz1} = 0",
         "In the second bracket it must be m21 cos γ1 - 1, as in Eq (15).",
         CUT,
         "dot(N1, V12) = w1*(((m21*cos(gamma1) - 1)*Y1 + m21*(cos(phi1)*sin(gamma1)*Z1 + sin(phi1)*cos(gamma1)*C1))*Nx"
         " + (-(m21*sin(gamma1) - 1)*X1 + m21*(-sin(phi1)*sin(gamma1)*Z1 + cos(phi1)*cos(gamma1)*C1))*Ny"
         " + (m21*sin(gamma1)*(-cos(phi1)*X1 + sin(phi1)*Y1 + C1))*Nz)",
     ),
-    Claim("eq-17", "Eq (17)", "R_w(3) = R_w(2)", "Contact: equal positions. A condition to be solved, not an identity.", kind="definition"),
-    Claim("eq-18", "Eq (18)", "n_w(3) � n_w(2) = 0", "Contact: equal unit normals. A condition to be solved, not an identity.", kind="definition"),
-    Claim("eq-19", "Eqs (19), (20)", "R_w(3) = M_w3 R_3(3); R_w(2) = M_wu M_u2 R_2(2) = M_w2 R_2(2)", "Definition of the positions in the fixed frame.", kind="definition"),
-    Claim("eq-21", "Eq (21)", "M_w3 = [cos φ3′ � sin φ3′ 0 0; sin φ3′ cos φ3′ 0 0; 0 0 1 0; 0 0 0 1]", "Rotation of the worm by φ3′.", MESH, "L_w3 = mat([cos(phi3p), -sin(phi3p), 0], [sin(phi3p), cos(phi3p), 0], [0, 0, 1])"),
     Claim(
-        "eq-22", "Eq (22)",
-        "M_w2 = [cos Δγv cos φ3′, � cos Δγv sin φ2′, sin Δγv, C3 + ΔC; b21, b22, � sin(γ3 + Δγh) cos Δγv, 0; b31, b32, cos(γ3 + Δγh) cos Δγv, 0; 0 0 0 1]",
+        "eq-17",
+        "Eq (17)",
+        "R_w(3) = R_w(2)",
+        "Contact: equal positions. A condition to be solved, not an identity.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-18",
+        "Eq (18)",
+        "n_w(3) � n_w(2) = 0",
+        "Contact: equal unit normals. A condition to be solved, not an identity.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-19",
+        "Eqs (19), (20)",
+        "R_w(3) = M_w3 R_3(3); R_w(2) = M_wu M_u2 R_2(2) = M_w2 R_2(2)",
+        "Definition of the positions in the fixed frame.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-21",
+        "Eq (21)",
+        "M_w3 = [cos φ3′ � sin φ3′ 0 0; sin φ3′ cos φ3′ 0 0; 0 0 1 0; 0 0 0 1]",
+        "Rotation of the worm by φ3′.",
+        MESH,
+        "L_w3 = mat([cos(phi3p), -sin(phi3p), 0], [sin(phi3p), cos(phi3p), 0], [0, 0, 1])",
+    ),
+    Claim(
+        "eq-22",
+        "Eq (22)",
+        "M_w2 = [cos Δγv cos φ3′, � cos Δγv sin φ2′, sin Δγv, C3 + ΔC; b21, b22, � sin(γ3 + Δγh) cos Δγv, 0; b31, "
+        "b32, cos(γ3 + Δγh) cos Δγv, 0; 0 0 0 1]",
         "The first entry turns with the wheel: φ2′ for φ3′.",
         MESH,
-        ["L_w2 = mat([cos(dgv)*cos(phi3p), -cos(dgv)*sin(phi2p), sin(dgv)], [b21, b22, -sin(gamma3 + dgh)*cos(dgv)], [b31, b32, cos(gamma3 + dgh)*cos(dgv)])"],
+        [
+            "L_w2 = mat([cos(dgv)*cos(phi3p), -cos(dgv)*sin(phi2p), sin(dgv)], [b21, b22, -sin(gamma3 + "
+            "dgh)*cos(dgv)], [b31, b32, cos(gamma3 + dgh)*cos(dgv)])"
+        ],
         confusable=ANGLES,
     ),
     Claim(
-        "eq-23", "Eq (23)",
-        "b21 = sin(γ3 + Δγh) sin Δγv cos φ2′ + cos(γ3 + Δγh) sin φ2′; b22 = � sin(γ3 + Δγh) sin Δγv sin φ2′ + cos(γ3 + Δγh) cos φ2′; "
-        "b31 = � cos(γ3 + Δγh) sin Δγv cos φ2′ + sin(γ3 + Δγh) sin φ2′; b32 = cos(γ3 + Δγh) sin Δγv sin φ2′ + sin(γ3 + Δγh) cos φ2′",
+        "eq-23",
+        "Eq (23)",
+        "b21 = sin(γ3 + Δγh) sin Δγv cos φ2′ + cos(γ3 + Δγh) sin φ2′; b22 = � sin(γ3 + Δγh) sin Δγv sin φ2′ + cos(γ3 "
+        "+ Δγh) cos φ2′; "
+        "b31 = � cos(γ3 + Δγh) sin Δγv cos φ2′ + sin(γ3 + Δγh) sin φ2′; b32 = cos(γ3 + Δγh) sin Δγv sin φ2′ + sin(γ3 "
+        "+ Δγh) cos φ2′",
         "Rows 2 and 3 of Rx(γ3 + Δγh) Ry(Δγv) Rz(φ2′).",
-        MESH, ["entry(L_w2, 2, 1) = b21", "entry(L_w2, 2, 2) = b22", "entry(L_w2, 3, 1) = b31", "entry(L_w2, 3, 2) = b32"],
+        MESH,
+        ["entry(L_w2, 2, 1) = b21", "entry(L_w2, 2, 2) = b22", "entry(L_w2, 3, 1) = b31", "entry(L_w2, 3, 2) = b32"],
     ),
-    Claim("eq-24", "Eq (24)", "R_w(3) = [cos φ3′X3 � sin φ3′Y3; sin φ3′X3 + cos φ3′Y3; Z3; 1]", "Worm point in the fixed frame.", MESH, rows("R_w3", "cos(phi3p)*X3 - sin(phi3p)*Y3", "sin(phi3p)*X3 + cos(phi3p)*Y3", "Z3")),
     Claim(
-        "eq-25", "Eq (25)",
-        "R_w(2) = [cos Δγv cos φ2′X2 � cos Δγv sin φ2′Y2 + sin Δγv Z2 + (C3 + ΔC); b21X2 + b22Y2 � sin(γ3 + Δγh) cos Δγv Z2; b31X2 + b32Y2 + cos(γ3 + Δγh) cos Δγv Z2; 1]",
+        "eq-24",
+        "Eq (24)",
+        "R_w(3) = [cos φ3′X3 � sin φ3′Y3; sin φ3′X3 + cos φ3′Y3; Z3; 1]",
+        "Worm point in the fixed frame.",
+        MESH,
+        rows("R_w3", "cos(phi3p)*X3 - sin(phi3p)*Y3", "sin(phi3p)*X3 + cos(phi3p)*Y3", "Z3"),
+    ),
+    Claim(
+        "eq-25",
+        "Eq (25)",
+        "R_w(2) = [cos Δγv cos φ2′X2 � cos Δγv sin φ2′Y2 + sin Δγv Z2 + (C3 + ΔC); b21X2 + b22Y2 � sin(γ3 + Δγh) cos "
+        "Δγv Z2; b31X2 + b32Y2 + cos(γ3 + Δγh) cos Δγv Z2; 1]",
         "Wheel point in the fixed frame; here φ2′ is printed correctly.",
         MESH,
         rows(
-            "R_w2", "cos(dgv)*cos(phi2p)*X2 - cos(dgv)*sin(phi2p)*Y2 + sin(dgv)*Z2 + (C3 + dC)", "b21*X2 + b22*Y2 - sin(gamma3 + dgh)*cos(dgv)*Z2",
-            "b31*X2 + b32*Y2 + cos(gamma3 + dgh)*cos(dgv)*Z2"),
+            "R_w2",
+            "cos(dgv)*cos(phi2p)*X2 - cos(dgv)*sin(phi2p)*Y2 + sin(dgv)*Z2 + (C3 + dC)",
+            "b21*X2 + b22*Y2 - sin(gamma3 + dgh)*cos(dgv)*Z2",
+            "b31*X2 + b32*Y2 + cos(gamma3 + dgh)*cos(dgv)*Z2",
+        ),
     ),
-    Claim("eq-26", "Eqs (26), (27)", "n_w(3) = L_w3 n_3(3); n_w(2) = L_wu L_u2 n_2(2) = L_w2 n_2(2)", "Definition of the normals in the fixed frame.", kind="definition"),
-    Claim("eq-28", "Eq (28)", "n_w(3) = [cos φ3′nx3 � sin φ3′ny3; sin φ3′nx3 + cos φ3′ny3; nz3]", "Worm normal in the fixed frame.", MESH, rows("n_w3", "cos(phi3p)*nx3 - sin(phi3p)*ny3", "sin(phi3p)*nx3 + cos(phi3p)*ny3", "nz3")),
     Claim(
-        "eq-29", "Eq (29)",
-        "n_w(2) = [cos Δγv cos φ3′nx2 � cos Δγv sin φ3′ny2 + sin Δγv nz2; b21nx2 + b22ny2 � sin(γ3 + Δγv) cos Δγv nz2; b31nx2 + b32ny2 + cos(γ3 + Δγh) cos Δγv nz2]",
+        "eq-26",
+        "Eqs (26), (27)",
+        "n_w(3) = L_w3 n_3(3); n_w(2) = L_wu L_u2 n_2(2) = L_w2 n_2(2)",
+        "Definition of the normals in the fixed frame.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-28",
+        "Eq (28)",
+        "n_w(3) = [cos φ3′nx3 � sin φ3′ny3; sin φ3′nx3 + cos φ3′ny3; nz3]",
+        "Worm normal in the fixed frame.",
+        MESH,
+        rows("n_w3", "cos(phi3p)*nx3 - sin(phi3p)*ny3", "sin(phi3p)*nx3 + cos(phi3p)*ny3", "nz3"),
+    ),
+    Claim(
+        "eq-29",
+        "Eq (29)",
+        "n_w(2) = [cos Δγv cos φ3′nx2 � cos Δγv sin φ3′ny2 + sin Δγv nz2; b21nx2 + b22ny2 � sin(γ3 + Δγv) cos Δγv "
+        "nz2; b31nx2 + b32ny2 + cos(γ3 + Δγh) cos Δγv nz2]",
         "Row 1 turns with φ2′, row 2 has sin(γ3 + Δγh), as in Eq (25).",
         MESH,
         rows(
-            "n_w2", "cos(dgv)*cos(phi3p)*nx2 - cos(dgv)*sin(phi3p)*ny2 + sin(dgv)*nz2", "b21*nx2 + b22*ny2 - sin(gamma3 + dgv)*cos(dgv)*nz2",
-            "b31*nx2 + b32*ny2 + cos(gamma3 + dgh)*cos(dgv)*nz2"),
+            "n_w2",
+            "cos(dgv)*cos(phi3p)*nx2 - cos(dgv)*sin(phi3p)*ny2 + sin(dgv)*nz2",
+            "b21*nx2 + b22*ny2 - sin(gamma3 + dgv)*cos(dgv)*nz2",
+            "b31*nx2 + b32*ny2 + cos(gamma3 + dgh)*cos(dgv)*nz2",
+        ),
         confusable=ANGLES,
     ),
     Claim(
-        "count", "§8.1", "Since |n_w(3)| = 1 and |n_w(2)| = 1, Eqs. (16)–(18) yield a system of six independent nonlinear equations with seven independent parameters",
-        "One of the three normal equations follows from the others: the difference of two unit vectors is perpendicular to their sum. 1 + 3 + 2 = 6.",
-        MESH, ["dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)", "1 + 3 + (3 - 1) = 6"],
+        "count",
+        "§8.1",
+        "Since |n_w(3)| = 1 and |n_w(2)| = 1, Eqs. (16)–(18) yield a system of six independent nonlinear equations "
+        "with seven independent parameters",
+        "One of the three normal equations follows from the others: the difference of two unit vectors is "
+        "perpendicular to their sum. 1 + 3 + 2 = 6.",
+        MESH,
+        ["dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)", "1 + 3 + (3 - 1) = 6"],
         conditions=["near parallel normals (n_w3 + n_w2 ≠ 0)"],
     ),
-    Claim("eq-30", "Eq (30)", "KE = Δφ2′(φ3′) = φ2′(φ3′) � (T3/T2) φ3′", "Definition of the kinematic (transmission) error.", kind="definition"),
     Claim(
-        "errors", "text at Eq (30)", "three given assembly errors, i.e., ΔC, Δγh, and Δγh",
-        "The third is Δγv: the mesh has no other error.", MESH, "errors = vec(dC, dgh, dgh)", confusable=ANGLES,
+        "eq-30",
+        "Eq (30)",
+        "KE = Δφ2′(φ3′) = φ2′(φ3′) � (T3/T2) φ3′",
+        "Definition of the kinematic (transmission) error.",
+        kind="definition",
+    ),
+    Claim(
+        "errors",
+        "text at Eq (30)",
+        "three given assembly errors, i.e., ΔC, Δγh, and Δγh",
+        "The third is Δγv: the mesh has no other error.",
+        MESH,
+        "errors = vec(dC, dgh, dgh)",
+        confusable=ANGLES,
     ),
     FigureClaim(
-        "eq-31", "Eq (31), Example 1 and 2", "CR = (φ3e′ � φ3b′)/(360 deg/T3): 7.58, 7.39, 6.91; cases 2–4: 7.48, 7.16, 7.34",
+        "eq-31",
+        "Eq (31), Example 1 and 2",
+        "CR = (φ3e′ � φ3b′)/(360 deg/T3): 7.58, 7.39, 6.91; cases 2–4: 7.48, 7.16, 7.34",
         "All six printed contact ratios follow from the printed angles.",
         [
-            Figure("(2745.81 - 15.64)/(360/1)", "7.58"), Figure("(2089.77 - (-569.03))/(360/1)", "7.39"), Figure("(1433.26 - (-1053.29))/(360/1)", "6.91"),
-            Figure("(2740.47 - 48.03)/(360/1)", "7.48"), Figure("(2619.39 - 41.01)/(360/1)", "7.16"), Figure("(2706.40 - 63.66)/(360/1)", "7.34"),
+            Figure("(2745.81 - 15.64)/(360/1)", "7.58"),
+            Figure("(2089.77 - (-569.03))/(360/1)", "7.39"),
+            Figure("(1433.26 - (-1053.29))/(360/1)", "6.91"),
+            Figure("(2740.47 - 48.03)/(360/1)", "7.48"),
+            Figure("(2619.39 - 41.01)/(360/1)", "7.16"),
+            Figure("(2706.40 - 63.66)/(360/1)", "7.34"),
         ],
     ),
     FigureClaim(
-        "acr", "Example 2", "ACRs are 7.51, 7.18, and 7.37",
-        "Averaged over [begin, end] as the text says, ACR = ((n+1)² f + n² (1-f))/(n+f) for CR = n + f. Averaged over one pitch it would be CR itself.",
+        "acr",
+        "Example 2",
+        "ACRs are 7.51, 7.18, and 7.37",
+        "Averaged over [begin, end] as the text says, ACR = ((n+1)² f + n² (1-f))/(n+f) for CR = n + f. Averaged "
+        "over one pitch it would be CR itself.",
         [
-            Figure("(8**2*((2740.47 - 48.03)/360 - 7) + 7**2*(8 - (2740.47 - 48.03)/360))/((2740.47 - 48.03)/360)", "7.51"),
-            Figure("(8**2*((2619.39 - 41.01)/360 - 7) + 7**2*(8 - (2619.39 - 41.01)/360))/((2619.39 - 41.01)/360)", "7.18"),
-            Figure("(8**2*((2706.40 - 63.66)/360 - 7) + 7**2*(8 - (2706.40 - 63.66)/360))/((2706.40 - 63.66)/360)", "7.37"),
+            Figure(
+                "(8**2*((2740.47 - 48.03)/360 - 7) + 7**2*(8 - (2740.47 - 48.03)/360))/((2740.47 - 48.03)/360)", "7.51"
+            ),
+            Figure(
+                "(8**2*((2619.39 - 41.01)/360 - 7) + 7**2*(8 - (2619.39 - 41.01)/360))/((2619.39 - 41.01)/360)", "7.18"
+            ),
+            Figure(
+                "(8**2*((2706.40 - 63.66)/360 - 7) + 7**2*(8 - (2706.40 - 63.66)/360))/((2706.40 - 63.66)/360)", "7.37"
+            ),
         ],
     ),
     Claim(
-        "eq-35", "Eqs (32), (33), (35)", "X_T = r_T cos θ_T; Y_T = r_T sin θ_T; tan(θ_T) = Y_T/X_T",
-        "Eq (35) follows from (32) and (33), it adds no condition.", MESH, "tan(thT) = rT*sin(thT)/(rT*cos(thT))", conditions=["r_T ≠ 0"],
+        "eq-35",
+        "Eqs (32), (33), (35)",
+        "X_T = r_T cos θ_T; Y_T = r_T sin θ_T; tan(θ_T) = Y_T/X_T",
+        "Eq (35) follows from (32) and (33), it adds no condition.",
+        MESH,
+        "tan(thT) = rT*sin(thT)/(rT*cos(thT))",
+        conditions=["r_T ≠ 0"],
     ),
-    Claim("eq-34", "Eq (34)", "|Z_T(2) � Z_T(3)| = 6.32 µm", "Definition of the contact pattern's edge: the separation chosen for marking paint.", kind="definition"),
     Claim(
-        "eq-36", "Eq (36)", "λ1 = sin⁻¹( mn cos λ3 / (2 r1) )",
-        "For a normal module the lead angle obeys sin λ1 = mn T1/(2 r1): lead 2π r1 tan λ1 = π T1 mn/cos λ1. The printed form holds for one thread if mn "
+        "eq-34",
+        "Eq (34)",
+        "|Z_T(2) � Z_T(3)| = 6.32 µm",
+        "Definition of the contact pattern's edge: the separation chosen for marking paint.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-36",
+        "Eq (36)",
+        "λ1 = sin⁻¹( mn cos λ3 / (2 r1) )",
+        "For a normal module the lead angle obeys sin λ1 = mn T1/(2 r1): lead 2π r1 tan λ1 = π T1 mn/cos λ1. The "
+        "printed form holds for one thread if mn "
         "were the worm's axial module.",
-        SIZES, "sin(lam1) = mn*cos(lam3)/(2*r1)", corrected="sin(lam1) = mn*T1/(2*r1)",
+        SIZES,
+        "sin(lam1) = mn*cos(lam3)/(2*r1)",
+        corrected="sin(lam1) = mn*T1/(2*r1)",
     ),
-    Claim("eq-37", "Eq (37)", "C1 = C3 + r1 � r3", "The hob's larger radius moves its axis away.", SIZES, "r1 + r2 = C3 + r1 - r3"),
     Claim(
-        "eq-38", "Eq (38)", "γ1 = γ3 + λ1 � λ3",
+        "eq-37",
+        "Eq (37)",
+        "C1 = C3 + r1 � r3",
+        "The hob's larger radius moves its axis away.",
+        SIZES,
+        "r1 + r2 = C3 + r1 - r3",
+    ),
+    Claim(
+        "eq-38",
+        "Eq (38)",
+        "γ1 = γ3 + λ1 � λ3",
         "With this angle hob and worm have the same groove direction at the pitch point.",
-        SIZES, "Rx(-gamma1)@vec(0, cos(lam1), sin(lam1)) = Rx(-gamma3)@vec(0, cos(lam3), sin(lam3))",
+        SIZES,
+        "Rx(-gamma1)@vec(0, cos(lam1), sin(lam1)) = Rx(-gamma3)@vec(0, cos(lam3), sin(lam3))",
     ),
     FigureClaim(
-        "table-1", "Table 1", "Lead angle 2.86 deg; pitch radius 19.11, 277.38 mm; 4.7% oversize; cutting center distance 297.38 mm; cutting crossing angle 89.86 deg; meshing center distance 296.49 mm",
-        "All sizes follow, the hob's lead angle from Eq (36) as printed (the corrected equation gives 2.87 deg and 89.87 deg).",
+        "table-1",
+        "Table 1",
+        "Lead angle 2.86 deg; pitch radius 19.11, 277.38 mm; 4.7% oversize; cutting center distance 297.38 mm; "
+        "cutting crossing angle 89.86 deg; meshing center distance 296.49 mm",
+        "All sizes follow, the hob's lead angle from Eq (36) as printed (the corrected equation gives 2.87 deg and "
+        "89.87 deg).",
         [
-            Figure("degrees(asin(2*cos(radians(3))/(2*20)))", "2.86", "deg"), Figure("2*1/(2*sin(radians(3)))", "19.11", "mm"),
-            Figure("2*277/(2*cos(radians(3)))", "277.38", "mm"), Figure("100*(20*sin(radians(3)) - 1)", "4.7", "%"),
-            Figure("296.49 + 20 - 19.11", "297.38", "mm"), Figure("90 + degrees(asin(2*cos(radians(3))/(2*20))) - 3", "89.86", "deg"),
+            Figure("degrees(asin(2*cos(radians(3))/(2*20)))", "2.86", "deg"),
+            Figure("2*1/(2*sin(radians(3)))", "19.11", "mm"),
+            Figure("2*277/(2*cos(radians(3)))", "277.38", "mm"),
+            Figure("100*(20*sin(radians(3)) - 1)", "4.7", "%"),
+            Figure("296.49 + 20 - 19.11", "297.38", "mm"),
+            Figure("90 + degrees(asin(2*cos(radians(3))/(2*20))) - 3", "89.86", "deg"),
             Figure("2*1/(2*sin(radians(3))) + 2*277/(2*cos(radians(3)))", "296.49", "mm"),
         ],
     ),
     FigureClaim(
-        "lead-angle-corrected", "Table 1, §9", "λ1 = 2.86 deg",
+        "lead-angle-corrected",
+        "Table 1, §9",
+        "λ1 = 2.86 deg",
         "With sin λ1 = mn T1/(2 r1) the lead angle of the hob of radius 20 mm is 2.87 deg.",
         [Figure("degrees(asin(2*1/(2*20)))", "2.86", "deg")],
     ),
     FigureClaim(
-        "thickness", "§3", "tooth thicknesses ... become 1.22 and 0.86 mn ... tooth thickness of the generated worm gear at its normal pitch circle is 1.51 mn",
+        "thickness",
+        "§3",
+        "tooth thicknesses ... become 1.22 and 0.86 mn ... tooth thickness of the generated worm gear at its normal "
+        "pitch circle is 1.51 mn",
         "π/2 - 2 (dx/mn) tan 10° with dx/mn = 1, 2, 0. The standard value must be 1.57; 0.86 is cut, not rounded.",
         [
-            Figure("pi/2 - 2*1*tan(radians(10))", "1.22"), Figure("pi/2 - 2*2*tan(radians(10))", "0.86"), Figure("pi/2", "1.51"),
+            Figure("pi/2 - 2*1*tan(radians(10))", "1.22"),
+            Figure("pi/2 - 2*2*tan(radians(10))", "0.86"),
+            Figure("pi/2", "1.51"),
         ],
     ),
     Claim(
-        "throat", "§3", "their normal throat radii are (T2 + 2)mn/2 mm and T2mn/2 mm, individually ... normal throat radius is (T2 + 4)mn/2 mm",
-        "With a normal module the wheel's pitch radius is mn T2/(2 cos λ3); the throat lies 2 mn - dx above it. The printed radii lack 1/cos λ3 (0.38 mm in "
+        "throat",
+        "§3",
+        "their normal throat radii are (T2 + 2)mn/2 mm and T2mn/2 mm, individually ... normal throat radius is (T2 + "
+        "4)mn/2 mm",
+        "With a normal module the wheel's pitch radius is mn T2/(2 cos λ3); the throat lies 2 mn - dx above it. The "
+        "printed radii lack 1/cos λ3 (0.38 mm in "
         "the example), and the limits of the tables only come out with it.",
-        SIZES, ["r2 + (2*mn - mn) = (T2 + 2)*mn/2", "r2 + (2*mn - 2*mn) = T2*mn/2", "r2 + (2*mn - 0) = (T2 + 4)*mn/2"],
-        corrected=["r2 + (2*mn - mn) = (T2/cos(lam3) + 2)*mn/2", "r2 + (2*mn - 2*mn) = T2/cos(lam3)*mn/2", "r2 + (2*mn - 0) = (T2/cos(lam3) + 4)*mn/2"],
+        SIZES,
+        ["r2 + (2*mn - mn) = (T2 + 2)*mn/2", "r2 + (2*mn - 2*mn) = T2*mn/2", "r2 + (2*mn - 0) = (T2 + 4)*mn/2"],
+        corrected=[
+            "r2 + (2*mn - mn) = (T2/cos(lam3) + 2)*mn/2",
+            "r2 + (2*mn - 2*mn) = T2/cos(lam3)*mn/2",
+            "r2 + (2*mn - 0) = (T2/cos(lam3) + 4)*mn/2",
+        ],
     ),
     FigureClaim(
-        "table-2-heading", "Table 2, column 5", "second column headed φ3′ (deg)",
+        "table-2-heading",
+        "Table 2, column 5",
+        "second column headed φ3′ (deg)",
         "The heading φ3′ appears twice. At φ3′ = 400 the fifth column holds 1.4441, which is φ2′.",
-        [Figure("400", "1.4441", "deg")], corrected=[Figure("400/277 + 0.0589/3600", "1.4441", "deg")],
+        [Figure("400", "1.4441", "deg")],
+        corrected=[Figure("400/277 + 0.0589/3600", "1.4441", "deg")],
     ),
     FigureClaim(
-        "table-2-wheel-angle", "Table 2, column 5", "φ2′ at the fifteen printed angles",
+        "table-2-wheel-angle",
+        "Table 2, column 5",
+        "φ2′ at the fifteen printed angles",
         "φ2′ = φ3′/277 + KE/3600. Four entries differ: semi 800, 1200 and 1600 deg, full 800 deg.",
         [
             Figure(f"{angle}/277 + {error}/3600", printed, "deg")
             for angle, error, printed in (
-                ("(-800)", "0.3102", "-2.8880"), ("(-400)", "0.0701", "-1.4440"), ("0", "0", "0"), ("400", "0.0589", "1.4441"), ("800", "0.2181", "2.8881"),
-                ("0", "0", "0"), ("400", "0.0587", "1.4441"), ("800", "0.2173", "2.8882"), ("1200", "0.4552", "4.3324"), ("1600", "0.7569", "5.7766"),
-                ("400", "0.0585", "1.4441"), ("800", "0.2165", "2.8882"), ("1200", "0.4537", "4.3323"), ("1600", "0.7545", "5.7764"), ("2000", "1.1073", "7.2205"),
+                ("(-800)", "0.3102", "-2.8880"),
+                ("(-400)", "0.0701", "-1.4440"),
+                ("0", "0", "0"),
+                ("400", "0.0589", "1.4441"),
+                ("800", "0.2181", "2.8881"),
+                ("0", "0", "0"),
+                ("400", "0.0587", "1.4441"),
+                ("800", "0.2173", "2.8882"),
+                ("1200", "0.4552", "4.3324"),
+                ("1600", "0.7569", "5.7766"),
+                ("400", "0.0585", "1.4441"),
+                ("800", "0.2165", "2.8882"),
+                ("1200", "0.4537", "4.3323"),
+                ("1600", "0.7545", "5.7764"),
+                ("2000", "1.1073", "7.2205"),
             )
         ],
     ),
-    Claim("advantages", "§§1, 2, 10", "friction of recess action is lower than that of approach action; KEs are dramatically lower", "Statements about friction and comparisons, no equations.", kind="not_mathematical"),
+    Claim(
+        "advantages",
+        "§§1, 2, 10",
+        "friction of recess action is lower than that of approach action; KEs are dramatically lower",
+        "Statements about friction and comparisons, no equations.",
+        kind="not_mathematical",
+    ),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -1,4 +1,7 @@
-"""The spherical report (every even page is missing): barrel-shaped and waisted gears cut by a rack that sweeps an arc."""
+"""The spherical report (every even page is missing).
+
+Barrel-shaped and waisted gears cut by a rack that sweeps an arc.
+"""
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
 from derive.audit.ledger import Chapter
@@ -8,7 +11,8 @@ DOCUMENT = Document(
     name="the spherical report",
     file="003_1b02f86c27c1e1b1.txt",
     sha256="f2b12c5d073754e0d43de4fffd0e0d33532f32843590b728be1dbb7218b6c555",
-    about="Convex and concave spherical gears. Every even page is missing; vertical matrices are extracted with their signs out of place, so rows are read by their tokens.",
+    about="Convex and concave spherical gears. Every even page is missing; vertical matrices are extracted with "
+    "their signs out of place, so rows are read by their tokens.",
     symbols={
         "l": ("l", "mm", "distance along the cutting edge"),
         "theta": ("θs", "rad", "spherical angle"),
@@ -20,8 +24,12 @@ DOCUMENT = Document(
         "r": ("r", "mm", "pitch radius of the gear"),
         "phi": ("φ", "rad", "rotation of the gear while being cut"),
         "omega": ("ω", "1/s", "speed of the gear while being cut"),
-        "Xc": ("Xc", "mm", "rack point"), "Yc": ("Yc", "mm", "rack point"), "Zc": ("Zc", "mm", "rack point"),
-        "Nx": ("Nx", "-", "component of the rack's normal"), "Ny": ("Ny", "-", "component of the rack's normal"), "Nz": ("Nz", "-", "component of the rack's normal"),
+        "Xc": ("Xc", "mm", "rack point"),
+        "Yc": ("Yc", "mm", "rack point"),
+        "Zc": ("Zc", "mm", "rack point"),
+        "Nx": ("Nx", "-", "component of the rack's normal"),
+        "Ny": ("Ny", "-", "component of the rack's normal"),
+        "Nz": ("Nz", "-", "component of the rack's normal"),
     },
 )
 
@@ -52,7 +60,9 @@ N_g = Rz(phi)@N
 
 
 def reserve(teeth: int, degrees: str, width: int) -> str:
-    """Left side of the undercut condition at the end of the edge (l = 0) and of the face, R = r = mT/2, m = a = 4, convex."""
+    """Left side of the undercut condition at the end of the edge (l = 0) and of the face, R = r = mT/2, m = a = 4,
+    convex.
+    """
     r, rho, z = 2 * teeth, 2 * teeth - 4, width // 2
     cosine = f"sqrt(1 - ({z}/{rho})**2)"
     bracket = f"(1 + cos(radians({degrees}))**2*{r}/{rho}*(({z}/{rho})/{cosine})**2/{cosine})"
@@ -61,13 +71,19 @@ def reserve(teeth: int, degrees: str, width: int) -> str:
 
 CLAIMS = (
     Claim(
-        "eq-2.1", "(2.1)", "R_a = [ -a + l cos αn ; ±(b + a tan αn) ∓ l sin αn ; 0 ]",
+        "eq-2.1",
+        "(2.1)",
+        "R_a = [ -a + l cos αn ; ±(b + a tan αn) ∓ l sin αn ; 0 ]",
         "A straight edge through (0, ±b), inclined by αn, from X = -a on.",
-        EDGE, ["edge.x = -a + l*cos(alpha)", "edge.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)", "edge.z = 0"],
+        EDGE,
+        ["edge.x = -a + l*cos(alpha)", "edge.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)", "edge.z = 0"],
         damage="signs stand apart from their rows",
     ),
     Claim(
-        "eq-2.2", "(2.2)", "R_c(convex) = M_ca R_a, M_ca = [cos θs, 0, -sin θs, -R(1-cos θs); 0 1 0 0; sin θs, 0, cos θs, R sin θs; 0 0 0 1]",
+        "eq-2.2",
+        "(2.2)",
+        "R_c(convex) = M_ca R_a, M_ca = [cos θs, 0, -sin θs, -R(1-cos θs); 0 1 0 0; sin θs, 0, cos θs, R sin θs; 0 0 "
+        "0 1]",
         "Rotation about a line at distance R below the edge: a proper rigid motion.",
         EDGE,
         [
@@ -77,115 +93,258 @@ CLAIMS = (
         damage="signs stand apart from their rows",
     ),
     Claim(
-        "eq-2.5", "(2.5)", "R_c(concave) = [ (l cos αn - a - R) cos θs2 + R ; ±(b + a tan αn) ∓ l sin αn ; (a - l cos αn + R) sin θs2 ; 1 ]",
+        "eq-2.5",
+        "(2.5)",
+        "R_c(concave) = [ (l cos αn - a - R) cos θs2 + R ; ±(b + a tan αn) ∓ l sin αn ; (a - l cos αn + R) sin θs2 ; "
+        "1 ]",
         "Row 3 holds one + and one -, whose places are lost. It must be (R + a - l cos αn) sin θs.",
         EDGE,
         {
             "row 3 = (l cos αn - a + R) sin θs": [
-                "concave.x = (l*cos(alpha) - a - R)*cos(theta) + R", "concave.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)", "concave.z = (l*cos(alpha) - a + R)*sin(theta)"],
+                "concave.x = (l*cos(alpha) - a - R)*cos(theta) + R",
+                "concave.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)",
+                "concave.z = (l*cos(alpha) - a + R)*sin(theta)",
+            ],
             "row 3 = (a - l cos αn + R) sin θs": [
-                "concave.x = (l*cos(alpha) - a - R)*cos(theta) + R", "concave.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)", "concave.z = (a - l*cos(alpha) + R)*sin(theta)"],
+                "concave.x = (l*cos(alpha) - a - R)*cos(theta) + R",
+                "concave.y = s*(b + a*tan(alpha)) - s*l*sin(alpha)",
+                "concave.z = (a - l*cos(alpha) + R)*sin(theta)",
+            ],
         },
         damage="signs stand apart from their rows",
     ),
-    Claim("eq-2.6", "(2.6), (2.7)", "N·V(12) = 0; N_c = ∂R_c/∂l × ∂R_c/∂θs", "Definitions of meshing and of the rack's normal.", kind="definition"),
     Claim(
-        "shape", "§1, §2.6", "連續二次方程式變化之轉位 (a profile shift that varies continuously by a quadratic equation)",
-        "The shift at height Z lies on the circle (R - shift)² + Z² = R²: a quadratic equation, close to the parabola Z²/2R but not equal to it.",
-        EDGE, "(R - R*(1 - cos(theta)))**2 + (R*sin(theta))**2 = R**2",
-    ),
-    Claim("eq-2.10", "(2.10)", "V_f(Σ) = [ 0 ; -rω ; 0 ]", "The rack moves by -r per radian.", RACK, "V_rack = vec(0, -r*omega, 0)", damage="signs stand apart from their rows"),
-    Claim(
-        "eq-2.11", "(2.11)", "V_f(g) = [ (Yc - rφ)ω ; -(Xc + r)ω ; 0 ]", "The gear turns by -ω about its axis at X = -r.",
-        RACK, "V_gear = vec((Yc - r*phi)*omega, -(Xc + r)*omega, 0)", damage="signs stand apart from their rows",
+        "eq-2.6",
+        "(2.6), (2.7)",
+        "N·V(12) = 0; N_c = ∂R_c/∂l × ∂R_c/∂θs",
+        "Definitions of meshing and of the rack's normal.",
+        kind="definition",
     ),
     Claim(
-        "eq-2.12", "(2.12)", "V_f(Σg) = [ (rφ - Yc)ω ; Xc ω ; 0 ]", "(2.10) minus (2.11).",
-        RACK, "V = vec((r*phi - Yc)*omega, Xc*omega, 0)", damage="signs stand apart from their rows",
+        "shape",
+        "§1, §2.6",
+        "連續二次方程式變化之轉位 (a profile shift that varies continuously by a quadratic equation)",
+        "The shift at height Z lies on the circle (R - shift)² + Z² = R²: a quadratic equation, close to the "
+        "parabola Z²/2R but not equal to it.",
+        EDGE,
+        "(R - R*(1 - cos(theta)))**2 + (R*sin(theta))**2 = R**2",
     ),
     Claim(
-        "eq-2.13", "(2.13)", "f(l, θs, φ) = (rφ - Yc)Nx + Xc Ny = 0",
+        "eq-2.10",
+        "(2.10)",
+        "V_f(Σ) = [ 0 ; -rω ; 0 ]",
+        "The rack moves by -r per radian.",
+        RACK,
+        "V_rack = vec(0, -r*omega, 0)",
+        damage="signs stand apart from their rows",
+    ),
+    Claim(
+        "eq-2.11",
+        "(2.11)",
+        "V_f(g) = [ (Yc - rφ)ω ; -(Xc + r)ω ; 0 ]",
+        "The gear turns by -ω about its axis at X = -r.",
+        RACK,
+        "V_gear = vec((Yc - r*phi)*omega, -(Xc + r)*omega, 0)",
+        damage="signs stand apart from their rows",
+    ),
+    Claim(
+        "eq-2.12",
+        "(2.12)",
+        "V_f(Σg) = [ (rφ - Yc)ω ; Xc ω ; 0 ]",
+        "(2.10) minus (2.11).",
+        RACK,
+        "V = vec((r*phi - Yc)*omega, Xc*omega, 0)",
+        damage="signs stand apart from their rows",
+    ),
+    Claim(
+        "eq-2.13",
+        "(2.13)",
+        "f(l, θs, φ) = (rφ - Yc)Nx + Xc Ny = 0",
         "N·V divided by ω. The same function, with the sign kept, is N_g·∂R_g/∂φ.",
-        RACK, ["dot(N, V) = omega*((r*phi - Yc)*Nx + Xc*Ny)", "dot(N_g, d(R_g, phi)) = (r*phi - Yc)*Nx + Xc*Ny"], conditions=["ω ≠ 0"], drops="omega",
+        RACK,
+        ["dot(N, V) = omega*((r*phi - Yc)*Nx + Xc*Ny)", "dot(N_g, d(R_g, phi)) = (r*phi - Yc)*Nx + Xc*Ny"],
+        conditions=["ω ≠ 0"],
+        drops="omega",
     ),
-    Claim("eq-2.19", "(2.19)–(2.22)", "V_r(Σ) + V(Σg) = 0; df/dt = 0; and their expansion in dl/dt, dθs/dt", "Condition of a singular point and the chain rule.", kind="definition"),
     Claim(
-        "eq-2.23", "(2.23)", "the rank of the augmented matrix is two",
-        "A condition to be solved. That its minors vanish together on one curve, in closed form, is proved in the chapter on spherical drives.", kind="definition",
+        "eq-2.19",
+        "(2.19)–(2.22)",
+        "V_r(Σ) + V(Σg) = 0; df/dt = 0; and their expansion in dl/dt, dθs/dt",
+        "Condition of a singular point and the chain rule.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-2.23",
+        "(2.23)",
+        "the rank of the augmented matrix is two",
+        "A condition to be solved. That its minors vanish together on one curve, in closed form, is proved in the "
+        "chapter on spherical drives.",
+        kind="definition",
     ),
     FigureClaim(
-        "edge-end", "§2.6", "lS = 0 mm, lE = 8.263 mm ... lE = 8.513 mm", "lE = 2a/cos αn with a = 4 mm.",
+        "edge-end",
+        "§2.6",
+        "lS = 0 mm, lE = 8.263 mm ... lE = 8.513 mm",
+        "lE = 2a/cos αn with a = 4 mm.",
         [Figure("2*4/cos(radians(14.5))", "8.263", "mm"), Figure("2*4/cos(radians(20))", "8.513", "mm")],
     ),
     FigureClaim(
-        "table-2.3", "Table 2.3", "l = 1.811, 1.807, 1.804, 1.802, 1.801, 1.801 at Z = 10, 8, 6, 4, 2, 0 (T = 18, 14.5°, R = 5000 mm)",
-        "l = (a - r sin² αn)/cos αn + Z²/(2R cos αn), exact to 1e-5 at this radius. The values are those of the convex form, which the table does not say.",
+        "table-2.3",
+        "Table 2.3",
+        "l = 1.811, 1.807, 1.804, 1.802, 1.801, 1.801 at Z = 10, 8, 6, 4, 2, 0 (T = 18, 14.5°, R = 5000 mm)",
+        "l = (a - r sin² αn)/cos αn + Z²/(2R cos αn), exact to 1e-5 at this radius. The values are those of the "
+        "convex form, which the table does not say.",
         [
-            Figure(f"(4 - 36*sin(radians(14.5))**2)/cos(radians(14.5)) + {z}**2/(2*5000*cos(radians(14.5)))", printed, "mm")
+            Figure(
+                f"(4 - 36*sin(radians(14.5))**2)/cos(radians(14.5)) + {z}**2/(2*5000*cos(radians(14.5)))", printed, "mm"
+            )
             for z, printed in ((10, "1.811"), (8, "1.807"), (6, "1.804"), (4, "1.802"), (2, "1.801"), (0, "1.801"))
         ],
     ),
     FigureClaim(
-        "free-32", "§2.6", "凹狀 14.5°: no undercut at the middle section from 32 teeth on",
+        "free-32",
+        "§2.6",
+        "凹狀 14.5°: no undercut at the middle section from 32 teeth on",
         "At Z = 0 the condition is r sin² αn ≥ a: it fails for 31 teeth and holds for 32.",
         [Figure("62*sin(radians(14.5))**2 - 4", "<0"), Figure("64*sin(radians(14.5))**2 - 4", ">0")],
     ),
     FigureClaim(
-        "free-24", "§2.6", "凸狀 20°, face width 20 mm: no undercut at the ends at 24 teeth",
+        "free-24",
+        "§2.6",
+        "凸狀 20°, face width 20 mm: no undercut at the ends at 24 teeth",
         "With R = mT/2 the condition holds at 24 teeth and fails at 23.",
         [Figure(reserve(24, "20", 20), ">0"), Figure(reserve(23, "20", 20), "<0")],
     ),
     FigureClaim(
-        "free-36", "§2.6", "凸狀 14.5°, face width 20 mm: no undercut at the ends from 36 teeth on",
-        "With R = mT/2, the radius that makes the 24-tooth statement true, 36 teeth are undercut at the ends of the face. The spherical radius used is not given.",
+        "free-36",
+        "§2.6",
+        "凸狀 14.5°, face width 20 mm: no undercut at the ends from 36 teeth on",
+        "With R = mT/2, the radius that makes the 24-tooth statement true, 36 teeth are undercut at the ends of the "
+        "face. The spherical radius used is not given.",
         [Figure(reserve(36, "14.5", 20), ">0")],
     ),
-    Claim("eq-3.3", "(3.3)–(3.6)", "R_f(1) = M_fh M_hv M_vg R_g(k); R_f(2) = M_fg R_g(k); n likewise", "Definition of the assembly; the figure that fixes order and sign of the two tilts is lost.", kind="definition"),
     Claim(
-        "linear", "§3.2", "由五個獨立之線性方程式求得五個未知的齒面參數 (five independent linear equations)",
-        "The sentence before says nonlinear, and so they are: the second derivative of a coordinate by the angle is not 0 but minus the coordinate.",
-        RACK, contradiction="d(d(Xc*cos(phi) - Yc*sin(phi), phi), phi) = -(Xc*cos(phi) - Yc*sin(phi))",
+        "eq-3.3",
+        "(3.3)–(3.6)",
+        "R_f(1) = M_fh M_hv M_vg R_g(k); R_f(2) = M_fg R_g(k); n likewise",
+        "Definition of the assembly; the figure that fixes order and sign of the two tilts is lost.",
+        kind="definition",
     ),
-    Claim("eq-3.7", "(3.7)", "Δφ2′(φ1′) = φ2′(φ1′) - (T1/T2) φ1′", "Definition of the transmission error.", kind="definition"),
-    Claim("eq-3.12", "(3.12)–(3.14)", "X_t(1) = X_t(2) = r cos θt; Y_t(1) = Y_t(2) = r sin θt; Z_t(1) - Z_t(2) = 0.00632 mm", "Definition of the contact pattern's edge.", kind="definition"),
-    Claim("three-teeth", "§4.1", "建立三齒接觸分析模型 (a contact model of three teeth)", "Every other place, and the figures, have four pairs of teeth. A slip of the pen.", kind="not_mathematical"),
+    Claim(
+        "linear",
+        "§3.2",
+        "由五個獨立之線性方程式求得五個未知的齒面參數 (five independent linear equations)",
+        "The sentence before says nonlinear, and so they are: the second derivative of a coordinate by the angle is "
+        "not 0 but minus the coordinate.",
+        RACK,
+        contradiction="d(d(Xc*cos(phi) - Yc*sin(phi), phi), phi) = -(Xc*cos(phi) - Yc*sin(phi))",
+    ),
+    Claim(
+        "eq-3.7",
+        "(3.7)",
+        "Δφ2′(φ1′) = φ2′(φ1′) - (T1/T2) φ1′",
+        "Definition of the transmission error.",
+        kind="definition",
+    ),
+    Claim(
+        "eq-3.12",
+        "(3.12)–(3.14)",
+        "X_t(1) = X_t(2) = r cos θt; Y_t(1) = Y_t(2) = r sin θt; Z_t(1) - Z_t(2) = 0.00632 mm",
+        "Definition of the contact pattern's edge.",
+        kind="definition",
+    ),
+    Claim(
+        "three-teeth",
+        "§4.1",
+        "建立三齒接觸分析模型 (a contact model of three teeth)",
+        "Every other place, and the figures, have four pairs of teeth. A slip of the pen.",
+        kind="not_mathematical",
+    ),
     FigureClaim(
-        "node-pinion", "§4.4", "X1 = 62.771 mm, Y1 = 4.962 mm",
-        "The start of the edge (l = 0, Z = 0) of the 33-tooth gear has this distance from its axis: √((r-a)² + (a cot αn)²), to the print's half unit.",
+        "node-pinion",
+        "§4.4",
+        "X1 = 62.771 mm, Y1 = 4.962 mm",
+        "The start of the edge (l = 0, Z = 0) of the 33-tooth gear has this distance from its axis: √((r-a)² + (a "
+        "cot αn)²), to the print's half unit.",
         [Figure("sqrt((33*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt(62.771**2 + 4.962**2)", "0.000", "mm")],
     ),
     FigureClaim(
-        "node-wheel", "§4.4", "凹狀球形小齒輪 ... X2 = 69.485 mm, Y2 = -5.272 mm",
-        "From the wheel's own axis these coordinates are 21 mm too small. Centred on the pinion, C = 160 mm away, they are the start of the edge of the 47-tooth "
+        "node-wheel",
+        "§4.4",
+        "凹狀球形小齒輪 ... X2 = 69.485 mm, Y2 = -5.272 mm",
+        "From the wheel's own axis these coordinates are 21 mm too small. Centred on the pinion, C = 160 mm away, "
+        "they are the start of the edge of the 47-tooth "
         "gear. The text also calls the concave 47-tooth wheel the small gear.",
         [Figure("sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt(69.485**2 + 5.272**2)", "0.000", "mm")],
-        corrected=[Figure("sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt((160 - 69.485)**2 + 5.272**2)", "0.000", "mm")],
+        corrected=[
+            Figure(
+                "sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt((160 - 69.485)**2 + 5.272**2)", "0.000", "mm"
+            )
+        ],
     ),
     FigureClaim(
-        "table-4.3", "Table 4.3", "relative changes of the contact and bending stresses in %", "All percentages follow from the printed stresses.",
+        "table-4.3",
+        "Table 4.3",
+        "relative changes of the contact and bending stresses in %",
+        "All percentages follow from the printed stresses.",
         [
             Figure(f"100*({value} - {first})/{first}", printed, "%")
             for first, values in (
                 ("930.2", (("930.2", "0.00"), ("930.1", "-0.01"), ("930", "-0.02"))),
-                ("58.12", (("58.18", "0.1"), ("58.24", "0.21"), ("58.31", "0.33"), ("58.39", "0.46"), ("58.47", "0.6"))),
+                (
+                    "58.12",
+                    (("58.18", "0.1"), ("58.24", "0.21"), ("58.31", "0.33"), ("58.39", "0.46"), ("58.47", "0.6")),
+                ),
                 ("631.8", (("631.8", "0.00"), ("631.7", "-0.02"))),
-                ("62.74", (("62.91", "0.27"), ("63.08", "0.54"), ("63.24", "0.8"), ("63.4", "1.05"), ("63.56", "1.31"))),
+                (
+                    "62.74",
+                    (("62.91", "0.27"), ("63.08", "0.54"), ("63.24", "0.8"), ("63.4", "1.05"), ("63.56", "1.31")),
+                ),
             )
             for value, printed in values
         ],
     ),
     FigureClaim(
-        "one-pressure", "Table 4.3", "contact stress 930.2 MPa on the pinion and 631.8 MPa on the wheel",
-        "Two bodies press on each other with one and the same pressure: the two numbers cannot both be the contact pressure of one contact.",
-        [Figure("930.2", "631.8", "MPa")], final=True,
+        "one-pressure",
+        "Table 4.3",
+        "contact stress 930.2 MPa on the pinion and 631.8 MPa on the wheel",
+        "Two bodies press on each other with one and the same pressure: the two numbers cannot both be the contact "
+        "pressure of one contact.",
+        [Figure("930.2", "631.8", "MPa")],
+        final=True,
     ),
-    Claim("table-4.4", "Table 4.4", "球形角 Rj (mm) (spherical angle)", "In millimetres and 66, 94 = mT/2: the spherical radius is meant.", kind="not_mathematical"),
-    Claim("eq-5.1", "(5.1), (5.2)", "nmax = fmax/z × 1000 × 60 rpm; A = 1296000/(z × IP) arc-sec", "Definitions of the encoder's limits.", kind="definition"),
+    Claim(
+        "table-4.4",
+        "Table 4.4",
+        "球形角 Rj (mm) (spherical angle)",
+        "In millimetres and 66, 94 = mT/2: the spherical radius is meant.",
+        kind="not_mathematical",
+    ),
+    Claim(
+        "eq-5.1",
+        "(5.1), (5.2)",
+        "nmax = fmax/z × 1000 × 60 rpm; A = 1296000/(z × IP) arc-sec",
+        "Definitions of the encoder's limits.",
+        kind="definition",
+    ),
     FigureClaim(
-        "encoder", "(5.3), (5.4), Table 5.2", "A = 0.01758 arc-sec; nmax = 110 rpm; centre distance 124 mm", "Arithmetic.",
-        [Figure("1296000/(18000*4096)", "0.01758", "arcsec"), Figure("33/18000*1000*60", "110", "rpm"), Figure("4*(29 + 33)/2", "124", "mm")],
+        "encoder",
+        "(5.3), (5.4), Table 5.2",
+        "A = 0.01758 arc-sec; nmax = 110 rpm; centre distance 124 mm",
+        "Arithmetic.",
+        [
+            Figure("1296000/(18000*4096)", "0.01758", "arcsec"),
+            Figure("33/18000*1000*60", "110", "rpm"),
+            Figure("4*(29 + 33)/2", "124", "mm"),
+        ],
     ),
-    Claim("measured", "§5.4", "total transmission error 285, 286, 332 µm", "Measurements on manufactured gears.", kind="not_mathematical"),
+    Claim(
+        "measured",
+        "§5.4",
+        "total transmission error 285, 286, 332 µm",
+        "Measurements on manufactured gears.",
+        kind="not_mathematical",
+    ),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -8,11 +8,17 @@ DOCUMENT = Document(
     name="conventions",
     file="derive/chain.py",
     sha256="",
-    about="Active right-handed rotations, column vectors, products acting right to left. Fixed frame f: z along the worm axis, x from worm to wheel.",
+    about="Active right-handed rotations, column vectors, products acting right to left. Fixed frame f: z along the "
+    "worm axis, x from worm to wheel.",
     symbols={
-        "a": ("a", "rad", "an angle"), "b": ("b", "rad", "an angle"),
-        "Sigma": ("Σ", "rad", "shaft angle"), "phi": ("φ", "rad", "rotation of the hob"), "phi2": ("φ2", "rad", "rotation of the wheel"),
-        "dh": ("Δh", "rad", "horizontal error"), "dv": ("Δv", "rad", "vertical error"), "psi": ("ψ", "rad", "screw angle"),
+        "a": ("a", "rad", "an angle"),
+        "b": ("b", "rad", "an angle"),
+        "Sigma": ("Σ", "rad", "shaft angle"),
+        "phi": ("φ", "rad", "rotation of the hob"),
+        "phi2": ("φ2", "rad", "rotation of the wheel"),
+        "dh": ("Δh", "rad", "horizontal error"),
+        "dv": ("Δv", "rad", "vertical error"),
+        "psi": ("ψ", "rad", "screw angle"),
     },
 )
 
@@ -47,30 +53,70 @@ def proper(matrix: str) -> list[str]:
 
 
 CLAIMS = (
-    identity("rotations", "rotations", "Rotations about the axes are orthogonal with determinant +1.", [text for axis in "xyz" for text in proper(f"R{axis}(a)")]),
-    identity("frames", "frames", "Every constant frame matrix in use is orthogonal with determinant +1.", proper("permutation") + proper("wheel_rows") + proper("half_turn")),
-    identity("sums", "rotations", "Successive rotations about one axis add their angles.", [f"R{axis}(a)@R{axis}(b) = R{axis}(a + b)" for axis in "xyz"]),
     identity(
-        "half-turn", "rotations", "A half turn about x reverses rotations about y and z.",
+        "rotations",
+        "rotations",
+        "Rotations about the axes are orthogonal with determinant +1.",
+        [text for axis in "xyz" for text in proper(f"R{axis}(a)")],
+    ),
+    identity(
+        "frames",
+        "frames",
+        "Every constant frame matrix in use is orthogonal with determinant +1.",
+        proper("permutation") + proper("wheel_rows") + proper("half_turn"),
+    ),
+    identity(
+        "sums",
+        "rotations",
+        "Successive rotations about one axis add their angles.",
+        [f"R{axis}(a)@R{axis}(b) = R{axis}(a + b)" for axis in "xyz"],
+    ),
+    identity(
+        "half-turn",
+        "rotations",
+        "A half turn about x reverses rotations about y and z.",
         ["Rx(pi) = half_turn", "Rx(pi)@Rz(a) = Rz(-a)@Rx(pi)", "Rx(pi)@Ry(a) = Ry(-a)@Rx(pi)"],
     ),
-    identity("mirror", "hand", "The mirror image y → -y of a drive reverses rotations about x and z and leaves those about y.", ["mirror_y@(Rz(a)@point) = Rz(-a)@(mirror_y@point)", "mirror_y@(Rx(a)@point) = Rx(-a)@(mirror_y@point)", "mirror_y@(Ry(a)@point) = Ry(a)@(mirror_y@point)"]),
-    identity("wheel-axis", "shaft angle", "The wheel's axis in the fixed frame is (0, sin Σ, cos Σ).", ["Rx(-Sigma)@vec(0, 0, 1) = vec(0, sin(Sigma), cos(Sigma))"]),
     identity(
-        "recess-action-blade", "mapping of the recess-action paper", "Its hob surface with θ1 = -ψ is our helicoid of the blade profile.",
+        "mirror",
+        "hand",
+        "The mirror image y → -y of a drive reverses rotations about x and z and leaves those about y.",
+        [
+            "mirror_y@(Rz(a)@point) = Rz(-a)@(mirror_y@point)",
+            "mirror_y@(Rx(a)@point) = Rx(-a)@(mirror_y@point)",
+            "mirror_y@(Ry(a)@point) = Ry(a)@(mirror_y@point)",
+        ],
+    ),
+    identity(
+        "wheel-axis",
+        "shaft angle",
+        "The wheel's axis in the fixed frame is (0, sin Σ, cos Σ).",
+        ["Rx(-Sigma)@vec(0, 0, 1) = vec(0, sin(Sigma), cos(Sigma))"],
+    ),
+    identity(
+        "recess-action-blade",
+        "mapping of the recess-action paper",
+        "Its hob surface with θ1 = -ψ is our helicoid of the blade profile.",
         "Rz(-theta)@blade + vec(0, 0, -p*theta) = Rz(psi)@blade + vec(0, 0, p*psi)",
         REVERSED,
     ),
     identity(
-        "recess-action-wheel", "mapping of the recess-action paper", "Its wheel surface with γ1 = 180° - Σ is ours turned half about x: R2 = diag(1, -1, -1) r_wheel.",
-        "Rz(-phi2)@(Rx(-(pi - Sigma))@(Rz(phi)@point - vec(A, 0, 0))) = half_turn@(Rz(phi2)@(Rx(Sigma)@(Rz(phi)@point - vec(A, 0, 0))))",
+        "recess-action-wheel",
+        "mapping of the recess-action paper",
+        "Its wheel surface with γ1 = 180° - Σ is ours turned half about x: R2 = diag(1, -1, -1) r_wheel.",
+        "Rz(-phi2)@(Rx(-(pi - Sigma))@(Rz(phi)@point - vec(A, 0, 0))) = "
+        "half_turn@(Rz(phi2)@(Rx(Sigma)@(Rz(phi)@point - vec(A, 0, 0))))",
     ),
     identity(
-        "recess-action-mesh", "mapping of the recess-action paper", "With γ3 = 180° - Σ, Δγh = -Δh and Δγv = -Δv its assembly is ours.",
+        "recess-action-mesh",
+        "mapping of the recess-action paper",
+        "With γ3 = 180° - Σ, Δγh = -Δh and Δγv = -Δv its assembly is ours.",
         "Rx((pi - Sigma) + (-dh))@(Ry(-dv)@(Rz(phi2)@(half_turn@point))) = ours_in_mesh",
     ),
     identity(
-        "rack-and-pinion-wheel", "mapping of the rack-and-pinion paper", "Its wheel coordinates (i2, j2, k2) are diag(-1, 1, -1) times ours at Σ = 90°.",
+        "rack-and-pinion-wheel",
+        "mapping of the rack-and-pinion paper",
+        "Its wheel coordinates (i2, j2, k2) are diag(-1, 1, -1) times ours at Σ = 90°.",
         "wheel_rows@(Ry(phi2)@arm) = mat([-1, 0, 0], [0, 1, 0], [0, 0, -1])@(Rz(phi2)@(Rx(pi/2)@arm))",
     ),
 )

@@ -1,4 +1,7 @@
-"""Cylindrical worm drives: explicit wheel, contact, limit points and meshing axes at any shaft angle, for every profile."""
+"""Cylindrical worm drives.
+
+Explicit wheel, contact, limit points and meshing axes at any shaft angle, for every profile.
+"""
 
 from derive.audit.claims import Document, scope
 from derive.audit.identities.conventions import identity
@@ -9,12 +12,24 @@ DOCUMENT = Document(
     name="cylindrical worm drives",
     file="derive/drives/cylindrical_worm.py",
     sha256="",
-    about="Worm and wheel cut by a hob of any flank form. The fixed cutting frame has the hob's axis as z and the wheel's axis (0, sin Σ, cos Σ) through (A, 0, 0).",
+    about="Worm and wheel cut by a hob of any flank form. The fixed cutting frame has the hob's axis as z and the "
+    "wheel's axis (0, sin Σ, cos Σ) through (A, 0, 0).",
     symbols={
-        "t": ("t", "mm or rad", "profile parameter of the hob"), "psi": ("ψ", "rad", "screw angle of the hob"), "phi": ("φh", "rad", "rotation of the hob"),
-        "phi2": ("φ2", "rad", "rotation of the blank"), "m": ("m", "-", "ratio of blank to hob"), "p": ("p", "mm/rad", "screw parameter"), "A": ("A", "mm", "cutting centre distance"),
-        "Sigma": ("Σ", "rad", "cutting shaft angle"), "x": ("x", "mm", "point in the cutting frame"), "y": ("y", "mm", "point in the cutting frame"), "z": ("z", "mm", "point in the cutting frame"),
-        "nx": ("nx", "-", "normal in the cutting frame"), "ny": ("ny", "-", "normal in the cutting frame"), "nz": ("nz", "-", "normal in the cutting frame"), "tau": ("τ", "-", "worm's share of the twist"),
+        "t": ("t", "mm or rad", "profile parameter of the hob"),
+        "psi": ("ψ", "rad", "screw angle of the hob"),
+        "phi": ("φh", "rad", "rotation of the hob"),
+        "phi2": ("φ2", "rad", "rotation of the blank"),
+        "m": ("m", "-", "ratio of blank to hob"),
+        "p": ("p", "mm/rad", "screw parameter"),
+        "A": ("A", "mm", "cutting centre distance"),
+        "Sigma": ("Σ", "rad", "cutting shaft angle"),
+        "x": ("x", "mm", "point in the cutting frame"),
+        "y": ("y", "mm", "point in the cutting frame"),
+        "z": ("z", "mm", "point in the cutting frame"),
+        "nx": ("nx", "-", "normal in the cutting frame"),
+        "ny": ("ny", "-", "normal in the cutting frame"),
+        "nz": ("nz", "-", "normal in the cutting frame"),
+        "tau": ("τ", "-", "worm's share of the twist"),
     },
 )
 
@@ -71,39 +86,85 @@ q = vec((Dy*Wz - Dz*Wy)/(Dy**2 + Dz**2), 0, 0)
 
 CLAIMS = (
     identity(
-        "meshing", "equation of meshing", "Velocity form and derivative form are the same function, at any shaft angle and for every profile.",
-        "f = dot(n_wheel, d(wheel, (phi, 1), (phi2, m)))", HOBBING,
-    ),
-    identity("normal", "wheel normal", "The hob's normal stays perpendicular to the hob's tangents in the wheel's frame.", ["dot(n_wheel, d(wheel, t)) = 0", "dot(n_wheel, d(wheel, psi)) = 0"], HOBBING),
-    identity(
-        "sum-angle", "reduction", "Meshing does not change when ψ and φh change by opposite amounts, but for the height z = P_z + pψ: only their sum and z matter.",
-        "d(f, (psi, 1), (phi, -1)) = m*p*dot(n, cross(k2, k))", HOBBING,
+        "meshing",
+        "equation of meshing",
+        "Velocity form and derivative form are the same function, at any shaft angle and for every profile.",
+        "f = dot(n_wheel, d(wheel, (phi, 1), (phi2, m)))",
+        HOBBING,
     ),
     identity(
-        "explicit", "reduction", "The equation of meshing is linear in z; with this z it vanishes. The relation n·(k × r) = -p n_z of every helicoid defines p here.",
-        "f = 0", EXPLICIT, conditions=["n_x ≠ 0 (beyond it lies the spurious sheet)", "sin Σ ≠ 0"],
+        "normal",
+        "wheel normal",
+        "The hob's normal stays perpendicular to the hob's tangents in the wheel's frame.",
+        ["dot(n_wheel, d(wheel, t)) = 0", "dot(n_wheel, d(wheel, psi)) = 0"],
+        HOBBING,
     ),
     identity(
-        "linear", "reduction", "The slope in z is -m n_x sin Σ, so the solution is unique where it is not 0.",
-        "d(dot(vec(nx, ny, nz), cross(k, vec(x, y, zz)) + m*cross(k2, vec(x, y, zz) - vec(A, 0, 0))), zz) = m*nx*sin(Sigma)", EXPLICIT,
+        "sum-angle",
+        "reduction",
+        "Meshing does not change when ψ and φh change by opposite amounts, but for the height z = P_z + pψ: only "
+        "their sum and z matter.",
+        "d(f, (psi, 1), (phi, -1)) = m*p*dot(n, cross(k2, k))",
+        HOBBING,
     ),
     identity(
-        "contact", "contact", "n2 perpendicular to both tangents of the other surface is the same as n2 parallel to its normal: two scalar equations for the papers' three.",
-        "cross(n2, cross(t1, t2)) = t1*dot(n2, t2) - t2*dot(n2, t1)", ANY, conditions=["t1 × t2 ≠ 0"],
+        "explicit",
+        "reduction",
+        "The equation of meshing is linear in z; with this z it vanishes. The relation n·(k × r) = -p n_z of every "
+        "helicoid defines p here.",
+        "f = 0",
+        EXPLICIT,
+        conditions=["n_x ≠ 0 (beyond it lies the spurious sheet)", "sin Σ ≠ 0"],
     ),
     identity(
-        "undercut", "limit of the wheel flank", "The singular function of the explicit surface is the division-free one of the three-parameter surface over f_φ.",
-        "dot(cross(R_l + phi_l*R_phi, R_psi + phi_psi*R_phi), n)*f_phi = dot(n, f_phi*cross(R_l, R_psi) + f_l*cross(R_psi, R_phi) + f_psi*cross(R_phi, R_l))",
-        ANY, conditions=["f_φ ≠ 0"],
-    ),
-    identity("twist", "meshing axes", "Adding any share τ of the worm's screw motion to the relative motion does not change meshing.", "dot(n, cross(D, r) + W) = -f", HOBBING),
-    identity(
-        "axis", "meshing axes", "Where D·W = 0 that motion is a rotation about the line through q of direction D: every contact normal meets it.",
-        "W - cross(q, D) = dot(D, W)/(Dy**2 + Dz**2)*D", ANY, conditions=["D ≠ 0", "D·W = 0"],
+        "linear",
+        "reduction",
+        "The slope in z is -m n_x sin Σ, so the solution is unique where it is not 0.",
+        "d(dot(vec(nx, ny, nz), cross(k, vec(x, y, zz)) + m*cross(k2, vec(x, y, zz) - vec(A, 0, 0))), zz) = "
+        "m*nx*sin(Sigma)",
+        EXPLICIT,
     ),
     identity(
-        "axis-quadratic", "meshing axes", "D·W is the quadratic in τ whose real roots give the meshing axes.",
-        "dot(D, W) = p*tau**2 - (p + p*m*cos(Sigma) + A*m*sin(Sigma))*tau + A*m*sin(Sigma)", HOBBING,
+        "contact",
+        "contact",
+        "n2 perpendicular to both tangents of the other surface is the same as n2 parallel to its normal: two scalar "
+        "equations for the papers' three.",
+        "cross(n2, cross(t1, t2)) = t1*dot(n2, t2) - t2*dot(n2, t1)",
+        ANY,
+        conditions=["t1 × t2 ≠ 0"],
+    ),
+    identity(
+        "undercut",
+        "limit of the wheel flank",
+        "The singular function of the explicit surface is the division-free one of the three-parameter surface over "
+        "f_φ.",
+        "dot(cross(R_l + phi_l*R_phi, R_psi + phi_psi*R_phi), n)*f_phi = dot(n, f_phi*cross(R_l, R_psi) + "
+        "f_l*cross(R_psi, R_phi) + f_psi*cross(R_phi, R_l))",
+        ANY,
+        conditions=["f_φ ≠ 0"],
+    ),
+    identity(
+        "twist",
+        "meshing axes",
+        "Adding any share τ of the worm's screw motion to the relative motion does not change meshing.",
+        "dot(n, cross(D, r) + W) = -f",
+        HOBBING,
+    ),
+    identity(
+        "axis",
+        "meshing axes",
+        "Where D·W = 0 that motion is a rotation about the line through q of direction D: every contact normal meets "
+        "it.",
+        "W - cross(q, D) = dot(D, W)/(Dy**2 + Dz**2)*D",
+        ANY,
+        conditions=["D ≠ 0", "D·W = 0"],
+    ),
+    identity(
+        "axis-quadratic",
+        "meshing axes",
+        "D·W is the quadratic in τ whose real roots give the meshing axes.",
+        "dot(D, W) = p*tau**2 - (p + p*m*cos(Sigma) + A*m*sin(Sigma))*tau + A*m*sin(Sigma)",
+        HOBBING,
     ),
 )
 

@@ -9,11 +9,21 @@ DOCUMENT = Document(
     name="face worm drives",
     file="derive/drives/face_worm.py",
     sha256="",
-    about="Fixed frame: z along the gear axis, x along the worm axis, y the common perpendicular. The worm's own z axis is x of the fixed frame.",
+    about="Fixed frame: z along the gear axis, x along the worm axis, y the common perpendicular. The worm's own z "
+    "axis is x of the fixed frame.",
     symbols={
-        "u": ("u", "mm", "profile parameter"), "theta": ("θ", "rad", "angle parameter"), "psi": ("ψ", "rad", "rotation of hob or worm"), "m": ("1/N", "-", "ratio of gear to worm"),
-        "E_m": ("Em", "mm", "offset"), "L": ("L", "mm", "axial position"), "alpha": ("αg", "rad", "blade angle"), "Rg": ("Rg", "mm", "head-cutter radius"),
-        "hd": ("hd", "mm", "blade depth"), "rf": ("ρf", "mm", "fillet radius"), "side": ("σ", "-", "+1 convex, -1 concave side of the gear tooth"), "ac": ("ac", "1/mm", "blade parabola"),
+        "u": ("u", "mm", "profile parameter"),
+        "theta": ("θ", "rad", "angle parameter"),
+        "psi": ("ψ", "rad", "rotation of hob or worm"),
+        "m": ("1/N", "-", "ratio of gear to worm"),
+        "E_m": ("Em", "mm", "offset"),
+        "L": ("L", "mm", "axial position"),
+        "alpha": ("αg", "rad", "blade angle"),
+        "Rg": ("Rg", "mm", "head-cutter radius"),
+        "hd": ("hd", "mm", "blade depth"),
+        "rf": ("ρf", "mm", "fillet radius"),
+        "side": ("σ", "-", "+1 convex, -1 concave side of the gear tooth"),
+        "ac": ("ac", "1/mm", "blade parabola"),
     },
 )
 
@@ -49,20 +59,51 @@ n_blade = side*vec(d(Z, u)*cos(theta), d(Z, u)*sin(theta), -d(X, u))
 
 CLAIMS = (
     identity(
-        "harmonic", "hob-cut reference", "At fixed surface parameters the equation of meshing is a cos ε + b sin ε + c in the hob's angle, so the reference surface is explicit.",
-        "d(d(d(f, psi), psi), psi) = -d(f, psi)", HOB,
+        "harmonic",
+        "hob-cut reference",
+        "At fixed surface parameters the equation of meshing is a cos ε + b sin ε + c in the hob's angle, so the "
+        "reference surface is explicit.",
+        "d(d(d(f, psi), psi), psi) = -d(f, psi)",
+        HOB,
     ),
-    identity("cone-normal", "gear flank", "Unit normal of the tool cone, out of the gear tooth.", ["dot(n_cone, d(cone, u)) = 0", "dot(n_cone, d(cone, theta)) = 0", "dot(n_cone, n_cone) = 1"], TOOL),
     identity(
-        "fillet-join", "fillet", "At λ = 90° + σ αg, where sin λ = cos αg and cos λ = -σ sin αg, the fillet torus meets the cone at u_t ...",
-        ["Xt - side*rf*cos(alpha) = Rg + ut*sin(alpha)", "Zt - rf*(-side*sin(alpha)) = ut*cos(alpha)"], TOOL, conditions=["cos αg ≠ 0"],
+        "cone-normal",
+        "gear flank",
+        "Unit normal of the tool cone, out of the gear tooth.",
+        ["dot(n_cone, d(cone, u)) = 0", "dot(n_cone, d(cone, theta)) = 0", "dot(n_cone, n_cone) = 1"],
+        TOOL,
     ),
     identity(
-        "fillet-tangent", "fillet", "... with the same normal: the torus' normal (σ sin λ, cos λ) there is (σ cos αg, -σ sin αg), that of the cone.",
-        ["d(torus_x, lam)*(side*sin(lam)) + d(torus_z, lam)*cos(lam) = 0", "side*cos(alpha)*sin(alpha) + (-side*sin(alpha))*cos(alpha) = 0"], TOOL,
+        "fillet-join",
+        "fillet",
+        "At λ = 90° + σ αg, where sin λ = cos αg and cos λ = -σ sin αg, the fillet torus meets the cone at u_t ...",
+        ["Xt - side*rf*cos(alpha) = Rg + ut*sin(alpha)", "Zt - rf*(-side*sin(alpha)) = ut*cos(alpha)"],
+        TOOL,
+        conditions=["cos αg ≠ 0"],
     ),
-    identity("blade-normal", "worm tool", "The parabolic blade's normal; at u = 0 it is the cone's, so both tools touch along the mid line.",
-             ["dot(n_blade, d(blade, u)) = 0", "dot(n_blade, d(blade, theta)) = 0", "d(Z, u) = cos(alpha) - 2*side*ac*u*sin(alpha)", "d(X, u) = sin(alpha) + 2*side*ac*u*cos(alpha)"], TOOL),
+    identity(
+        "fillet-tangent",
+        "fillet",
+        "... with the same normal: the torus' normal (σ sin λ, cos λ) there is (σ cos αg, -σ sin αg), that of the "
+        "cone.",
+        [
+            "d(torus_x, lam)*(side*sin(lam)) + d(torus_z, lam)*cos(lam) = 0",
+            "side*cos(alpha)*sin(alpha) + (-side*sin(alpha))*cos(alpha) = 0",
+        ],
+        TOOL,
+    ),
+    identity(
+        "blade-normal",
+        "worm tool",
+        "The parabolic blade's normal; at u = 0 it is the cone's, so both tools touch along the mid line.",
+        [
+            "dot(n_blade, d(blade, u)) = 0",
+            "dot(n_blade, d(blade, theta)) = 0",
+            "d(Z, u) = cos(alpha) - 2*side*ac*u*sin(alpha)",
+            "d(X, u) = sin(alpha) + 2*side*ac*u*cos(alpha)",
+        ],
+        TOOL,
+    ),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -9,12 +9,22 @@ DOCUMENT = Document(
     name="worm and hob flanks",
     file="derive/tools",
     sha256="",
-    about="A flank is a profile P(t) in screw motion about z. The profile is left generic where possible; the types A, I, N, K, C then only fill it in.",
+    about="A flank is a profile P(t) in screw motion about z. The profile is left generic where possible; the types "
+    "A, I, N, K, C then only fill it in.",
     symbols={
-        "t": ("t", "mm or rad", "profile parameter"), "psi": ("ψ", "rad", "screw angle"), "p": ("p", "mm/rad", "screw parameter"),
-        "alpha": ("α", "rad", "pressure angle of the generating profile"), "lam": ("λ", "rad", "lead angle"), "S": ("S", "mm", "normal groove width"),
-        "r": ("r", "mm", "reference radius"), "rc": ("rc", "mm", "grinding wheel radius"), "s": ("s", "-", "flank sign"), "theta": ("θ", "rad", "angle on the grinding wheel"),
-        "rho": ("ρ", "mm", "radius"), "xi": ("ξ", "rad", "angle on the arc of the grinding wheel"), "rho_c": ("ρc", "mm", "radius of that arc"),
+        "t": ("t", "mm or rad", "profile parameter"),
+        "psi": ("ψ", "rad", "screw angle"),
+        "p": ("p", "mm/rad", "screw parameter"),
+        "alpha": ("α", "rad", "pressure angle of the generating profile"),
+        "lam": ("λ", "rad", "lead angle"),
+        "S": ("S", "mm", "normal groove width"),
+        "r": ("r", "mm", "reference radius"),
+        "rc": ("rc", "mm", "grinding wheel radius"),
+        "s": ("s", "-", "flank sign"),
+        "theta": ("θ", "rad", "angle on the grinding wheel"),
+        "rho": ("ρ", "mm", "radius"),
+        "xi": ("ξ", "rad", "angle on the arc of the grinding wheel"),
+        "rho_c": ("ρc", "mm", "radius of that arc"),
     },
 )
 
@@ -96,37 +106,81 @@ n = vec(sin(xi)*cos(theta), 0, 0) - sin(xi)*sin(theta)*tau - s*cos(xi)*k_w
 )
 
 CLAIMS = (
-    identity("helicoid", "any profile", "A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.", "dot(normal, cross(k, R) + p*k) = 0", GENERIC),
-    identity("normal", "any profile", "The normal is that of the section, turned by ψ: it need be formed only once.", "normal = Rz(psi)@section", GENERIC),
     identity(
-        "zn-width", "ZN", "The straight edge crosses the reference cylinder where the groove is S wide.",
-        "(rt + pitch*cos(alpha))**2 + (pitch*sin(alpha)*sin(lam))**2 = r**2", STRAIGHT, conditions=["r ≥ S sin λ / 2"],
-    ),
-    identity("zn-straight", "ZN", "Turned back by λ the edge lies in a plane and is straight.", ["in_section.y = 0", "d(d(P, t), t) = vec(0, 0, 0)", "dot(d(P, t), d(P, t)) = 1"], STRAIGHT),
-    identity(
-        "za-normal", "ZA", "(-z′ρ, -p, ρ) with z′ = s tan α / cos λ is normal to the helicoid of the straight axial edge.",
-        ["dot(n, d(P, rho)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0"], AXIAL,
+        "helicoid",
+        "any profile",
+        "A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.",
+        "dot(normal, cross(k, R) + p*k) = 0",
+        GENERIC,
     ),
     identity(
-        "zi-normal", "ZI", "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
-        ["dot(n, d(P, at)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0", "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)"], INVOLUTE, conditions=["ρ ≥ r_b"],
+        "normal",
+        "any profile",
+        "The normal is that of the section, turned by ψ: it need be formed only once.",
+        "normal = Rz(psi)@section",
+        GENERIC,
     ),
     identity(
-        "zk-normal", "ZK", "The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's normal, no derivative needed.",
-        ["dot(n, d(P, theta)) = 0", "dot(n, cross(k, P) + p*k) = 0", "dot(n, n) = 1"], GROUND, conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
+        "zn-width",
+        "ZN",
+        "The straight edge crosses the reference cylinder where the groove is S wide.",
+        "(rt + pitch*cos(alpha))**2 + (pitch*sin(alpha)*sin(lam))**2 = r**2",
+        STRAIGHT,
+        conditions=["r ≥ S sin λ / 2"],
     ),
     identity(
-        "zk-radius", "ZK", "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
-        "(E - (b1*sin(alpha) + cos(alpha)*rc)*cos(alpha))**2 + ((b1 - (b1*sin(alpha) + cos(alpha)*rc)*sin(alpha))*sin(lam))**2"
-        " = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2", GROUND,
+        "zn-straight",
+        "ZN",
+        "Turned back by λ the edge lies in a plane and is straight.",
+        ["in_section.y = 0", "d(d(P, t), t) = vec(0, 0, 0)", "dot(d(P, t), d(P, t)) = 1"],
+        STRAIGHT,
     ),
     identity(
-        "zc-normal", "ZC", "The arc's unit normal is perpendicular to the grinding wheel in both directions.",
-        ["dot(n, d(P, theta)) = 0", "dot(n, d(P, xi)) = 0", "dot(n, n) = 1"], ARC,
+        "za-normal",
+        "ZA",
+        "(-z′ρ, -p, ρ) with z′ = s tan α / cos λ is normal to the helicoid of the straight axial edge.",
+        ["dot(n, d(P, rho)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0"],
+        AXIAL,
     ),
     identity(
-        "zc-limit", "ZC", "At ξ = α arc and cone agree in radius, width and normal.",
-        ["rc + rho_c*(sin(alpha) - sin(alpha)) = rc", "S/2 + rho_c*(cos(alpha) - cos(alpha)) = S/2"], ARC,
+        "zi-normal",
+        "ZI",
+        "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
+        ["dot(n, d(P, at)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0", "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)"],
+        INVOLUTE,
+        conditions=["ρ ≥ r_b"],
+    ),
+    identity(
+        "zk-normal",
+        "ZK",
+        "The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's "
+        "normal, no derivative needed.",
+        ["dot(n, d(P, theta)) = 0", "dot(n, cross(k, P) + p*k) = 0", "dot(n, n) = 1"],
+        GROUND,
+        conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
+    ),
+    identity(
+        "zk-radius",
+        "ZK",
+        "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
+        "(E - (b1*sin(alpha) + cos(alpha)*rc)*cos(alpha))**2 + ((b1 - (b1*sin(alpha) + "
+        "cos(alpha)*rc)*sin(alpha))*sin(lam))**2"
+        " = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2",
+        GROUND,
+    ),
+    identity(
+        "zc-normal",
+        "ZC",
+        "The arc's unit normal is perpendicular to the grinding wheel in both directions.",
+        ["dot(n, d(P, theta)) = 0", "dot(n, d(P, xi)) = 0", "dot(n, n) = 1"],
+        ARC,
+    ),
+    identity(
+        "zc-limit",
+        "ZC",
+        "At ξ = α arc and cone agree in radius, width and normal.",
+        ["rc + rho_c*(sin(alpha) - sin(alpha)) = rc", "S/2 + rho_c*(cos(alpha) - cos(alpha)) = S/2"],
+        ARC,
     ),
 )
 

@@ -1,0 +1,96 @@
+"""The generated C is run modulo a prime against calculus: it holds as committed, and a changed sign does not."""
+
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from derive.audit import check_code
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+
+
+def test_every_generated_header_is_its_own_mathematics():
+    begin = time.perf_counter()
+    script = GENERATED / "audit" / "check_code.py"
+    result = subprocess.run([sys.executable, "-I", "-S", script], capture_output=True, text=True, cwd="/")
+    assert result.returncode == 0, result.stderr
+    assert time.perf_counter() - begin < 30
+    assert "J = dR/dx" in result.stdout
+
+
+def header(name):
+    return (GENERATED / "c" / f"{name}.h").read_text(encoding="utf-8")
+
+
+def rejected(tmp_path, text, match):
+    path = tmp_path / "drive.h"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(check_code.Rejected, match=match):
+        check_code.check_header(path)
+
+
+@pytest.fixture(autouse=True)
+def few_attempts(monkeypatch):
+    monkeypatch.setattr(check_code, "ATTEMPTS", 40)
+
+
+def test_a_changed_jacobian_entry_is_caught(tmp_path):
+    text = re.sub(r"J\[7\] = (.+);", r"J[7] = -(\1);", header("spherical_convex_spur"), count=1)
+    text = re.sub(r"J\[7\] = -\((\w+)\);", r"J[7] = 2.0 * \1;", text)
+    rejected(tmp_path, text, r"J\[1\]\[2\] is not the derivative")
+
+
+def test_a_changed_normal_is_caught(tmp_path):
+    source = header("cylindrical_worm_zn_zn")
+    body = source[source.index("_flank_wheel(const") :]
+    wrong = re.sub(r"o\[4\] = (\w+);", r"o[4] = -\1;", body, count=1)
+    rejected(tmp_path, source.replace(body, wrong), "not perpendicular")
+
+
+def test_a_changed_point_is_caught(tmp_path):
+    source = header("cylindrical_worm_zk_zn")
+    body = source[source.index("_flank_wheel(const") :]
+    wrong = re.sub(r"o\[2\] = (\w+);", r"o[2] = \1 * \1;", body, count=1)
+    rejected(tmp_path, source.replace(body, wrong), "not the derivative of the point")
+
+
+def test_a_statement_that_cannot_be_read_is_an_error(tmp_path):
+    head, signature, tail = header("spherical_spur_spur").partition("_eval(const double *s, const double *x")
+    tail = tail.replace("if (J == NULL) return;", "R[0] += 1.0;\nif (J == NULL) return;", 1)
+    rejected(tmp_path, head + signature + tail, "not a straight-line statement")
+
+
+def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path):
+    """Every sum turned into a difference, one at a time, in the residual and the wheel flank."""
+    source = header("cylindrical_worm_zn_zn")
+    caught = total = 0
+    for function in ("_eval(const", "_flank_wheel(const"):
+        start = source.index(function)
+        body = source[start : source.index("\n}", start)]
+        sums = list(re.finditer(r" \+ ", body))
+        for match in sums[::3]:
+            total += 1
+            wrong = body[: match.start()] + " - " + body[match.end() :]
+            path = tmp_path / "drive.h"
+            path.write_text(source.replace(body, wrong), encoding="utf-8")
+            try:
+                check_code.check_header(path)
+            except check_code.Rejected:
+                caught += 1
+    with capsys.disabled():
+        print(f"\n{caught} of {total} changed signs in generated C caught")
+    assert total >= 30
+    assert caught >= 0.9 * total
+
+
+def test_a_folder_without_the_programs_is_rejected(tmp_path):
+    (tmp_path / "audit").mkdir()
+    (tmp_path / "c").mkdir()
+    shutil.copy(GENERATED / "c" / "models.h", tmp_path / "c")
+    (tmp_path / "c" / "drive.h").write_text("static inline int drive_setup(const double *p, double *s)\n{\n}\n")
+    assert check_code.main([str(tmp_path / "audit")]) == 1
