@@ -31,7 +31,7 @@ class Provenance(TypedDict):
 
     root_hash: str
     equations: list[str]
-    functions: dict[str, list[str]]
+    equations_of: dict[str, list[str]]
 
 
 def provenance(ledger: Ledger, family: str, variant: dict[str, str]) -> Provenance:
@@ -39,7 +39,7 @@ def provenance(ledger: Ledger, family: str, variant: dict[str, str]) -> Provenan
     functions = {name: list(dict.fromkeys(COMMON + keys)) for name, keys in _functions(family, variant).items()}
     used = sorted({key for keys in functions.values() for key in keys})
     _require_proved(ledger, used)
-    return {"root_hash": ledger.root, "equations": used, "functions": functions}
+    return {"root_hash": ledger.root, "equations": used, "equations_of": functions}
 
 
 def _functions(family: str, variant: dict[str, str]) -> dict[str, tuple[str, ...]]:

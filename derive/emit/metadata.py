@@ -16,7 +16,7 @@ GENERATOR = "0.1.0"
 def describe(plan, provenance):
     """Names, units, shapes, operations per stage, hashes and a self-test of one drive.
 
-    ``provenance`` is what the prove stage says of the drive: ``root_hash``, ``equations`` and ``functions``.
+    ``provenance`` is what the prove stage says of the drive: ``root_hash``, ``equations`` and ``equations_of``.
     """
     drive = plan.drive
     offsets = _offsets(plan)
