@@ -884,6 +884,10 @@ static inline void cylindrical_worm_za_zn_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_za_zn_NX] at x[cylindrical_worm_za_zn_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_za_zn_NX*cylindrical_worm_za_zn_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline void cylindrical_worm_za_zn_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1250,6 +1254,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline double cylindrical_worm_za_zn_step(const double *s, double *x)
 {
     double s0, c0;
@@ -1845,6 +1853,10 @@ static inline void cylindrical_worm_za_zn_scale(const double *s, double *x)
  *    52 margin_wheel_tool_end
  *    53 margin_wheel_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_za_zn_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2376,6 +2388,8 @@ static inline void cylindrical_worm_za_zn_observe(const double *s, const double 
  *    13 margin_tip
  *    14 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal. */
 static inline void cylindrical_worm_za_zn_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2462,6 +2476,9 @@ static inline void cylindrical_worm_za_zn_flank_pinion(const double *s, const do
  *    16 margin_tool_end
  *    17 margin_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_za_zn_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

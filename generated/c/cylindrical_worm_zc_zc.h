@@ -1057,6 +1057,10 @@ static inline void cylindrical_worm_zc_zc_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zc_zc_NX] at x[cylindrical_worm_zc_zc_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_zc_NX*cylindrical_worm_zc_zc_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1861,6 +1865,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -3360,6 +3368,10 @@ static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  *    55 margin_wheel_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zc_zc_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -4287,6 +4299,8 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit. */
 static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4550,6 +4564,9 @@ static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  *    18 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zc-normal, helicoids/zc-limit, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

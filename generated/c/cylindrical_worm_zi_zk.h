@@ -882,6 +882,10 @@ static inline void cylindrical_worm_zi_zk_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zi_zk_NX] at x[cylindrical_worm_zi_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zi_zk_NX*cylindrical_worm_zi_zk_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline void cylindrical_worm_zi_zk_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1398,6 +1402,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline double cylindrical_worm_zi_zk_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -2286,6 +2294,10 @@ static inline void cylindrical_worm_zi_zk_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  *    55 margin_wheel_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zi_zk_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -2974,6 +2986,8 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal. */
 static inline void cylindrical_worm_zi_zk_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3094,6 +3108,9 @@ static inline void cylindrical_worm_zi_zk_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  *    18 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-
+ *   angle, cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zi_zk_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

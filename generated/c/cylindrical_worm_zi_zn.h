@@ -914,6 +914,10 @@ static inline void cylindrical_worm_zi_zn_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zi_zn_NX] at x[cylindrical_worm_zi_zn_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zi_zn_NX*cylindrical_worm_zi_zn_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline void cylindrical_worm_zi_zn_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[0] - s[24];
@@ -1339,6 +1343,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline double cylindrical_worm_zi_zn_step(const double *s, double *x)
 {
     const double t0 = x[0] - s[24];
@@ -2001,6 +2009,10 @@ static inline void cylindrical_worm_zi_zn_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zi_zn_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[0] - s[24];
@@ -2590,6 +2602,8 @@ static inline void cylindrical_worm_zi_zn_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal. */
 static inline void cylindrical_worm_zi_zn_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2709,6 +2723,9 @@ static inline void cylindrical_worm_zi_zn_flank_pinion(const double *s, const do
  *    16 margin_tool_end
  *    17 margin_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zi_zn_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -871,6 +871,10 @@ static inline void cylindrical_worm_zk_za_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zk_za_NX] at x[cylindrical_worm_zk_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_za_NX*cylindrical_worm_zk_za_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/za-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline void cylindrical_worm_zk_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1389,6 +1393,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/za-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline double cylindrical_worm_zk_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -2253,6 +2261,10 @@ static inline void cylindrical_worm_zk_za_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/za-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zk_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2879,6 +2891,8 @@ static inline void cylindrical_worm_zk_za_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4. */
 static inline void cylindrical_worm_zk_za_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3072,6 +3086,9 @@ static inline void cylindrical_worm_zk_za_flank_pinion(const double *s, const do
  *    16 margin_tool_end
  *    17 margin_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zk_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -922,6 +922,10 @@ static inline void cylindrical_worm_zk_zi_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zk_zi_NX] at x[cylindrical_worm_zk_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_zi_NX*cylindrical_worm_zk_zi_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/zi-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline void cylindrical_worm_zk_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1503,6 +1507,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/zi-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact. */
 static inline double cylindrical_worm_zk_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2486,6 +2494,10 @@ static inline void cylindrical_worm_zk_zi_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  *    55 margin_wheel_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4, helicoids/zi-normal, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, conventions/wheel-axis,
+ *   cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zk_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -3176,6 +3188,8 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
  *    14 margin_root
  *    15 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zk-normal, zk-zn/eq-4. */
 static inline void cylindrical_worm_zk_zi_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3370,6 +3384,9 @@ static inline void cylindrical_worm_zk_zi_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  *    18 margin_regression
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zi-normal, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zk_zi_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

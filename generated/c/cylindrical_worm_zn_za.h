@@ -851,6 +851,10 @@ static inline void cylindrical_worm_zn_za_set_phi(double *s, double phi)
 }
 
 /* Residual R[cylindrical_worm_zn_za_NX] at x[cylindrical_worm_zn_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_za_NX*cylindrical_worm_zn_za_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight, helicoids/za-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline void cylindrical_worm_zn_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1186,6 +1190,10 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight, helicoids/za-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact. */
 static inline double cylindrical_worm_zn_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -1731,6 +1739,10 @@ static inline void cylindrical_worm_zn_za_scale(const double *s, double *x)
  *    52 margin_wheel_tool_end
  *    53 margin_wheel_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight, helicoids/za-normal, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   conventions/wheel-axis, cylindrical_worm/contact, cylindrical_worm/undercut. */
 static inline void cylindrical_worm_zn_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2257,6 +2269,8 @@ static inline void cylindrical_worm_zn_za_observe(const double *s, const double 
  *    13 margin_tip
  *    14 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/zn-width, helicoids/zn-straight. */
 static inline void cylindrical_worm_zn_za_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2358,6 +2372,9 @@ static inline void cylindrical_worm_zn_za_flank_pinion(const double *s, const do
  *    16 margin_tool_end
  *    17 margin_spurious_sheet
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, helicoids/helicoid, helicoids/normal,
+ *   helicoids/za-normal, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear. */
 static inline void cylindrical_worm_zn_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -3019,6 +3019,8 @@ static inline void face_worm_set_phi(double *s, double phi)
 }
 
 /* Residual R[face_worm_NX] at x[face_worm_NX] and, unless J is NULL, the Jacobian J[face_worm_NX*face_worm_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
+ *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline void face_worm_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -3610,6 +3612,8 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
+ *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline double face_worm_step(const double *s, double *x)
 {
     double s0, c0;
@@ -4473,6 +4477,8 @@ static inline void face_worm_scale(const double *s, double *x)
  *    55 margin_wheel_tip
  *    56 margin_wheel_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal,
+ *   face_worm/cone-normal, cylindrical_worm/contact. */
 static inline void face_worm_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -5119,6 +5125,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
  *    16 condition_0
  *    17 condition_0_slopes[3]
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face-worm/eq-10, face_worm/blade-normal. */
 static inline void face_worm_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5480,6 +5487,7 @@ static inline void face_worm_flank_pinion(const double *s, const double *q, doub
  *    14 margin_tip
  *    15 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face_worm/cone-normal. */
 static inline void face_worm_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5606,6 +5614,7 @@ static inline void face_worm_flank_wheel(const double *s, const double *q, doubl
  *    13 margin_bottom
  *    14 margin_junction
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, face_worm/fillet-join, face_worm/fillet-tangent. */
 static inline void face_worm_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -741,6 +741,9 @@ static inline void spherical_concave_convex_set_phi(double *s, double phi)
 }
 
 /* Residual R[spherical_concave_convex_NX] at x[spherical_concave_convex_NX] and, unless J is NULL, the Jacobian J[spherical_concave_convex_NX*spherical_concave_convex_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline void spherical_concave_convex_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[1] * 0.5;
@@ -1168,6 +1171,9 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline double spherical_concave_convex_step(const double *s, double *x)
 {
     const double t0 = x[3] * 0.5;
@@ -1729,6 +1735,9 @@ static inline void spherical_concave_convex_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact, spherical_gears/undercut, spherical_gears/moment. */
 static inline void spherical_concave_convex_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[1] * 0.5;
@@ -2307,6 +2316,8 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_convex_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2492,6 +2503,8 @@ static inline void spherical_concave_convex_flank_pinion(const double *s, const 
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_convex_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

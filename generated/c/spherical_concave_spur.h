@@ -733,6 +733,9 @@ static inline void spherical_concave_spur_set_phi(double *s, double phi)
 }
 
 /* Residual R[spherical_concave_spur_NX] at x[spherical_concave_spur_NX] and, unless J is NULL, the Jacobian J[spherical_concave_spur_NX*spherical_concave_spur_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline void spherical_concave_spur_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[1] * 0.5;
@@ -1049,6 +1052,9 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline double spherical_concave_spur_step(const double *s, double *x)
 {
     const double t0 = x[1] * 0.5;
@@ -1459,6 +1465,9 @@ static inline void spherical_concave_spur_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact, spherical_gears/undercut, spherical_gears/moment. */
 static inline void spherical_concave_spur_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[1] * 0.5;
@@ -1923,6 +1932,8 @@ static inline void spherical_concave_spur_observe(const double *s, const double 
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_spur_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2108,6 +2119,8 @@ static inline void spherical_concave_spur_flank_pinion(const double *s, const do
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_concave_spur_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

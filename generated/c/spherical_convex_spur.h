@@ -735,6 +735,9 @@ static inline void spherical_convex_spur_set_phi(double *s, double phi)
 }
 
 /* Residual R[spherical_convex_spur_NX] at x[spherical_convex_spur_NX] and, unless J is NULL, the Jacobian J[spherical_convex_spur_NX*spherical_convex_spur_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline void spherical_convex_spur_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[1] * 0.5;
@@ -1045,6 +1048,9 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline double spherical_convex_spur_step(const double *s, double *x)
 {
     const double t0 = x[1] * 0.5;
@@ -1447,6 +1453,9 @@ static inline void spherical_convex_spur_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact, spherical_gears/undercut, spherical_gears/moment. */
 static inline void spherical_convex_spur_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[1] * 0.5;
@@ -1906,6 +1915,8 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_convex_spur_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2085,6 +2096,8 @@ static inline void spherical_convex_spur_flank_pinion(const double *s, const dou
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_convex_spur_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

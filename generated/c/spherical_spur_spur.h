@@ -724,6 +724,9 @@ static inline void spherical_spur_spur_set_phi(double *s, double phi)
 }
 
 /* Residual R[spherical_spur_spur_NX] at x[spherical_spur_spur_NX] and, unless J is NULL, the Jacobian J[spherical_spur_spur_NX*spherical_spur_spur_NX], row-major dR/dx. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline void spherical_spur_spur_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[0] * s[1];
@@ -901,6 +904,9 @@ if (J == NULL) return;
 }
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact. */
 static inline double spherical_spur_spur_step(const double *s, double *x)
 {
     const double t0 = x[0] * s[1];
@@ -1164,6 +1170,9 @@ static inline void spherical_spur_spur_scale(const double *s, double *x)
  *    53 margin_wheel_tool_end
  *    54 margin_wheel_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent,
+ *   cylindrical_worm/contact, spherical_gears/undercut, spherical_gears/moment. */
 static inline void spherical_spur_spur_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[0] * s[1];
@@ -1479,6 +1488,8 @@ static inline void spherical_spur_spur_observe(const double *s, const double *x,
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_spur_spur_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -1574,6 +1585,8 @@ static inline void spherical_spur_spur_flank_pinion(const double *s, const doubl
  *    15 margin_tool_end
  *    16 margin_root
  */
+/* Equations: conventions/rotations, conventions/frames, conventions/sums, spherical_gears/half-angle,
+ *   spherical_gears/normal, spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent. */
 static inline void spherical_spur_spur_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
