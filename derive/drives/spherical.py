@@ -186,7 +186,7 @@ def _guards(tooth):
         ),
         Guard(
             gear.full_rounding - gear.cutter_tip_radius.symbol + m / 10**9,
-            f"the cutter of the {gear.name} is not wide enough for its rounding: at most the radius of a fully round tip",
+            f"the cutter of the {gear.name} is not wide enough for its rounding: at most that of a fully round tip",
             (gear.cutter_tip_radius.key, gear.edge_offset.key, gear.half_space.key),
         ),
     )
@@ -210,7 +210,8 @@ def _sizes(definitions, pinion, wheel):
         sizes += [
             (f"{name}_pitch_radius_mm", gear.pitch_radius, f"pitch radius of the {name}"),
             (f"{name}_base_radius_mm", gear.pitch_radius * sp.cos(alpha), f"base radius of the {name} at mid face"),
-            (f"{name}_tip_radius_mm", gear.pitch_radius + gear.tip_addendum.symbol, f"tip radius of the {name} at mid face"),
+            (f"{name}_tip_radius_mm", gear.pitch_radius + gear.tip_addendum.symbol,
+             f"tip radius of the {name} at mid face"),
             (f"{name}_limit_radius_mm", _limit_radius(tooth, definitions), f"flank of the {name} ends at mid face"),
             (f"{name}_root_radius_mm", _root_radius(tooth), f"root radius of the {name} at mid face"),
             (f"{name}_edge_start_mm", sp.Integer(0), f"edge of the {name}'s cutter at the root of the gear"),

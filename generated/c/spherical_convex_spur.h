@@ -2572,11 +2572,11 @@ static const int spherical_convex_spur_output_sizes[] = { 3, 3, 3, 3, 3, 3, 1, 1
 static const char *const spherical_convex_spur_guard_texts[] = {
     "the root of the pinion lies beyond its axis: the edge offset must be below the pitch radius (pinion_edge_offset_mm, module_mm, pinion_teeth)",
     "no cutter is left between two teeth of the pinion: the half space must be below π·m/2 (pinion_half_space_mm, module_mm)",
-    "the cutter of the pinion is not wide enough for its rounding: at most the radius of a fully round tip (pinion_cutter_tip_radius_mm, pinion_edge_offset_mm, pinion_half_space_mm)",
+    "the cutter of the pinion is not wide enough for its rounding: at most that of a fully round tip (pinion_cutter_tip_radius_mm, pinion_edge_offset_mm, pinion_half_space_mm)",
     "the arc of the pinion does not reach the face: half the face width plus the edge offset must be below the sphere radius (pinion_sphere_radius_mm, pinion_face_width_mm, pinion_edge_offset_mm)",
     "the root of the wheel lies beyond its axis: the edge offset must be below the pitch radius (wheel_edge_offset_mm, module_mm, wheel_teeth)",
     "no cutter is left between two teeth of the wheel: the half space must be below π·m/2 (wheel_half_space_mm, module_mm)",
-    "the cutter of the wheel is not wide enough for its rounding: at most the radius of a fully round tip (wheel_cutter_tip_radius_mm, wheel_edge_offset_mm, wheel_half_space_mm)",
+    "the cutter of the wheel is not wide enough for its rounding: at most that of a fully round tip (wheel_cutter_tip_radius_mm, wheel_edge_offset_mm, wheel_half_space_mm)",
 };
 static const int spherical_convex_spur_pinion_unknowns[] = { 0, 1 };
 static const char *const spherical_convex_spur_pinion_flags[] = { "off_tip", "off_face", "off_tool", "off_tool", NULL };

@@ -1,7 +1,6 @@
 """Designs and the independent formulation, shared by the tests of spherical gears."""
 
 import pytest
-
 from meshwright import Drive
 
 

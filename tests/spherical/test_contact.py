@@ -5,8 +5,8 @@ import math
 import mpmath
 import numpy as np
 import pytest
-
 from meshwright.results import ARCSEC
+
 from tests.independent.spherical import Gear, Pair, involute
 
 #: Pairs that touch in a point: (forms, sphere radii).
@@ -62,9 +62,8 @@ def test_contact_agrees_with_fifty_digits(pair, pinion, wheel, r1, r2, flank):
 )
 def test_extreme_sizes_agree_with_fifty_digits(pair, module, forms, radii, errors):
     keys = ("center_distance_mm", "horizontal_deg", "vertical_deg")
-    drive = _pair(
-        pair, forms, radii, module_mm=module, face_width_mm=2 * module, misalignment=dict(zip(keys, errors, strict=True))
-    )
+    misalignment = dict(zip(keys, errors, strict=True))
+    drive = _pair(pair, forms, radii, module_mm=module, face_width_mm=2 * module, misalignment=misalignment)
     result = drive.tca([0.03])
     found = [*(result.unknowns[name][0] for name in list(result.unknowns)[:4]), result.error[0]]
     with mpmath.workdps(50):

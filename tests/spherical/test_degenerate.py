@@ -3,7 +3,6 @@
 import math
 
 import pytest
-
 from meshwright import DesignError
 
 
@@ -28,7 +27,11 @@ def test_misaligned_spur_gears_have_no_interior_contact(pair):
 
 @pytest.mark.parametrize(
     ("forms", "radii"),
-    [(("convex", "concave"), (144.0, 72.0)), (("concave", "concave"), (72.0, 144.0)), (("concave", "convex"), (72.0, 144.0))],
+    [
+        (("convex", "concave"), (144.0, 72.0)),
+        (("concave", "concave"), (72.0, 144.0)),
+        (("concave", "convex"), (72.0, 144.0)),
+    ],
 )
 def test_a_waist_smaller_than_the_barrel_in_it_interferes(pair, forms, radii):
     result = pair(*forms, pinion_sphere_radius_mm=radii[0], wheel_sphere_radius_mm=radii[1]).tca([0.0])
