@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.pairs import Mesh
@@ -146,7 +145,8 @@ def test_moving_the_wheel_away_opens_the_backlash(capsys):
     """Both flanks gain the same: 2 ΔA tan(pressure angle) along the wheel's pitch circle, to the errors of Δ²."""
     arcsec = []
     for distance in (0.0, 0.05):
-        assert main(["ratio", "recess-action-full", "--set", f"misalignment.center_distance_mm={distance}", "--json", "-"]) == 0
+        setting = f"misalignment.center_distance_mm={distance}"
+        assert main(["ratio", "recess-action-full", "--set", setting, "--json", "-"]) == 0
         arcsec.append(json.loads(capsys.readouterr().out)["backlash_arcsec"])
     assert arcsec[0] < 0.0 < arcsec[1]
     wheel_radius = 277.38

@@ -10,10 +10,13 @@ import numpy as np
 
 from meshwright.placement import placements_at
 
-MAX_STEPS = 40
-STEP_DONE = 1e-11
+MAX_STEPS = 24
 
-#: No parameter moves further at once, in units of the contact's own step to a neighbouring point.
+#: Newton steps below this length are done, mm; smaller than the second they may also stagnate in round-off.
+STEP_DONE = 1e-11
+STEP_NOISE = 1e-8
+
+#: No point moves further at once, mm.
 STEP_LIMIT = 8.0
 
 
@@ -33,7 +36,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Gap:
-    """Two flanks in contact at ``point``; ``axes`` (3, 3) rows: two tangent directions and the normal out of the pinion.
+    """Two flanks in contact at ``point``; ``axes`` (3, 3) by rows: two tangents, the normal out of the pinion.
 
     ``parameters`` are those of each member's flank at the contact.
     """
@@ -69,12 +72,13 @@ class Gap:
         """Parameters (N, k), height along the normal (N,) and smallest margin (N,) of one flank over places."""
         side, origin = self.sides[k], self.parameters[k]
         q = np.tile(origin, (len(places), 1)) if start is None else start.copy()
-        open_ = np.ones(len(q), dtype=bool)
+        open_, before = np.ones(len(q), dtype=bool), np.full(len(q), np.inf)
         for _ in range(MAX_STEPS):
             found, points, tangents = side.at(q)
             step, size = _newton_step(found, (points - self.point) @ self.axes[:2].T - places, tangents, self.axes[:2])
             q = np.where(open_[:, None], q - step, q)
-            open_ &= ~(size < STEP_DONE)
+            open_ &= ~((size < STEP_DONE) | ((size < STEP_NOISE) & (size > 0.5 * before)))
+            before = size
             if not open_.any():
                 break
         found, points, _ = side.at(q)
@@ -103,7 +107,7 @@ def smallest_margin(found):
 
 def _newton_step(found, misses, tangents, plane):
     """Step of the parameters (N, k) that cancels the misses in the plane (N, 2) and the flank's own conditions, and its
-    size relative to a unit step of the tangents.
+    length, mm.
     """
     residual = np.concatenate([misses, found.conditions[:, :, 0]], axis=1)
     slopes = np.einsum("ij,nkj->nik", plane, tangents)

@@ -41,7 +41,7 @@ class Mesh:
 
     @classmethod
     def of(cls, drive):
-        """The mesh of a drive. Without a path of contact (see :class:`~meshwright.windows.Window`) only that can be asked."""
+        """The mesh of a drive; without a path of contact (see the window's status) only that can be asked of it."""
         return cls(drive, contact_window(drive))
 
     @property

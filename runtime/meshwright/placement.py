@@ -24,7 +24,7 @@ class Placements:
 
 
 def placements(drive, angles):
-    """:class:`Placements` of both members in contact at ascending input angles (rad); line contact is placed as well."""
+    """:class:`Placements` of both members in contact at ascending input angles (rad), line contact included."""
     angles = np.asarray(angles, dtype=float)
     unknowns, _ = drive.trace(angles)
     return placements_at(drive, angles, unknowns)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.pairs import Mesh
 from meshwright.results import ARCSEC
 from meshwright.roots import bracketed
 
@@ -107,7 +106,7 @@ def fourier(mesh, orders=8):
 
 
 def _searched(mesh):
-    """Ascending samples, 32 a pitch, of where vertex and transfers are sought: the window and a pitch to either side."""
+    """Ascending samples of where vertex and transfers are sought: the window and a pitch to either side."""
     path, pitch = mesh.window.path, mesh.drive.pitch()
     reach = sorted((mesh.mirror * path.angles[0], mesh.mirror * path.angles[-1]))
     if mesh.window.complete:

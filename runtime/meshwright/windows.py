@@ -49,7 +49,8 @@ class Limit:
 class Window:
     """Contact of one pair from ``begin`` to ``end``, in the order in which the driving pinion turns.
 
-    ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where the flanks touch along lines, or not at all.
+    ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where there is none,
+    and ``status`` is the status word that says why.
     """
 
     begin: Event
@@ -134,7 +135,7 @@ def _searched(path, limits):
 
 
 def _with_margin(path, ends):
-    """The path continued a pitch beyond either end where the branch goes so far: neighbours of a pair are compared there."""
+    """The path continued a pitch beyond either end if the branch goes so far: there neighbours are compared."""
     for event, sign in zip(ends, (-1.0, 1.0), strict=True):
         to = event.angle + sign * path.drive.pitch()
         side = -1 if sign > 0 else 0

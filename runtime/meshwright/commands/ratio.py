@@ -69,8 +69,10 @@ def _teeth(mesh, angle):
 
 
 def _transmission(mesh):
-    keys = ("pair_peak_to_peak_arcsec", "envelope_peak_to_peak_arcsec", "envelope", "other_envelope_peak_to_peak_arcsec",
-            "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders")  # fmt: skip
+    keys = (
+        "pair_peak_to_peak_arcsec", "envelope_peak_to_peak_arcsec", "envelope", "other_envelope_peak_to_peak_arcsec",
+        "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders",
+    )  # fmt: skip
     if mesh.window.path is None:
         return dict.fromkeys(keys)
     found = transmission_error(mesh)
