@@ -69,11 +69,14 @@ class Mesh:
         """Transmission error of pair 0, rad, at pinion angles (M,); NaN where its path does not reach."""
         return self.mirror * self.window.path.errors(self.mirror * np.atleast_1d(angles))
 
-    def numbers(self, angle):
-        """The pairs inside their windows at a pinion angle: k with begin ≤ φ − k·pitch ≤ end."""
-        if not self.window.complete:
+    def numbers(self, angle, reach=None):
+        """The pairs inside their windows at a pinion angle: k with begin ≤ φ − k·pitch ≤ end.
+
+        ``reach`` are other smallest and largest own angles of a pair, if not those of its window.
+        """
+        if reach is None and not self.window.complete:
             return range(1)
-        low, high = sorted((self.window.begin.angle, self.window.end.angle))
+        low, high = reach or sorted((self.window.begin.angle, self.window.end.angle))
         pitch = self.drive.pitch()
         return range(math.ceil((angle - high) / pitch), math.floor((angle - low) / pitch) + 1)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.edge_contact import edge_paths
 from meshwright.results import ARCSEC
 from meshwright.roots import bracketed
 
@@ -26,12 +27,14 @@ class TransmissionError:
     Both are sought up to a pitch beyond the window. The transmitted envelope is over the pairs inside their windows.
     The other one, which rigid bodies do not transmit, is the papers' "kinematic error": where it runs through the
     vertex its peak to peak is the difference of vertex and transfer, even if the limits cut off the transfer.
+    ``envelope_with_edges`` is what rigid teeth transmit: beyond its window a pair may go on with an edge of a flank.
     ``rides_on_edge``: the pair that leads stands at an end of its window.
     """
 
     envelope: str
     pair_peak_to_peak: float
     envelope_peak_to_peak: float
+    envelope_with_edges_peak_to_peak: float
     other_envelope_peak_to_peak: float
     transfers: tuple[float, ...]
     vertex: float
@@ -40,8 +43,9 @@ class TransmissionError:
 
 @dataclass(frozen=True)
 class Envelopes:
-    """Transmission errors over pinion ``angles`` (N,), rad: of the ``pairs`` (K, N), NaN outside their windows, and
-    the largest and smallest of them. ``numbers`` are the pairs' k, ``leading`` (N,) the k of the pair that drives.
+    """Transmission errors over pinion ``angles`` (N,), rad: of the ``pairs`` (K, N), NaN where they do not touch, and
+    the largest and smallest of them. ``numbers`` are the pairs' k, ``leading`` (N,) the k of the pair that drives;
+    ``edge_contact`` (K, N): an edge of the pair touches, not its flanks.
     """
 
     angles: np.ndarray
@@ -50,6 +54,7 @@ class Envelopes:
     upper: np.ndarray
     lower: np.ndarray
     leading: np.ndarray
+    edge_contact: np.ndarray
 
 
 def transmission_error(mesh):
@@ -57,10 +62,11 @@ def transmission_error(mesh):
     window, nothing = mesh.window, math.nan
     vertex, transfers = _vertex(mesh), _transfers(mesh)
     if not window.complete:
-        return TransmissionError(mesh.envelope, nothing, nothing, nothing, transfers, vertex, False)
+        return TransmissionError(mesh.envelope, nothing, nothing, nothing, nothing, transfers, vertex, False)
     low, high = sorted((window.begin.angle, window.end.angle))
     pair = mesh.errors(_critical(mesh, low, high, vertex))
-    upper, lower = _ranges(mesh, low, high, vertex, transfers)
+    upper, lower = _ranges(mesh, (low, high), vertex, transfers)
+    rigid = _ranges(mesh, (low, high), vertex, transfers, edge_paths(mesh))[0 if mesh.sense > 0 else 1]
     transmitted, other = (upper, lower) if mesh.sense > 0 else (lower, upper)
     if transfers and math.isfinite(vertex):
         at_vertex, at_transfer = mesh.errors([vertex, transfers[0]])
@@ -70,6 +76,7 @@ def transmission_error(mesh):
         envelope=mesh.envelope,
         pair_peak_to_peak=float(np.ptp(pair)),
         envelope_peak_to_peak=transmitted,
+        envelope_with_edges_peak_to_peak=rigid,
         other_envelope_peak_to_peak=float(other),
         transfers=transfers,
         vertex=vertex,
@@ -77,21 +84,44 @@ def transmission_error(mesh):
     )
 
 
-def envelopes(mesh, angles):
-    """:class:`Envelopes` at pinion angles (N,)."""
+def envelopes(mesh, angles, edges=(None, None)):
+    """:class:`Envelopes` at pinion angles (N,), over the pairs inside their windows and, with the mesh's
+    :func:`~meshwright.edge_contact.edge_paths`, those that touch with an edge.
+    """
     angles = np.atleast_1d(np.asarray(angles, dtype=float))
-    inside = [mesh.numbers(angle) for angle in angles]
+    reach = _reach(mesh, edges)
+    inside = [mesh.numbers(angle, reach) for angle in angles]
     numbers = tuple(sorted(set().union(*inside)))
-    pairs = np.full((len(numbers), len(angles)), np.nan)
-    for row, number in zip(pairs, numbers, strict=True):
+    pairs, on_edge = np.full((len(numbers), len(angles)), np.nan), np.zeros((len(numbers), len(angles)), dtype=bool)
+    for row, edge_row, number in zip(pairs, on_edge, numbers, strict=True):
         here = np.array([number in present for present in inside])
-        row[here] = mesh.errors(angles[here] - number * mesh.drive.pitch())
+        row[here], edge_row[here] = _pair_errors(mesh, angles[here] - number * mesh.drive.pitch(), edges)
     touching = ~np.isnan(pairs).all(axis=0)
-    upper, lower = np.full(len(angles), np.nan), np.full(len(angles), np.nan)
+    upper, lower, leading = (np.full(len(angles), np.nan) for _ in range(3))
     upper[touching], lower[touching] = np.nanmax(pairs[:, touching], axis=0), np.nanmin(pairs[:, touching], axis=0)
-    leading = np.full(len(angles), np.nan)
     leading[touching] = np.array(numbers)[np.nanargmax(mesh.sense * pairs[:, touching], axis=0)]
-    return Envelopes(angles, numbers, pairs, upper, lower, leading)
+    return Envelopes(angles, numbers, pairs, upper, lower, leading, on_edge)
+
+
+def _reach(mesh, edges):
+    """Angles between which a pair touches, with the flanks or with an edge, in the mesh's own counting."""
+    bounds = [mesh.mirror * b for e in edges if e is not None for b in e.bounds]
+    if mesh.window.complete:
+        bounds += [mesh.window.begin.angle, mesh.window.end.angle]
+    return (min(bounds), max(bounds)) if bounds else None
+
+
+def _pair_errors(mesh, own, edges):
+    """Transmission errors at a pair's own angles (N,), and where an edge touches."""
+    errors, on_edge = mesh.errors(own), np.zeros(len(own), dtype=bool)
+    if not mesh.window.complete:
+        return errors, on_edge
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    for edge, beyond in zip(edges[:: int(mesh.mirror)], (own < low, own > high), strict=True):
+        if beyond.any():
+            errors[beyond] = np.nan if edge is None else mesh.mirror * edge.errors(mesh.mirror * own[beyond])
+            on_edge |= beyond
+    return errors, on_edge
 
 
 def fourier(mesh, orders=8):
@@ -173,11 +203,11 @@ def _critical(mesh, low, high, *places):
     return np.unique(np.concatenate([_samples(mesh, low, high), inner]))
 
 
-def _ranges(mesh, low, high, vertex, transfer):
+def _ranges(mesh, ends, vertex, transfers, edges=(None, None)):
     """Peak to peak of the upper and the lower envelope over one pitch, with both sides of every jump."""
-    pitch = mesh.drive.pitch()
-    special = [low, high, *transfer, *([vertex] if math.isfinite(vertex) else [])]
+    pitch, low = mesh.drive.pitch(), ends[0]
+    special = [*ends, *transfers, *([vertex] if math.isfinite(vertex) else [])]
     sides = np.array([s + side * 1e-9 * pitch for s in special for side in (-1, 0, 1)])
     angles = low + np.concatenate([np.arange(SAMPLES) / SAMPLES * pitch, (sides - low) % pitch])
-    found = envelopes(mesh, angles)
-    return (float(np.nanmax(e) - np.nanmin(e)) for e in (found.upper, found.lower))
+    found = envelopes(mesh, angles, edges)
+    return tuple(float(np.nanmax(e) - np.nanmin(e)) for e in (found.upper, found.lower))

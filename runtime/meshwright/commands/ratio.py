@@ -71,7 +71,7 @@ def _teeth(mesh, angle):
 def _transmission(mesh):
     keys = (
         "pair_peak_to_peak_arcsec", "envelope_peak_to_peak_arcsec", "envelope", "other_envelope_peak_to_peak_arcsec",
-        "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders",
+        "envelope_with_edges_peak_to_peak_arcsec", "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders",
     )  # fmt: skip
     if mesh.window.path is None:
         return dict.fromkeys(keys)
@@ -81,6 +81,7 @@ def _transmission(mesh):
         _number(found.envelope_peak_to_peak / ARCSEC),
         found.envelope,
         _number(found.other_envelope_peak_to_peak / ARCSEC),
+        _number(found.envelope_with_edges_peak_to_peak / ARCSEC),
         [math.degrees(a) for a in found.transfers] or None,
         _number(math.degrees(found.vertex)),
         found.rides_on_edge,
@@ -118,6 +119,7 @@ def _page(drive, mesh, document):
         ("transmission error of a pair", _shown(error["pair_peak_to_peak_arcsec"], "arcsec peak to peak")),
         ("  of the drive", _shown(error["envelope_peak_to_peak_arcsec"], "arcsec peak to peak"),
          f"{error['envelope'] or 'no'} envelope"),
+        ("  of the drive, edges included", _shown(error["envelope_with_edges_peak_to_peak_arcsec"], "arcsec")),
         ("  of the other envelope", _shown(error["other_envelope_peak_to_peak_arcsec"], "arcsec peak to peak")),
         ("pairs change at", ", ".join(_shown(a, "deg") for a in transfers)),
         ("vertex at", _shown(error["vertex_deg"], "deg")),
