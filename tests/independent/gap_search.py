@@ -50,7 +50,7 @@ class Extreme:
 
 def search(solved, flank, phi, grid=(61, 121)):
     """The extreme over the wheel flank at worm angle ``phi``; ``solved`` is the design as solved, keys and units."""
-    height, patch = _gap(solved, flank, phi)
+    height, patch = gap(solved, flank, phi)
     s = 1 if flank == "right" else -1
     t, psi = np.linspace(*patch[0], grid[0]), np.linspace(*patch[1], grid[1])
     values = height(t, psi)
@@ -79,7 +79,7 @@ def _climb(height, patch, centre, cell, s):
     return Extreme(math.nan, False)
 
 
-def _gap(solved, flank, phi):
+def gap(solved, flank, phi):
     """Height(t, Ψ) of the gap function over the wheel flank, NaN off the regular flank, and the patch to search."""
     d = {
         k: math.radians(v) if k.endswith("_deg") else v
@@ -98,7 +98,7 @@ def _gap(solved, flank, phi):
 
     def height(t, psi):
         t, psi = t[:, None], psi[None, :]
-        point, _ = _wheel(hob, t, psi, d, m_gen)
+        point, _ = wheel_flank(hob, t, psi, d, m_gen)
         good = _facing(hob, t, psi, d, m_gen) * regular > 0
         error = _touching_error(worm, point, phi, ratio, d, e)
         return np.where(good & (_worm_parameter(worm, point, phi, error, ratio, d, e) > 0), s * error, np.nan)
@@ -109,13 +109,16 @@ def _gap(solved, flank, phi):
 def _facing(hob, t, psi, d, m_gen):
     """(∂r/∂t × ∂r/∂Ψ)·n of the wheel by central differences: changes sign at an undercut line."""
     h = 1e-5
-    _, normal = _wheel(hob, t, psi, d, m_gen)
-    pairs = [(_wheel(hob, t + a, psi + b, d, m_gen)[0], _wheel(hob, t - a, psi - b, d, m_gen)[0]) for a, b in ((h, 0), (0, h))]
+    _, normal = wheel_flank(hob, t, psi, d, m_gen)
+    pairs = [
+        (wheel_flank(hob, t + a, psi + b, d, m_gen)[0], wheel_flank(hob, t - a, psi - b, d, m_gen)[0])
+        for a, b in ((h, 0), (0, h))
+    ]
     along, across = (np.stack([p - q for p, q in zip(*pair, strict=True)], axis=-1) for pair in pairs)
     return np.sum(np.cross(along, across) * np.stack(normal, axis=-1), axis=-1)
 
 
-def _wheel(hob, t, psi, d, m_gen):
+def wheel_flank(hob, t, psi, d, m_gen):
     """Explicit wheel flank and its normal, wheel frame, from the hob's meshing equation, linear in the axial coordinate."""
     sigma, a_gen = d["cutting_shaft_angle_deg"], d["cutting_center_distance_mm"]
     px, py, pz = hob.profile(t)
