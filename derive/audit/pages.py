@@ -14,6 +14,7 @@ from markupsafe import Markup
 
 from derive.audit.claims import Document
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
+from derive.audit.published import comparisons
 from derive.audit.render import LaTeX, MathML, difference, symbol_text
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
 from derive.prove.certificate import decimal
@@ -103,6 +104,7 @@ def pages(
             **common,
             verified=VERIFIED,
             not_verified=NOT_VERIFIED,
+            published=comparisons(),
             corrections=corrections,
             functions=functions or {},
             ledger=ledger,
