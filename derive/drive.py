@@ -7,8 +7,8 @@ import sympy as sp
 from derive.chain import Motion
 from derive.definitions import Definitions
 from derive.functions import Function
-from derive.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.surface import Surface
+from derive.symbols import Guard, Parameter, Quantity, Rule, Unknown
 
 
 @dataclass(frozen=True)

@@ -39,9 +39,9 @@ _SIDES = ({}, {"flank": -1, "profile_angle_deg": 30, "plunge_mm_per_rad2": "-0.0
 _RULES = (("P in the section L", 0), ("P where the pitch cones touch", 1))
 
 _RADIUS_REASON = (
-    "The circle through A1, P and A2 gives one radius a flank; the text does not say how one mean radius comes from two "
-    "flanks, and the figure that shows P is lost. Neither reading of P gives both numbers, for single flanks or for "
-    "their mean. The circle is ill-conditioned: P moved by 0.2 mm along the profile changes the radius by 0.7 to "
+    "The circle through A1, P and A2 gives one radius a flank; the text does not say how one mean radius comes from "
+    "two flanks, and the figure that shows P is lost. Neither reading of P gives both numbers, for single flanks or "
+    "for their mean. The circle is ill-conditioned: P moved by 0.2 mm along the profile changes the radius by 0.7 to "
     "4.3 mm. Nothing is tuned to the print; head_cutter_radius_mm forces a value."
 )
 _TILT_REASON = (

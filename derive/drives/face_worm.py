@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Motion, Ry, Rz, placement, translation
+from derive.chain import Ry, Rz, placement, translation
 from derive.contact import contact
 from derive.definitions import Definitions
 from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
@@ -301,7 +301,7 @@ def _cradle(psi):
 
 
 def _mounting(phi_1):
-    """The worm in mesh: the shaft angle error turns about the common perpendicular, the axial one goes along the worm."""
+    """The worm in mesh: the shaft angle error turns about the common perpendicular, the axial one follows it."""
     return (
         translation(y=E_m + k.error_offset.symbol)
         @ Ry(k.error_angle.symbol)
@@ -340,10 +340,11 @@ def _start(worm, phi_1, u_g, theta_g, error, definitions):
 
 
 def _sizes(cutter):
+    tilt = sp.acos(k.symbols(k.axis_z)[2])
     return (
         ("screw_parameter_worm_mm_per_rad", p_1, "screw parameter of the worm"),
         ("lead_worm_mm", 2 * sp.pi * p_1, "lead of the worm"),
-        ("head_cutter_tilt_deg", sp.acos(k.symbols(k.axis_z)[2]), "angle between the head-cutter's and the gear's axis"),
+        ("head_cutter_tilt_deg", tilt, "angle between the head-cutter's and the gear's axis"),
         ("flank_root_mm", cutter.junction, "u of the gear where the flank joins the rounding at its root"),
         ("fillet_angle_deg", cutter.fillet_end, "angle of the rounding, from the bottom of the space to the flank"),
         ("ratio", ratio, "transmission ratio N1/N2"),

@@ -104,8 +104,8 @@ separation = parameter(
 
 PARAMETERS = (
     flank, threads, teeth, axial_module, offset, worm_position, pitch_diameter, cone_angle, inner_radius, outer_radius,
-    profile_angle, plunge, blade_parabola, pitch_rule, cutter_radius, tilt_change, blade_angle, fillet_radius, blade_depth,
-    hob_phase, *hob_at_pitch_point, *hob_at_inner, *hob_at_outer, *inner_point, *pitch_point, *outer_point,
+    profile_angle, plunge, blade_parabola, pitch_rule, cutter_radius, tilt_change, blade_angle, fillet_radius,
+    blade_depth, hob_phase, *hob_at_pitch_point, *hob_at_inner, *hob_at_outer, *inner_point, *pitch_point, *outer_point,
     *axis_x, *axis_y, *axis_z, *origin,
     error_offset, error_axial, error_angle, addendum, separation,
 )  # fmt: skip

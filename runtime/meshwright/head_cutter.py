@@ -101,7 +101,8 @@ def least_tilt(drive):
         near, far = start + sign * k * STEP, start + sign * (k + 1) * STEP
         if (clearance(_tilted(drive, far)).height > 0) != clear:
             found = _bisected(drive, near, far, clear)
-            return LeastTilt(math.radians(_tilted(drive, found).design.sizes["head_cutter_tilt_deg"]), math.radians(found))
+            tilt = _tilted(drive, found).design.sizes["head_cutter_tilt_deg"]
+            return LeastTilt(math.radians(tilt), math.radians(found))
     return LeastTilt(math.nan, math.nan)
 
 

@@ -5,9 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
-
 from meshwright import Drive, UsageError
 from meshwright.head_cutter import clearance, least_tilt
+
 from tests.face_worm.designs import NAMES, changed, independent
 
 
@@ -52,7 +52,7 @@ def test_clearance_agrees_with_the_ring_of_the_blade_ends(name):
 
 
 def test_conical_designs_clear_and_cylindrical_ones_need_more_tilt():
-    """With the pitch point in the section L the cylindrical worm's head-cutter hardly tilts and would cut teeth away."""
+    """With the pitch point in the section L the cylindrical worm's head-cutter hardly tilts and cuts teeth away."""
     heights = {name: clearance(Drive.load(name)).height for name in NAMES}
     assert {name: height > 0 for name, height in heights.items()} == {name: "conical" in name for name in NAMES}
     for name in NAMES:

@@ -1,12 +1,12 @@
-"""Designs drawn widely about the report's tables: 50-digit agreement, the law of zero plunge, scaling of all lengths."""
+"""Designs drawn widely about the report's tables: 50 digits, the law of zero plunge, scaling of all lengths."""
 
 import math
 
 import mpmath
 import numpy as np
 import pytest
-
 from meshwright import DesignError, Drive
+
 from tests.face_worm.designs import NAMES, UNKNOWNS, independent
 
 ARCSEC = math.pi / 648000
@@ -16,7 +16,7 @@ LENGTHS = ("axial_module_mm", "offset_mm", "worm_axial_position_mm", "worm_pitch
 
 
 def _random(rng):
-    """A drive and its misalignments; None where the draw cannot be made (an undercut reference gear, no pitch point)."""
+    """A drive and its misalignments; None where it cannot be made (undercut reference gear, no pitch point)."""
     name = str(rng.choice(NAMES))
     base = Drive.load(name)
     size = float(np.exp(rng.uniform(-1.2, 1.2)))
@@ -85,7 +85,7 @@ def test_without_plunge_and_errors_there_is_no_transmission_error(drives):
 
 
 def test_all_lengths_scale(drives):
-    """Twice as large in every length (and per-length coefficient): equal angles and error, twice the unknown lengths."""
+    """Twice as large in every length and coefficient: equal angles and error, twice the unknown lengths."""
     for drive in drives[:40]:
         design = {key: 2 * drive.design.value(key) for key in (*LENGTHS, "plunge_mm_per_rad2")}
         design["blade_parabola_per_mm"] = drive.design.value("blade_parabola_per_mm") / 2

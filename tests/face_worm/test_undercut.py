@@ -3,10 +3,10 @@
 import mpmath
 import numpy as np
 import pytest
-
 from meshwright import Drive
 from meshwright.limits.face_worm import undercut
 from meshwright.limits.singular_lines import edges
+
 from tests.face_worm.designs import NAMES, independent
 
 CONVEX = [name for name in NAMES if name.endswith("convex")]
@@ -63,7 +63,7 @@ def test_cone_is_singular_at_its_apex_on_the_tool_axis():
 
 
 def test_contact_beyond_an_undercut_edge_of_the_worm_is_flagged():
-    """A strong plunge of the wrong sign with three threads undercuts the worm inside the path; bodies interfere there."""
+    """A strong plunge of the wrong sign with three threads undercuts the worm on its path; bodies interfere there."""
     drive = Drive.load(NAMES[0]).with_(design={"plunge_mm_per_rad2": -0.02, "worm_threads": 3})
     result = drive.tca(np.radians(np.arange(-600.0, 601.0, 10.0)))
     solved = result.solved

@@ -203,7 +203,8 @@ class FaceWorm:
         """Kinematic meshing equation n·v12 = 0 in the fixed frame of the generating machine."""
         r, n = self.worm_tool(u, theta)
         r, n = rz(psi * self.ratio) * r, rz(psi * self.ratio) * n
-        velocity = self.ratio * cross(K, r) - cross(I, r - self.worm_centre(psi)) - matrix([0, 2 * self.plunge * psi, 0])
+        plunging = matrix([0, 2 * self.plunge * psi, 0])
+        velocity = self.ratio * cross(K, r) - cross(I, r - self.worm_centre(psi)) - plunging
         return dot(n, velocity)
 
     def worm(self, u, theta, psi):

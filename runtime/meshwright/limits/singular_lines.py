@@ -27,7 +27,7 @@ def edges(surface, profile):
 
 
 def _on_curve(surface, q):
-    """The point of the curve next to q, by Newton along the gradient of the equation of meshing; None if there is none."""
+    """The point of the curve next to q, by Newton along the gradient of the equation of meshing, or None."""
     for _ in range(CORRECTIONS):
         value, *slopes = surface([q]).conditions[0, 0]
         gradient = np.array([0.0, *slopes[1:]])
