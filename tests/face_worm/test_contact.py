@@ -98,6 +98,22 @@ def test_straight_blade_without_plunge_touches_along_a_line():
     assert np.max(np.abs(result.error)) < 1e-9 * ARCSEC
 
 
+@pytest.mark.parametrize(
+    ("design", "errors", "status", "flags"),
+    [
+        ({"blade_parabola_per_mm": 0.0}, {}, {"no_contact"}, set()),
+        ({"blade_parabola_per_mm": 1e-6}, {"offset_mm": 0.1}, {"no_contact"}, set()),
+        ({"blade_parabola_per_mm": 0.0, "plunge_mm_per_rad2": 0.0}, {"offset_mm": 0.1}, {"no_contact"}, set()),
+        ({"blade_parabola_per_mm": -0.01}, {}, {"converged"}, {"interference"}),
+    ],
+)
+def test_uncrowned_blades_leave_no_contact_point_and_hollow_ones_interfere(design, errors, status, flags):
+    """Without crowning, plunge or errors drive the contact off the profile: a status, not a number."""
+    result = changed(NAMES[0], design, errors).tca(np.radians([-180.0, -90.0, 90.0, 180.0]))
+    assert set(result.status) == status
+    assert set().union(*result.flags) == flags
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_aligned_designs_do_not_run_on_an_edge(name):
     assert _edge_flags(name, (0, 0, 0)) == {False}

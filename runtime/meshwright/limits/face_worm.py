@@ -20,7 +20,7 @@ def limits(drive, request):
 
 
 def undercut(drive, count):
-    """Singular points of each member at ``count`` places of the profile, from root to tip of the gear tooth.
+    """Singular points of each member at ``count`` places of the profile, root to tip of the gear tooth, and its middle.
 
     Member ``reference_wheel`` is the gear that the hob would cut; the flank of the gear itself is a cone, singular at
     its apex only.
@@ -28,7 +28,7 @@ def undercut(drive, count):
     yield _cone_apex(drive)
     for member, ends in (("pinion", _profile(drive)), ("reference_wheel", _hob_profile(drive))):
         surface = drive.flank(member)
-        for profile in np.linspace(*ends, count):
+        for profile in np.union1d(np.linspace(*ends, count), 0.0):
             for q in edges(surface, profile):
                 yield _limit(drive, member, surface, q)
 
