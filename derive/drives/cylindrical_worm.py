@@ -354,7 +354,12 @@ def _profile_guards(worm, hob):
 
 
 def catalogue():
-    """Every combination of a worm and a hob: name → builder."""
+    """Every combination of a worm and a hob: name → builder.
+
+    One program a combination, not flanks composed at run time: fused, residual and Jacobian take 330 (ZN, ZN) to 768
+    (ZC, ZC) operations; composed from point, normal and their derivatives on either flank, 537 to 940, that is 1.6 to
+    1.2 times as many, and the pivot order of the Newton step could not be chosen in advance.
+    """
     return {
         _name(worm, hob): partial(cylindrical_worm, worm, hob) for worm in TOOLS for hob in TOOLS
     }
