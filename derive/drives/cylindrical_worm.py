@@ -10,7 +10,6 @@ from functools import partial
 
 import sympy as sp
 
-from derive import vectors as v
 from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions

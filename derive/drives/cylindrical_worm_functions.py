@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from derive import vectors as v
 from derive import rack_and_pinion as rp
+from derive import vectors as v
 from derive.functions import Function, Result
 from derive.symbols import Quantity
 

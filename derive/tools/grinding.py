@@ -1,4 +1,4 @@
-"""A grinding wheel in the groove of a worm: set at the lead angle, its axis above the worm, the worm in screw motion."""
+"""A grinding wheel in the groove of a worm in screw motion: set at the lead angle, its axis above the worm's."""
 
 from dataclasses import replace
 

@@ -32,8 +32,9 @@ class WormTool:
     """A flank with the profile parameter at (or near) its pitch point, its limits, and what it needs to exist.
 
     ``tip_margin`` > 0 on the part of the profile that the tool's blade reaches; ``scale`` is the natural size of the
-    profile parameter, ``lower_end`` its least value where the profile has an end of its own; ``regular`` is the edge of regression beyond which no flank exists; ``required`` are the
-    data of the body that only this tool needs; ``radicands`` are (reason, expression > 0).
+    profile parameter, ``lower_end`` its least value where the profile has an end of its own; ``regular`` is the edge
+    of regression beyond which no flank exists; ``required`` are the data of the body that only this tool needs;
+    ``radicands`` are (reason, expression > 0).
     """
 
     flank: Surface

@@ -36,7 +36,7 @@ def unit(a):
 
 @dataclass
 class Helicoid:
-    """A flank of form ``kind``; ``s`` = ±1 the groove flank, S the groove width, r_c and rho the wheel and arc radii."""
+    """A flank of form ``kind``; ``s`` = ±1 the groove flank, S its width, r_c and rho the wheel and arc radii."""
 
     kind: str
     s: int
@@ -143,7 +143,8 @@ class WormDrive:
         d, degree = tables["design"], mp.pi / 180
         errors = {k: mp.mpf(x) for k, x in tables.get("misalignment", {}).items()}
         s = 1 if tables.get("flank", "right") == "right" else -1
-        m_n, lead, alpha = mp.mpf(d["normal_module_mm"]), d["worm_lead_angle_deg"] * degree, d["pressure_angle_deg"] * degree
+        m_n = mp.mpf(d["normal_module_mm"])
+        lead, alpha = (d[key] * degree for key in ("worm_lead_angle_deg", "pressure_angle_deg"))
         threads, teeth = d["worm_threads"], d["wheel_teeth"]
         sigma = d.get("shaft_angle_deg", 90) * degree
         r_1 = m_n * threads / (2 * mp.sin(lead))
@@ -190,7 +191,8 @@ class WormDrive:
         )
         wheel[0] += self.A + self.dA
         parallel = cross(n_worm, n_wheel)
-        return [a - b for a, b in zip(worm, wheel, strict=True)] + [parallel[0], parallel[1], self.meshing(t_h, psi_h, phi_h)]
+        apart = [a - b for a, b in zip(worm, wheel, strict=True)]
+        return [*apart, parallel[0], parallel[1], self.meshing(t_h, psi_h, phi_h)]
 
     def polished(self, unknowns, phi_1):
         """The solution to more than 20 digits, from a start that is good to double precision."""

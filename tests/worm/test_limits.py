@@ -5,11 +5,11 @@ import json
 import mpmath
 import numpy as np
 import pytest
-
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.design import changed
 from meshwright.limits import Request
+
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 
@@ -69,7 +69,8 @@ def test_a_worm_point_touches_twice_a_revolution_and_once_at_a_second_type_limit
         for limit in drive.function("second_type")(t)["psi_fixed_hob"]:
             at = generation(t, limit)
             merged = contacts(t, at["psi_hob"] * (1 - 1e-13))["psi_fixed_hob"]
-            merged = merged if np.all(np.isfinite(merged)) else contacts(t, at["psi_hob"] * (1 + 1e-13))["psi_fixed_hob"]
+            if not np.all(np.isfinite(merged)):
+                merged = contacts(t, at["psi_hob"] * (1 + 1e-13))["psi_fixed_hob"]
             assert np.abs(np.exp(1j * merged) - np.exp(1j * limit)).max() < 1e-4
             q_0 = at["point"][2] * at["normal"][1] / at["normal"][2] - at["point"][1]
             assert abs(q_0) < 1e-9  # the normal meets the pitch line at its foot

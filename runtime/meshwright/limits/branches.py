@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright._library import ffi, library
+from meshwright.analysis import pointer
 from meshwright.limits.results import BranchPoint
 from meshwright.limits.zeros import zeros
 
@@ -35,8 +36,8 @@ def follow(drive, angle, unknowns, step=STEP, count=STEPS):
     angles, slopes, determinants = (np.empty(count + 1) for _ in range(3))
     x = np.empty((count + 1, m.nx))
     start = np.ascontiguousarray(unknowns, dtype=float)
-    arrays = (ffi.from_buffer("double[]", a) for a in (angles, x, slopes, determinants))
-    n = library().mw_arclength(m, ffi.from_buffer("double[]", s), angle, ffi.from_buffer("double[]", start), step, count, *arrays)
+    arrays = (pointer(a) for a in (angles, x, slopes, determinants))
+    n = library().mw_arclength(m, pointer(s), angle, pointer(start), step, count, *arrays)
     return Branch(angles[:n], x[:n], slopes[:n], determinants[:n])
 
 
@@ -66,13 +67,7 @@ def _start(drive):
 def _observed(drive, angle, x):
     s, o = drive.state(angle), np.empty(drive.model.no)
     contact = ffi.new("mw_contact *")
-    library().mw_contact_at(
-        drive.model,
-        ffi.from_buffer("double[]", s),
-        ffi.from_buffer("double[]", np.ascontiguousarray(x)),
-        ffi.from_buffer("double[]", o),
-        contact,
-    )
+    library().mw_contact_at(drive.model, pointer(s), pointer(np.ascontiguousarray(x)), pointer(o), contact)
     return o, contact
 
 
@@ -121,7 +116,7 @@ def _located(drive, branch, k, step):
 def _direction(curve, drive):
     """Unit chord of a stretch of branch, in natural sizes; distance along it is the parameter of interpolation."""
     scale = np.ones(curve.shape[1])
-    drive.model.scale(ffi.from_buffer("double[]", drive.state()), ffi.from_buffer("double[]", scale))
+    drive.model.scale(pointer(drive.state()), pointer(scale))
     chord = (curve[-1] - curve[0]) / scale
     return chord / np.linalg.norm(chord) / scale
 

@@ -1,4 +1,4 @@
-"""All contacts of one tooth pair of a cylindrical worm drive at one angle: a search over the whole sheet of the wheel."""
+"""All contacts of one tooth pair of a cylindrical worm drive at one angle, sought over the whole sheet of the wheel."""
 
 import numpy as np
 
