@@ -9,6 +9,7 @@ enum { HISTORY = MW_HISTORY, MAX_SPLITS = 12 };
 
 static const double BRANCH_WIDTH = 0.5; /* in natural sizes of the unknowns */
 static const double FOLD_GAP = 1e-6;
+static const double NUDGE = 1e-3; /* rad */
 
 /* The last points solved, newest first. */
 typedef struct history {
@@ -64,14 +65,26 @@ static int refine_near(const mw_model *m, const double *s, double *x, mw_info *i
     return info->status;
 }
 
-/* Walk from the newest point of the history to phi in steps as small as Newton needs. Steps that keep failing where
+/* Give a history of one point a second one close by, on the side of phi, so that it has a direction: a point alone
+ * predicts itself, and a pitch further on that is the contact of the neighbouring pair. */
+static void take_direction(const mw_model *m, history *h, double phi, double *s, double *near)
+{
+    mw_info info;
+    const double next = h->phi[0] + (phi > h->phi[0] ? NUDGE : -NUDGE);
+    memset(&info, 0, sizeof info);
+    memcpy(near, h->x[0], sizeof(double) * (size_t)m->nx);
+    m->set_phi(s, next);
+    if (mw_refine(m, s, near, &info) >= 0) remember(h, next, near);
+}
+
+/* Walk from the newest points of the history to phi in steps as small as Newton needs. Steps that keep failing where
  * the Jacobian degenerates mean that the branch turns back. */
 static int walk(const mw_model *m, const history *from, double to, double *s, double *x, mw_info *info)
 {
     double good[2][MW_MAX_UNKNOWNS];
-    history h = { 1, { good[0] }, { from->phi[0] } };
+    history h = { from->count > 1 ? 2 : 1, { good[0], good[1] }, { from->phi[0], from->phi[1] } };
     double step = to - from->phi[0];
-    memcpy(good[0], from->x[0], sizeof(double) * (size_t)m->nx);
+    for (int i = 0; i < h.count; i++) memcpy(good[i], from->x[i], sizeof(double) * (size_t)m->nx);
     for (int splits = 0; splits <= MAX_SPLITS;) {
         const double next = fabs(to - h.phi[0]) <= 1.0001 * fabs(step) ? to : h.phi[0] + step;
         predict(&h, next, m->nx, x);
@@ -104,6 +117,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
                 mw_info *info)
 {
     history h;
+    double near[MW_MAX_UNKNOWNS];
     size_t succeeded = 0;
     memset(&h, 0, sizeof h);
     const int guard = m->setup(p, s);
@@ -115,6 +129,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
             info->status = MW_BAD_INPUT;
             continue;
         }
+        if (h.count == 1) take_direction(m, &h, phi[k], s, near);
         if (h.count > 0) lost = continue_branch(m, &h, phi[k], s, x, info);
         if (h.count == 0 || lost < 0) {
             h.count = 0;
