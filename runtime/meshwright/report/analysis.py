@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.backlash import backlash
+from meshwright.contact_line import ContactLine, contact_line
 from meshwright.drive import Drive
 from meshwright.pairs import Mesh
 from meshwright.pattern import Contour, along_ellipse, contour
@@ -20,6 +21,9 @@ POSITIONS, LARGEST_STEP = 120, math.radians(5.0)
 
 #: Pitches shown to either side of angle 0 where no limit ends the contact.
 WITHOUT_END = 1.0
+
+#: Where the flanks touch along lines: how far lines are sought, pitches, and how many positions a pitch.
+LINE_REACH, LINES_PER_PITCH = 12, 12
 
 #: Contours of the contact pattern along the path, and directions in each.
 CONTOURS, DIRECTIONS = 9, 96
@@ -64,9 +68,10 @@ class Running:
 class Analysis:
     """The analysis of a drive over one pair's contact.
 
-    ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``pattern`` is at some of them. ``matrices``
-    (N, 4, 4) place the members' frames in the fixed frame, ``patches`` are their flanks: both of the right-hand drive.
-    ``running`` is None where flanks touch along lines or not at all.
+    ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``pattern`` is at some of them. ``lines`` (N)
+    exist only where the flanks touch along lines. They, the ``matrices`` (N, 4, 4) that place the members' frames in
+    the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
+    flanks touch along lines or not at all.
     """
 
     drive: Drive
@@ -74,6 +79,7 @@ class Analysis:
     tca: TCA
     steps_per_pitch: int
     pattern: tuple[Contour, ...]
+    lines: tuple[ContactLine, ...]
     matrices: dict[str, np.ndarray]
     patches: dict[str, Patch]
     sensitivities: tuple[Sensitivity, ...]
@@ -95,31 +101,28 @@ class Analysis:
         matrix = self.matrices[member][k]
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
-    def body_normals(self, member):
-        """Contact normals (N, 3) in the frame of a member, with the design's hand."""
-        flip = np.array([1.0, self.mirror, 1.0])
-        return np.einsum("nxb,nx->nb", self.matrices[member][:, :3, :3], self.tca.normals * flip) * flip
-
 
 def analyse(drive, step):
     """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work."""
     step("window of contact")
     mesh = Mesh.of(drive)
-    angles, per_pitch = _positions(drive, mesh)
+    along_lines = mesh.window.status == "line_contact"
+    angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
     step("all pairs together")
     running = None if mesh.window.path is None else _running(mesh, angles)
     step("contact pattern")
     pattern = _pattern(drive, tca)
+    lines = _lines(drive, angles) if along_lines else ()
     step("flanks")
     matrices = _matrices(drive, tca)
-    patches = _patches(drive, tca, matrices)
+    patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
     sensitivities = []
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
         sensitivities.append(sensitivity(drive, parameter, angles))
-    return Analysis(drive, running, tca, per_pitch, pattern, matrices, patches, tuple(sensitivities))
+    return Analysis(drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities))
 
 
 def steps(drive):
@@ -139,6 +142,25 @@ def _positions(drive, mesh):
     per_pitch = math.ceil(max(pitch / LARGEST_STEP, POSITIONS * pitch / (high - low)))
     step = pitch / per_pitch
     return np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, per_pitch
+
+
+def _line_positions(drive):
+    """Like :func:`_positions`, where there is any line of contact inside the limits."""
+    pitch = drive.pitch()
+    sought = np.arange(-2 * LINE_REACH, 2 * LINE_REACH + 1) * pitch / 2
+    touching = sought[[len(line.points) > 0 for line in _lines(drive, sought)]]
+    low, high = (touching[0], touching[-1]) if touching.size else (-pitch, pitch)
+    count = round((high - low) / pitch * LINES_PER_PITCH)
+    return low + np.arange(count + 1) * pitch / LINES_PER_PITCH, LINES_PER_PITCH
+
+
+def _lines(drive, angles):
+    """The line of contact at each of the ascending angles; empty where there is none."""
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    order = np.argsort(mirror * angles)
+    unknowns, _ = drive.trace(mirror * angles[order])
+    unknowns = unknowns[np.argsort(order)]
+    return tuple(contact_line(drive, mirror * a, x) for a, x in zip(angles, unknowns, strict=True))
 
 
 def _running(mesh, angles):
@@ -193,6 +215,19 @@ def _patches(drive, tca, matrices):
         axes = np.einsum("nxb,nax->nab", rotations, ellipses)
         path = _parameters(drive, body, tca, mirror)[solved]
         patches[body["name"]] = patch(drive.flank(body["name"]), path, axes, size / 70)
+    return patches
+
+
+def _line_patches(drive, lines):
+    """Both flanks around the lines of contact; none where there are no lines."""
+    touching = [line for line in lines if len(line.points)]
+    if not touching:
+        return {}
+    size = max(np.linalg.norm(np.ptp(line.points, axis=0)) for line in touching)
+    patches = {}
+    for body in drive.design.description["bodies"]:
+        path = np.vstack([line.parameters[body["name"]] for line in touching])
+        patches[body["name"]] = patch(drive.flank(body["name"]), path, np.zeros((len(path), 2, 3)), size / 40)
     return patches
 
 

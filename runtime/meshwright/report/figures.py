@@ -43,8 +43,7 @@ def pictures(analysis):
         drawn += [_DRIVE_ERROR, _TEETH]
     elif known:
         drawn.append(_PAIR_ERROR)
-    if solved:
-        drawn += [_pattern(member) for member in analysis.patches]
+    drawn += [_pattern(member, bool(analysis.lines)) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
     if analysis.running is not None and analysis.running.varies:
@@ -56,12 +55,21 @@ def pictures(analysis):
     return drawn
 
 
-def _pattern(member):
+_PATTERN_CAPTION = (
+    "Path of contact, and where the flanks stand closer than the design's separation (filled, cut off at their edges) "
+    "beside the quadratic ellipse (thin). Dashed red: where a limit of the design ends the flank."
+)
+
+
+def _pattern(member, along_lines):
+    if along_lines:
+        caption = "Lines along which the flanks touch, at positions spread over the contact of one pair."
+    else:
+        caption = _PATTERN_CAPTION
     return Picture(
         f"pattern-{member}",
         f"Contact pattern on the {member}",
-        "Path of contact, and where the flanks stand closer than the design's separation (filled, cut off at their "
-        "edges) beside the quadratic ellipse (thin). Dashed red: where a limit of the design ends the flank.",
+        caption,
         lambda analysis: pattern_figure.draw(analysis, member),
     )
 

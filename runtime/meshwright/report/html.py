@@ -44,6 +44,7 @@ def page(analysis):
         sections=sections,
         tiles=tiles(analysis),
         findings=findings(analysis),
+        lines=bool(analysis.lines),
         scene=_json(view) if view else None,
         positions=len(analysis.tca.angles),
         colours=style.MEMBERS,

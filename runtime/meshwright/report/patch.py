@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.report.projection import Projection
+
 #: Room around the path, in contact ellipses.
 ROOM = 1.3
 
@@ -24,6 +26,12 @@ class Patch:
     points: np.ndarray
     normals: np.ndarray
     inside: np.ndarray
+
+    @property
+    def projection(self):
+        """How the flank is best laid flat."""
+        shown = np.isfinite(self.points).all(axis=2)
+        return Projection.of(self.points[shown], self.normals[shown])
 
     @classmethod
     def of(cls, flank, parameters):

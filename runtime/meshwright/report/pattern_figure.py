@@ -4,7 +4,9 @@ import numpy as np
 
 from meshwright.report import style
 from meshwright.report.numbers import fixed
-from meshwright.report.projection import Projection
+
+#: About how many lines of contact are drawn.
+LINES = 24
 
 
 def draw(analysis, member):
@@ -12,22 +14,26 @@ def draw(analysis, member):
     figure = style.figure(6.4, 4.2)
     axes = figure.subplots()
     colour, tca = style.MEMBERS[member], analysis.tca
-    projection = Projection.of(tca.body_points[member][tca.solved], analysis.body_normals(member)[tca.solved])
+    projection = analysis.patches[member].projection
     _flank(axes, projection, analysis.patches[member], colour)
     rings = [*_contours(analysis, member), *_ellipses(analysis, member)]
     for ring in _contours(analysis, member):
         axes.fill(*projection(ring), facecolor=colour, alpha=0.35, edgecolor=colour, linewidth=1.0)
     for ring in _ellipses(analysis, member):
         axes.plot(*projection(ring), color=colour, linewidth=0.6, alpha=0.8)
+    lines = _lines(analysis, member)
+    for line in lines:
+        axes.plot(*projection(line), color=colour, linewidth=1.1)
     path = np.column_stack(projection(tca.body_points[member]))
     axes.plot(*path.T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
-    _name_ends(axes, path, tca.angles)
+    if tca.solved.any():
+        _name_ends(axes, path, tca.angles)
     horizontal, vertical = projection.labels(member)
     axes.set(xlabel=horizontal, ylabel=vertical)
     if projection.end_on:
         axes.set_aspect("equal", adjustable="datalim")
     else:
-        _limit(axes, np.vstack([path, *(np.column_stack(projection(ring)) for ring in rings)]))
+        _limit(axes, np.vstack([path, *(np.column_stack(projection(points)) for points in (*rings, *lines))]))
     return figure
 
 
@@ -62,6 +68,13 @@ def _ellipses(analysis, member):
     tca = analysis.tca
     places = (int(np.argmin(np.abs(tca.angles - contour.angle))) for contour in analysis.pattern)
     return [analysis.in_body(member, k, tca.ellipse(k)) for k in places]
+
+
+def _lines(analysis, member):
+    """Lines of contact, body frame: (M, 3) each, mm."""
+    flip = np.array([1.0, analysis.mirror, 1.0])
+    touching = [line.body_points[member] * flip for line in analysis.lines if len(line.points)]
+    return touching[:: max(1, len(touching) // LINES)]
 
 
 def _name_ends(axes, path, angles):

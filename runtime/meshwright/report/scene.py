@@ -2,6 +2,7 @@
 
 import base64
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,30 +14,71 @@ from meshwright.results import ARCSEC
 LIGHTER = 0.22
 
 
+@dataclass(frozen=True)
+class _Touch:
+    """Where the flanks touch at N positions: a ``points`` (N, 3) and its ``normals`` (N, 3), NaN where they do not, and
+    ``lines``: (M, 3) each or None; fixed frame, mm, with the design's hand. ``reach`` is the size of a mark, mm."""
+
+    points: np.ndarray
+    normals: np.ndarray
+    lines: tuple
+    reach: float
+
+    @property
+    def known(self):
+        return np.isfinite(self.points).all(axis=1)
+
+    @property
+    def middle(self):
+        known = np.flatnonzero(self.known)
+        return known[known.size // 2]
+
+
 def scene(analysis):
-    """Plain data of the 3-D view (lengths mm, fixed frame), or None if no position has a contact point."""
+    """Plain data of the 3-D view (lengths mm, fixed frame), or None if the flanks touch nowhere."""
     tca = analysis.tca
-    if not tca.solved.any():
+    touch = _along_lines(analysis) if analysis.lines else _at_points(tca)
+    if not analysis.patches:
         return None
     flip = np.diag([1.0, analysis.mirror, 1.0, 1.0])
     matrices = {name: flip @ m @ flip for name, m in analysis.matrices.items()}
-    inward = _inward(tca, matrices["pinion"])
-    points = tca.points[tca.solved]
+    inward = _inward(touch, matrices["pinion"])
+    points = touch.points[touch.known]
     centre = points.mean(axis=0)
-    reach = np.nanmax(np.where(np.isfinite(tca.semi_axes[:, 0]), tca.semi_axes[:, 0], 0.0))
-    radius = float(np.linalg.norm(points - centre, axis=1).max() + reach)
     return {
         "angles_deg": np.degrees(tca.angles).tolist(),
         "wheel_deg": _numbers(np.degrees(tca.wheel_angles)),
         "error_arcsec": _numbers(tca.error / ARCSEC),
         "steps_per_pitch": analysis.steps_per_pitch,
         "centre": centre.tolist(),
-        "radius": radius,
-        "view": _view(tca, inward).tolist(),
-        "cut": _cut(tca, inward),
+        "radius": float(np.linalg.norm(points - centre, axis=1).max() + touch.reach),
+        "view": _view(touch, inward).tolist(),
+        "cut": _cut(points, inward),
         "bodies": [_body(analysis, name, matrices[name]) for name in matrices],
-        "contacts": [_contact(tca, k) if tca.solved[k] else None for k in range(len(tca.angles))],
+        "contacts": [_contact(tca, touch, k) if known else None for k, known in enumerate(touch.known)],
     }
+
+
+def _at_points(tca):
+    known = tca.solved[:, None]
+    points, normals = (np.where(known, values, np.nan) for values in (tca.points, tca.normals))
+    return _Touch(points, normals, (None,) * len(points), float(np.nanmax(tca.semi_axes[:, 0], initial=0.0)))
+
+
+def _along_lines(analysis):
+    """Each line with its middle point and the normal there."""
+    flip = np.array([1.0, analysis.mirror, 1.0])
+    points, normals = (np.full((len(analysis.lines), 3), np.nan) for _ in range(2))
+    flank = analysis.drive.flank("pinion")
+    for k, line in enumerate(analysis.lines):
+        if len(line.points):
+            middle = len(line.points) // 2
+            points[k] = flip * line.points[middle]
+            normal = flank(line.parameters["pinion"][middle]).normals[0]
+            normals[k] = flip * (analysis.matrices["pinion"][k, :3, :3] @ normal)
+    lines = tuple(line.points * flip if len(line.points) else None for line in analysis.lines)
+    lengths = [np.linalg.norm(np.ptp(line, axis=0)) for line in lines if line is not None]
+    return _Touch(points, normals, lines, 0.5 * max(lengths, default=0.0))
 
 
 def _numbers(values):
@@ -94,40 +136,34 @@ def _copies(analysis, name):
     return [2 * math.pi * k / teeth for k in range(-near, near + 1)]
 
 
-def _contact(tca, k):
-    """Contact point, semi-axes of the ellipse as vectors (none where there is no ellipse), flags in words."""
+def _contact(tca, touch, k):
+    """Contact point, semi-axes of the ellipse as vectors (none where there is no ellipse), line, flags in words."""
     major, minor = tca.semi_axes[k]
     axes = np.array([major * tca.major[k], minor * np.cross(tca.normals[k], tca.major[k])])
     return {
-        "point": np.round(tca.points[k], 6).tolist(),
+        "point": np.round(touch.points[k], 6).tolist(),
+        "line": None if touch.lines[k] is None else np.round(touch.lines[k], 5).tolist(),
         "axes": np.round(axes, 6).tolist() if np.isfinite(axes).all() else None,
         "flagged": ", ".join(tca.flags[k]).replace("_", " "),
     }
 
 
-def _inward(tca, pinion):
+def _inward(touch, pinion):
     """Unit direction from the middle of the contact straight to the pinion's axis; ``pinion`` (N, 4, 4)."""
-    middle = _middle(tca)
-    axis, arm = pinion[middle, :3, 2], pinion[middle, :3, 3] - tca.points[middle]
+    axis, arm = pinion[touch.middle, :3, 2], pinion[touch.middle, :3, 3] - touch.points[touch.middle]
     arm = arm - axis * (arm @ axis)
     return arm / np.linalg.norm(arm)
 
 
-def _middle(tca):
-    solved = np.flatnonzero(tca.solved)
-    return solved[solved.size // 2]
-
-
-def _cut(tca, inward):
+def _cut(points, inward):
     """The plane, normal·p = offset, beyond which the pinion may be cut away: a little past the contacts."""
-    along = tca.points[tca.solved] @ inward
-    spread = np.linalg.norm(np.ptp(tca.points[tca.solved], axis=0))
-    return {"normal": inward.tolist(), "offset": float(along.max() + 0.08 * spread)}
+    spread = np.linalg.norm(np.ptp(points, axis=0))
+    return {"normal": inward.tolist(), "offset": float((points @ inward).max() + 0.08 * spread)}
 
 
-def _view(tca, inward):
+def _view(touch, inward):
     """Rows right, up and towards the viewer: onto the pinion's flank, from the pinion's side, tilted."""
-    normal = tca.normals[_middle(tca)]
+    normal = touch.normals[touch.middle]
     side = np.cross(normal, inward)
     near = 0.5 * normal + 0.35 * side / np.linalg.norm(side) + 0.8 * inward
     near /= np.linalg.norm(near)

@@ -4,7 +4,6 @@ import numpy as np
 
 from meshwright.report import style
 from meshwright.report.numbers import title
-from meshwright.report.projection import Projection
 from meshwright.results import ARCSEC
 
 _COLUMNS = 4
@@ -22,6 +21,8 @@ def error(analysis):
             change = (tca.relative_error - analysis.tca.relative_error) / ARCSEC
             axes.plot(angles, change, color=colour, label=f"{sign}{effect.label}")
         axes.set(xlabel="pinion angle, deg")
+        if not any(np.isfinite(tca.error).any() for _, tca, _ in _sides(effect)):
+            axes.text(0.5, 0.45, "no contact found", transform=axes.transAxes, ha="center", color=style.WARN)
         _room(axes)
         axes.legend(ncols=2, handlelength=1.2, loc="upper center")
     panels[0].set_ylabel("change, arcsec")
@@ -32,7 +33,7 @@ def path(analysis):
     """Path of contact on the wheel."""
     figure, panels = _panels(analysis, 3.0)
     tca = analysis.tca
-    projection = Projection.of(tca.body_points["wheel"][tca.solved], analysis.body_normals("wheel")[tca.solved])
+    projection = analysis.patches["wheel"].projection
     horizontal, vertical = projection.labels("wheel")
     for axes, effect in zip(panels, analysis.sensitivities, strict=False):
         axes.plot(*projection(tca.body_points["wheel"]), color=style.INK, linewidth=1.0, label="as given")

@@ -170,7 +170,8 @@
     context.stroke();
   }
 
-  function ellipse(contact) {
+  function outlined(contact) {
+    if (contact.line) return contact.line;
     if (!contact.axes) return [];
     const [major, minor] = contact.axes;
     return Array.from({ length: 49 }, (_, i) => {
@@ -183,12 +184,13 @@
     const pairs = [];
     const steps = scene.steps_per_pitch, last = scene.contacts.length;
     for (let at = position % steps; at < last; at += steps) if (scene.contacts[at]) pairs.push(at);
-    drawLine(scene.contacts.filter(Boolean).map((contact) => contact.point), "#6b7885", 1.2, [4, 4]);
+    if (!scene.contacts.some((contact) => contact && contact.line)) drawLine(scene.contacts.filter(Boolean).map((contact) => contact.point), "#6b7885", 1.2, [4, 4]);
     for (const at of pairs) {
       const contact = scene.contacts[at], followed = at === position;
-      const outline = ellipse(contact);
+      const outline = outlined(contact);
       drawLine(outline, "#ffffff", followed ? 4.5 : 3.5);
       drawLine(outline, contact.flagged ? "#c0273d" : "#10202e", followed ? 2.4 : 1.4);
+      if (contact.line) continue;
       const [u, v] = projected(contact.point);
       context.beginPath();
       context.arc(u, v, followed ? 4.5 : 3, 0, 2 * Math.PI);
