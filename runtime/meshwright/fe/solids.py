@@ -1,4 +1,4 @@
-"""Solid teeth of a drive: what the mesh needs to know of each family, taken from its generated surfaces."""
+"""The loaded-contact view of a drive: teeth of its family, placement and contact from its analysis."""
 
 from __future__ import annotations
 
@@ -7,23 +7,21 @@ from functools import cache
 from typing import Literal
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from meshwright.drive import Drive
 from meshwright.errors import DesignError, UsageError
+from meshwright.fe import face_worm, spherical
+from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
-from meshwright.fe.profile import SectionCurves, Surface
-from meshwright.fe.tooth import ToothForm, ToothSide
+from meshwright.fe.tooth import ToothForm
 from meshwright.placement import placements
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
 _RIM_MODULES = 4.5
-_DEEPEST_RIM = 0.8
 _PROBE_ANGLE = 1e-3
-_BISECTIONS = 60
-_TIP_SAMPLES = 33
+_STEP_PITCHES = 0.25
 
 MemberName = Literal["pinion", "wheel"]
 
@@ -31,18 +29,21 @@ MemberName = Literal["pinion", "wheel"]
 def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     """The loaded-contact view of a drive, materials from its design.
 
-    rim_thickness: radial depth of the rim below the root in mm; None takes 4.5 modules, at most 0.8 root radii.
+    rim_thickness: depth of the rims below the root in mm; None takes 4.5 modules.
     Raises UsageError for a family that has no solid model, DesignError where the flanks touch along a line.
     """
-    if drive.design.family not in _FORMS:
-        known = ", ".join(_FORMS)
-        raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives yet; there are {known}")
-    form = _FORMS[drive.design.family]
+    if drive.design.family not in _FAMILIES:
+        known = ", ".join(_FAMILIES)
+        raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives; there are {known}")
+    module, forms = _FAMILIES[drive.design.family]
+    if rim_thickness is None:
+        rim_thickness = _RIM_MODULES * drive.design.value(module)
+    if not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
+        raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")
     _check_point_contact(drive)
     materials = Materials.of_table(drive.design.tables["material"])
     members = {
-        name: _member(drive, name, form(drive, name, rim_thickness), getattr(materials, name))
-        for name in ("pinion", "wheel")
+        name: _member(drive, name, form(drive, rim_thickness), getattr(materials, name)) for name, form in forms.items()
     }
     sense = 1 if drive.design.flank > 0 else -1
     return GearPair(members["pinion"], members["wheel"], drive.ratio, sense, cache(lambda angle: _touch(drive, angle)))
@@ -56,18 +57,20 @@ def _check_point_contact(drive: Drive) -> None:
 
 
 def _touch(drive: Drive, angle: float) -> Touch | None:
-    found = drive.tca([angle])
-    if not found.solved[0] or any(flag.startswith("off_") for flag in found.flags[0]):
+    """The contact followed from angle 0: a worm's equations have the contact of a turn earlier as a solution too."""
+    steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
+    path = drive.tca(np.linspace(0.0, angle, steps + 1))
+    if not path.solved[-1] or any(flag.startswith("off_") for flag in path.flags[-1]):
         return None
-    smaller, larger = found.curvatures[0]
+    smaller, larger = path.curvatures[-1]
     if smaller <= 0.0:
         return None
-    normal = found.normals[0] / np.linalg.norm(found.normals[0])
-    major = found.major[0] - (found.major[0] @ normal) * normal
+    normal = path.normals[-1] / np.linalg.norm(path.normals[-1])
+    major = path.major[-1] - (path.major[-1] @ normal) * normal
     return Touch(
         angle,
-        float(found.wheel_angles[0]),
-        found.points[0],
+        float(path.wheel_angles[-1]),
+        path.points[-1],
         normal,
         float(smaller),
         float(larger),
@@ -87,86 +90,29 @@ def _member(drive: Drive, name: MemberName, form: ToothForm, material: Material)
         )
     step = start[:3, :3].T @ end[:3, :3]
     turning = 1 if (step[1, 0] > 0.0) == (turned[1] > turned[0]) else -1
-    zero = start @ _about_z(-turning * turned[0])
+    zero = start @ about_z(-turning * turned[0])
 
     def pose(angle: float) -> Floats:
-        return zero @ _about_z(turning * angle)
+        return zero @ about_z(turning * angle)
 
     pitch = drive.pitch() if name == "pinion" else drive.pitch() * drive.ratio
     working = "left" if drive.design.flank > 0 else "right"
     return Member(form, working, pose, pitch, turning, material)
 
 
-def _about_z(angle: float) -> Floats:
-    motion = np.eye(4)
-    c, s = np.cos(angle), np.sin(angle)
-    motion[:2, :2] = [[c, -s], [s, c]]
-    return motion
+_Form = Callable[[Drive, float], ToothForm]
 
-
-def _surface(drive: Drive, member: MemberName, region: str) -> Surface:
-    """A generated region as a function of two parameter arrays."""
-    generated = drive.flank(member, region)
-
-    def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        profile, face = np.broadcast_arrays(profile, face)
-        found = generated(np.stack([profile.ravel(), face.ravel()], axis=1))
-        return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
-
-    return evaluate
-
-
-# -- spherical gears ------------------------------------------------------------------------------------------------
-
-
-def _spherical(drive: Drive, member: MemberName, rim_thickness: float | None) -> ToothForm:
-    """Sections are planes z = constant; the rounding of the rack's tip ends where its normal is radial."""
-    design = drive.design
-    half_face = 0.5 * design.value(f"{member}_face_width_mm")
-    pitch = 2.0 * np.pi / design.value(f"{member}_teeth")
-    sides = [_spherical_side(drive.with_(flank=flank), member, half_face) for flank in ("left", "right")]
-    root = design.sizes[f"{member}_root_radius_mm"]
-    if rim_thickness is None:
-        rim_thickness = min(_RIM_MODULES * design.value("module_mm"), _DEEPEST_RIM * root)
-    if not 0.0 < rim_thickness < root:
-        raise UsageError(f"--rim-mm {rim_thickness:g}: the rim of the {member} must end between its root and its axis")
-    return ToothForm(sides[0], sides[1], (-half_face, half_face), _about_z(-pitch), _bored(root - rim_thickness))
-
-
-def _spherical_side(drive: Drive, member: MemberName, half_face: float) -> ToothSide:
-    sections = np.linspace(-half_face, half_face, _TIP_SAMPLES)
-    tip = CubicSpline(sections, _spherical_tip(drive, member, sections))
-    end = 0.5 * np.pi - drive.design.value("pressure_angle_deg")
-    flank = SectionCurves(_surface(drive, member, "flank"), _axial, np.zeros_like, tip)
-    fillet = SectionCurves(_surface(drive, member, "fillet"), _axial, lambda z: np.full_like(z, end), np.zeros_like)
-    return ToothSide(fillet, flank)
-
-
-def _axial(points: Floats) -> Floats:
-    return points[..., 2]
-
-
-def _spherical_tip(drive: Drive, member: MemberName, sections: Floats) -> Floats:
-    """Edge parameter (K,) at which the flank meets the blank's tip, by bisection between root and end of the edge."""
-    generated = drive.flank(member)
-    curves = SectionCurves(_surface(drive, member, "flank"), _axial, np.zeros_like, np.zeros_like)
-    low, high = np.zeros_like(sections), np.full_like(sections, drive.design.sizes[f"{member}_edge_end_mm"])
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (low + high)
-        face = curves.solve(sections, middle[:, None])[:, 0]
-        below = generated(np.stack([middle, face], axis=1)).margins["tip"] > 0.0
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return 0.5 * (low + high)
-
-
-def _bored(radius: float) -> Callable[[Floats], Floats]:
-    """Moves points radially to a bore of the given radius about z."""
-
-    def bore(points: Floats) -> Floats:
-        scale = radius / np.hypot(points[..., 0], points[..., 1])
-        return points * np.stack([scale, scale, np.ones_like(scale)], axis=-1)
-
-    return bore
-
-
-_FORMS: dict[str, Callable[[Drive, MemberName, float | None], ToothForm]] = {"spherical": _spherical}
+# Key of the module, and the teeth of each member, by family.
+_FAMILIES: dict[str, tuple[str, dict[MemberName, _Form]]] = {
+    "spherical": (
+        "module_mm",
+        {
+            "pinion": lambda drive, rim: spherical.gear_form(drive, "pinion", rim),
+            "wheel": lambda drive, rim: spherical.gear_form(drive, "wheel", rim),
+        },
+    ),
+    "face-worm": (
+        "axial_module_mm",
+        {"pinion": lambda drive, rim: face_worm.worm_form(drive), "wheel": face_worm.gear_form},
+    ),
+}

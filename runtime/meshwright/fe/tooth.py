@@ -40,14 +40,14 @@ class ToothForm:
 
     left and right are so named that (left to right, root to tip, growing section coordinate) is right-handed.
     faces: section coordinate of both end faces.  next_tooth: 4 x 4 motion of this tooth onto its right neighbour.
-    bore: points (..., 3) of the root to the points (..., 3) of the bore below them.
+    bore: points (..., 3) of the root to the points (..., 3) of the bore below them; None: a flank without a solid.
     """
 
     left: ToothSide
     right: ToothSide
     faces: tuple[float, float]
     next_tooth: Floats
-    bore: Callable[[Floats], Floats]
+    bore: Callable[[Floats], Floats] | None
 
     def side(self, name: Literal["left", "right"]) -> ToothSide:
         """The named side."""
@@ -70,13 +70,13 @@ class ContactZone:
 class MeshDensity:
     """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes."""
 
-    per_semi_minor: float = 3.0
-    per_semi_major: float = 4.0
+    per_semi_minor: float = 3.5
+    per_semi_major: float = 5.0
     first_layer: float = 0.33
-    profile_reach: float = 1.3
-    face_reach: float = 1.25
+    profile_reach: float = 1.2
+    face_reach: float = 1.15
     depth_reach: float = 1.0
-    growth: float = 2.0
+    growth: float = 2.2
     fillet_rows: int = 6
     land_rows: int = 1
     rim_rows: int = 4
