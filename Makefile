@@ -9,7 +9,7 @@ OBJECTS := $(VENV)/objects
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate audit bench build check run lint test solver test-fe
+.PHONY: setup generate audit bench build check examples run lint test solver test-fe
 
 setup: $(READY)
 
@@ -73,4 +73,8 @@ test-fe: build solver
 
 # Points a second of every kernel and of the baselines, in one table.
 bench: build
-	PYTHONPATH=.:tests $(PY) -m benchmarks.bench
+	$(PY) -m tests.benchmarks.bench
+
+# Build and run the examples: C, C++, ctypes, WebAssembly, Cortex-M7, ARM64.
+examples: build
+	$(PY) -m pytest tests/embedding -m ''

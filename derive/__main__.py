@@ -8,7 +8,7 @@ from pathlib import Path
 
 from derive import compiler, drives
 from derive.audit import record
-from derive.emit import lanes
+from derive.emit import lanes, sensitivity
 from derive.files import replace_text
 
 
@@ -41,6 +41,7 @@ def main(arguments=None):
     if not options.drive:
         files["c/models.h"] = compiler.table_of_models(known)
         files["c/lane_models.h"] = lanes.table_of_models(known)
+        files["c/sensitivity_models.h"] = sensitivity.table_of_models(known)
         with log("emit", "audit record"):
             files |= record.files(ledger, files)
         files["manifest.json"] = compiler.manifest(files)

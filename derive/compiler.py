@@ -16,7 +16,7 @@ import json
 from pathlib import Path
 
 from derive.audit.provenance import provenance
-from derive.emit import c99, casadi, lanes, metadata
+from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,12 +31,15 @@ def compile_drive(drive, record, log):
         plan = schedule(drive)
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
-        return {
+        files = {
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
             f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",
             f"casadi/{drive.name}.casadi": casadi.text(plan),
         }
+        # last: it adds the changes of the inputs to the tape
+        files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, metadata.GENERATOR)
+        return files
 
 
 def manifest(files):

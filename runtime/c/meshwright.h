@@ -112,6 +112,18 @@ void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, co
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant);
 
+/* Contact points[designs*n*3] (fixed frame; NaN where there is none) and flags[designs*n] of what mw_trace_designs
+ * solved; status[designs*n] becomes line contact where the flanks touch along a line. Work: s[ns], o[no]. */
+void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
+                       const double *x, int *status, double *s, double *o, double *points, unsigned *flags);
+
+/* Exact derivatives of a contact along a change[np] of the given parameters: dp[np] with what follows by rules, dx[nx]
+ * of the unknowns, dr[3] of the contact point, fixed frame. given[np] as the design has them (NaN: open), p[np] the
+ * same completed, s set up for p and phi, x[nx] the solution. Returns MW_CONVERGED, MW_SINGULAR where the contact does
+ * not determine its point, or MW_BAD_INPUT for a drive whose parameters a design system solves. */
+int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
+                   const double *x, const double *change, double *dp, double *dx, double *dr);
+
 /* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
 int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);
 

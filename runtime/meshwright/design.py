@@ -211,6 +211,11 @@ def _vector(description, checked):
     return vector
 
 
+def given_vector(design):
+    """The parameter vector as the design file gives it: NaN where rules and defaults fill in."""
+    return _vector(design.description, design.tables)
+
+
 def _complete(c, description, p, checked):
     """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
     work, info = np.empty(c.np + 1), ffi.new("mw_info *")

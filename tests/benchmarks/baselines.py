@@ -4,7 +4,7 @@ import numpy as np
 import sympy as sp
 from scipy.optimize import fsolve
 
-from benchmarks.timing import best
+from tests.benchmarks.timing import best
 
 
 def _expanded(drive, expression):

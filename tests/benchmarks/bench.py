@@ -14,8 +14,8 @@ from pathlib import Path
 import casadi
 import numpy as np
 
-from benchmarks import baselines
-from benchmarks.timing import best, compile_c, compiler, instructions
+from tests.benchmarks import baselines
+from tests.benchmarks.timing import best, compile_c, compiler, instructions
 from derive import drives
 from derive.schedule import schedule
 from derive.tape import Stage

@@ -22,11 +22,12 @@ def add_design(parser):
 
 def drive_of(options):
     """The drive that the options ask for."""
-    changes = dict(_setting(text) for text in options.set)
+    changes = dict(setting(text) for text in options.set)
     return Drive.from_tables(designs.changed(designs.read(options.design), changes), options.backend)
 
 
-def _setting(text):
+def setting(text):
+    """``TABLE.KEY=VALUE`` as (place, value)."""
     place, equals, value = text.partition("=")
     if not equals or not place:
         raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")

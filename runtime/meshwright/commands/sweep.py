@@ -1,0 +1,85 @@
+"""Trace one design under many misalignments and parameter values.
+
+Rows go to slices in a folder; an interrupted sweep goes on where it stopped. Exit status 1 if a point did not converge.
+"""
+
+import re
+import sys
+
+from meshwright import design as designs
+from meshwright import sweep
+from meshwright.commands import options as common
+from meshwright.errors import UsageError
+from meshwright.files import write_json
+
+_FORMS = "low:high or normal:mean:deviation"
+
+
+def add_arguments(parser):
+    parser.add_argument("design", metavar="DESIGN", help="packaged design or TOML file")
+    parser.add_argument("--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key; repeatable")
+    parser.add_argument("--vary", action="append", required=True, metavar="TABLE.KEY=RANGE", help=f"{_FORMS}; repeatable")
+    how = parser.add_mutually_exclusive_group(required=True)
+    how.add_argument("--samples", type=int, metavar="N", help="random samples")
+    how.add_argument("--grid", type=int, metavar="N", help="levels of every varied key, all combined")
+    parser.add_argument("--seed", type=int, default=0, help="of the random samples; default 0")
+    common.add_angles(parser)
+    parser.add_argument("--out", required=True, metavar="FOLDER", help="where the slices are written")
+    parser.add_argument("--format", choices=("parquet", "csv"), default="parquet")
+    parser.add_argument("--threads", type=int, metavar="N", help="default: one a processor")
+    parser.add_argument(
+        "--scheduler", nargs="?", const="local", metavar="ADDRESS",
+        help="hand slices to a Dask cluster at this address; without an address, to an embedded local one",
+    )  # fmt: skip
+    parser.add_argument("--json", metavar="FILE|-", default="-", help="where to write the summary")
+
+
+def run(options):
+    plan = _plan(options)
+    with _progress(plan.slices) as advance:
+        summary = sweep.run(plan, options.out, options.format, options.threads, options.scheduler, advance)
+    write_json(options.json, {"schema": "meshwright.sweep/1", **summary})
+    return 0 if summary["points_converged"] == summary["points"] else 1
+
+
+def _plan(options):
+    changes = dict(common.setting(text) for text in options.set)
+    tables = designs.changed(designs.read(options.design), changes)
+    for name in ("samples", "grid", "threads"):
+        value = getattr(options, name)
+        if value is not None and value < 1:
+            raise UsageError(f"--{name} {value}: must be at least 1")
+    angles = common.angles_of(options, common.Drive.from_tables(tables))
+    variations = tuple(_variation(text) for text in options.vary)
+    return sweep.Plan(
+        tables, variations, tuple(map(float, angles)), options.samples or 0, options.grid or 0, options.seed
+    )
+
+
+def _variation(text):
+    key, _, words = text.partition("=")
+    kind, values = ("normal", words.removeprefix("normal:")) if words.startswith("normal:") else ("uniform", words)
+    match = re.fullmatch(r"([^:]+):([^:]+)", values)
+    try:
+        return sweep.Variation(key.strip(), kind, *map(float, match.groups()))
+    except (AttributeError, ValueError):
+        raise UsageError(f"--vary {text}: not TABLE.KEY={_FORMS}") from None
+
+
+class _progress:
+    """A bar on a terminal, nothing in a pipe."""
+
+    def __init__(self, total):
+        self.total = total
+
+    def __enter__(self):
+        from rich.console import Console
+        from rich.progress import Progress
+
+        self.bar = Progress(console=Console(stderr=True), disable=not sys.stderr.isatty())
+        self.bar.start()
+        task = self.bar.add_task("sweep", total=self.total)
+        return lambda: self.bar.advance(task)
+
+    def __exit__(self, *_):
+        self.bar.stop()

@@ -1,0 +1,119 @@
+"""Generated headers go anywhere: strict C99 and C++11, nothing but sqrt, the same bits on every machine."""
+
+import ctypes
+import json
+
+import numpy as np
+import pytest
+
+from tests.embedding import compile as c
+from tests.embedding.machines import MACHINES, Problem
+
+DRIVES = sorted(json.loads(p.read_text())["name"] for p in c.GENERATED.glob("*.json"))
+FAMILIES = ("cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm")
+
+
+def _problem(drive):
+    described = json.loads((c.GENERATED / f"{drive}.json").read_text(encoding="utf-8"))
+    test = described["self_test"]
+    p, x = (np.array([float.fromhex(v) for v in test[key]]) for key in ("p", "x_start"))
+    solution = np.array([float.fromhex(v) for v in test["x"]])
+    return Problem(p, float.fromhex(test["phi"]), x, described["shapes"]["s"][0]), solution
+
+
+def _native(drive, folder, command, level):
+    library = folder / "solve.so"
+    defines = (f"-DDRIVE={drive}", f'-DHEADER="{drive}.h"')
+    c.run(*command, level, *c.EXACT, "-shared", "-fPIC", *defines, f"-I{c.GENERATED}", c.FREESTANDING / "solve.c",
+          "-o", library, "-lm")  # fmt: skip
+    solve = ctypes.CDLL(str(library)).solve
+    problem, _ = _problem(drive)
+    s, x = np.empty(problem.state), problem.x.copy()
+    pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (problem.p, s, x)]
+    steps = solve(pointers[0], ctypes.c_double(problem.phi), *pointers[1:])
+    return steps, x
+
+
+@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("standard", ["c99", "c++11"])
+@pytest.mark.parametrize("name", sorted(c.compilers()))
+def test_a_header_alone_compiles_strictly_and_needs_only_sqrt(tmp_path, drive, standard, name):
+    command = c.compilers()[name][standard == "c++11"]
+    output = c.strict_object(command, f"{drive}.h", tmp_path, standard)
+    assert c.undefined(output) <= {"sqrt", "_GLOBAL_OFFSET_TABLE_"}
+    assert not c.writable(output)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("drive", [d for d in DRIVES if d not in FAMILIES])
+def test_every_header_alone_compiles_strictly(tmp_path, drive):
+    command = sorted(c.compilers().items())[-1][1][0]
+    assert c.undefined(c.strict_object(command, f"{drive}.h", tmp_path, "c99")) <= {"sqrt", "_GLOBAL_OFFSET_TABLE_"}
+
+
+@pytest.mark.parametrize("drive", FAMILIES)
+def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive):
+    problem, solution = _problem(drive)
+    results = {}
+    for name, (command, _) in c.compilers().items():
+        for level in ("-O0", "-O2", "-O3"):
+            folder = tmp_path / f"{name}{level}"
+            folder.mkdir()
+            results[name, level] = _native(drive, folder, command, level)
+    for machine, solve in MACHINES.items():
+        pytest.importorskip("wasmtime" if machine == "wasm" else "unicorn")
+        results[machine] = solve(c.freestanding(machine, drive, tmp_path / machine), problem)
+    steps, first = next(iter(results.values()))
+    assert steps > 0
+    for where, (count, x) in results.items():
+        assert count == steps, where
+        assert x.tobytes() == first.tobytes(), where
+    assert np.abs(first - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())
+
+
+LANES = r"""
+#define MW_LANES_SIMD
+#define MW_LANES WIDTH
+#include "DRIVE_lanes.h"
+void lanes(const double *p, double phi, double *s, double *x, double *z)
+{
+    double valid[WIDTH], angle[WIDTH];
+    for (int l = 0; l < WIDTH; l++) angle[l] = phi * (1.0 + 1e-3 * l);
+    MW_LANE_NAME(DRIVE_setup_lanes)(p, s, valid);
+    MW_LANE_NAME(DRIVE_set_phi_lanes)(s, angle);
+    MW_LANE_NAME(DRIVE_step_lanes)(s, x, z);
+}
+void scalar(const double *p, double phi, int l, double *s, double *x, double *z)
+{
+    DRIVE_setup(p, s);
+    DRIVE_set_phi(s, phi * (1.0 + 1e-3 * l));
+    *z = DRIVE_step(s, x);
+}
+"""
+
+
+@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("width", [2, 4, 8, 16])
+def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width):
+    problem, _ = _problem(drive)
+    source, library = tmp_path / "lanes.c", tmp_path / "lanes.so"
+    source.write_text(LANES.replace("WIDTH", str(width)).replace("DRIVE", drive))
+    command = sorted(c.compilers().items())[-1][1][0]
+    c.run(*command, "-std=c99", "-O3", *c.STRICT, *c.EXACT, "-fopenmp-simd", "-shared", "-fPIC", f"-I{c.GENERATED}",
+          source, "-o", library, "-lm")  # fmt: skip
+    loaded = ctypes.CDLL(str(library))
+    generator = np.random.default_rng(width)
+    starts = problem.x[:, None] + 1e-3 * generator.normal(size=(len(problem.x), width))
+    many, s, sizes = starts.copy(), np.empty(problem.state * width), np.empty(width)
+    p = np.ascontiguousarray(np.repeat(problem.p[:, None], width, axis=1))
+    phi = ctypes.c_double(problem.phi)
+    loaded.lanes(_address(p), phi, _address(s), _address(many), _address(sizes))
+    for lane in range(width):
+        x, size = np.ascontiguousarray(starts[:, lane]), np.empty(1)
+        loaded.scalar(_address(problem.p), phi, lane, _address(s), _address(x), _address(size))
+        assert x.tobytes() == np.ascontiguousarray(many[:, lane]).tobytes()
+        assert size[0] == sizes[lane]
+
+
+def _address(array):
+    return array.ctypes.data_as(ctypes.c_void_p)

@@ -1,0 +1,130 @@
+"""Sweeps: rows that depend on the plan alone, whatever interrupts it and whoever works on it."""
+
+import json
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from meshwright import Drive, sweep
+from meshwright import design as designs
+from meshwright.cli import main
+from meshwright.errors import DesignError, UsageError
+from meshwright.results import ARCSEC
+
+pytest.importorskip("pyarrow")
+
+ANGLES = tuple(np.radians(np.arange(-100.0, 101.0, 20.0)))
+
+
+def _plan(samples=50, levels=0, design="recess-action-full"):
+    variations = (
+        sweep.Variation("misalignment.vertical_deg", "uniform", -0.02, 0.02),
+        sweep.Variation("design.hob_pitch_radius_mm", "normal", 20.06, 0.01),
+    )
+    return sweep.Plan(designs.read(design), variations, ANGLES, samples, levels, seed=4)
+
+
+def _rows(folder, form="parquet"):
+    names = ["sample", "pinion_angle_deg", "transmission_error_arcsec", "contact_x_mm", "contact_y_mm", "contact_z_mm"]
+    slices = [np.stack(sweep.read_slice(path, names)) for path in sorted(folder.glob(f"slice-*.{form}"))]
+    return np.concatenate(slices, axis=1)
+
+
+def test_a_sample_of_a_sweep_is_the_tooth_contact_analysis_of_its_design():
+    plan = _plan()
+    rows = sweep.solve(plan, 0)
+    for k in (0, 7, 49):
+        drive = Drive.load("recess-action-full").with_(
+            misalignment={"vertical_deg": float(rows.values[k, 0])},
+            design={"hob_pitch_radius_mm": float(rows.values[k, 1])},
+        )
+        result = drive.tca(np.array(ANGLES))
+        assert np.abs(rows.error[k] - result.error).max() < 1e-12
+        assert np.abs(rows.points[k] - result.points).max() < 1e-9
+
+
+def test_an_interrupted_sweep_goes_on_without_losing_or_repeating_rows(tmp_path, monkeypatch):
+    monkeypatch.setattr(sweep, "SLICE_POINTS", 110)
+    plan = _plan()
+    sweep.run(plan, tmp_path / "whole", threads=2)
+    broken, done = tmp_path / "broken", []
+
+    def stop():
+        done.append(1)
+        if len(done) == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run(plan, broken, threads=1, advance=stop)
+    (broken / "slice-000004.parquet").unlink(missing_ok=True)
+    before = {path: path.stat().st_mtime_ns for path in broken.glob("slice-*")}
+    sweep.run(plan, broken, threads=1)
+    assert all(path.stat().st_mtime_ns == stamp for path, stamp in before.items())
+    rows = _rows(broken)
+    assert np.array_equal(rows, _rows(tmp_path / "whole"))
+    assert rows.shape[1] == 50 * len(ANGLES)
+    assert len({(s, a) for s, a in rows[:2].T}) == rows.shape[1]
+
+
+def test_a_killed_process_leaves_no_part_of_a_slice(tmp_path):
+    command = [
+        sys.executable, "-m", "meshwright.cli", "sweep", "recess-action-full", "--samples", "60000",
+        "--vary", "misalignment.vertical_deg=-0.02:0.02", "--phi-deg=-100:100:5", "--out", str(tmp_path / "s"),
+    ]  # fmt: skip
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 30
+    while not list(tmp_path.glob("s/slice-*")) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    for path in tmp_path.glob("s/slice-*.parquet"):
+        assert len(sweep.read_slice(path, ["sample"])[0]) % 41 == 0
+    again = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert json.loads(again.stdout)["points"] == 60000 * 41
+
+
+def test_a_grid_combines_all_levels_and_csv_holds_the_same_rows(tmp_path):
+    plan = _plan(samples=0, levels=3)
+    first = sweep.run(plan, tmp_path / "a")
+    second = sweep.run(plan, tmp_path / "b", form="csv")
+    assert first["samples"] == 9 and first == second
+    assert np.allclose(_rows(tmp_path / "a"), _rows(tmp_path / "b", "csv"), rtol=1e-14)
+
+
+def test_quantiles_are_those_of_the_samples(tmp_path):
+    summary = sweep.run(_plan(), tmp_path / "s")
+    rows = sweep.solve(_plan(), 0)
+    peaks = np.ptp(rows.error / ARCSEC, axis=1)
+    assert summary["peak_to_peak_arcsec"][0] == pytest.approx(peaks.min())
+    assert summary["peak_to_peak_arcsec"][4] == pytest.approx(np.median(peaks))
+
+
+def test_a_folder_of_another_sweep_is_left_alone(tmp_path):
+    sweep.run(_plan(), tmp_path / "s")
+    with pytest.raises(UsageError, match="another sweep"):
+        sweep.run(_plan(samples=51), tmp_path / "s")
+
+
+def test_an_unknown_key_is_named():
+    bad = (sweep.Variation("misalignment.vertikal_deg", "uniform", 0.0, 1.0),)
+    plan = sweep.Plan(designs.read("recess-action-full"), bad, ANGLES, 1)
+    with pytest.raises(DesignError, match="vertikal_deg"):
+        sweep.check(plan)
+
+
+def test_bad_ranges_end_in_status_2(tmp_path, capsys):
+    arguments = ["sweep", "recess-action-full", "--samples", "5", "--out", str(tmp_path / "s"), "--vary"]
+    assert main([*arguments, "misalignment.vertical_deg=1"]) == 2
+    assert main([*arguments, "misalignment.vertical_deg=1:0"]) == 2
+    assert "low:high" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_an_embedded_dask_cluster_writes_the_same_rows(tmp_path, monkeypatch):
+    pytest.importorskip("distributed")
+    sweep.run(_plan(), tmp_path / "a")
+    sweep.run(_plan(), tmp_path / "b", threads=1, scheduler="local")
+    assert np.array_equal(_rows(tmp_path / "a"), _rows(tmp_path / "b"))
