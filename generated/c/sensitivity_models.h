@@ -1,0 +1,74 @@
+/* The sensitivity functions of every drive. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */
+#include "cylindrical_worm_za_za_sensitivity.h"
+#include "cylindrical_worm_za_zi_sensitivity.h"
+#include "cylindrical_worm_za_zn_sensitivity.h"
+#include "cylindrical_worm_za_zk_sensitivity.h"
+#include "cylindrical_worm_za_zc_sensitivity.h"
+#include "cylindrical_worm_zi_za_sensitivity.h"
+#include "cylindrical_worm_zi_zi_sensitivity.h"
+#include "cylindrical_worm_zi_zn_sensitivity.h"
+#include "cylindrical_worm_zi_zk_sensitivity.h"
+#include "cylindrical_worm_zi_zc_sensitivity.h"
+#include "cylindrical_worm_zn_za_sensitivity.h"
+#include "cylindrical_worm_zn_zi_sensitivity.h"
+#include "cylindrical_worm_zn_zn_sensitivity.h"
+#include "cylindrical_worm_zn_zk_sensitivity.h"
+#include "cylindrical_worm_zn_zc_sensitivity.h"
+#include "cylindrical_worm_zk_za_sensitivity.h"
+#include "cylindrical_worm_zk_zi_sensitivity.h"
+#include "cylindrical_worm_zk_zn_sensitivity.h"
+#include "cylindrical_worm_zk_zk_sensitivity.h"
+#include "cylindrical_worm_zk_zc_sensitivity.h"
+#include "cylindrical_worm_zc_za_sensitivity.h"
+#include "cylindrical_worm_zc_zi_sensitivity.h"
+#include "cylindrical_worm_zc_zn_sensitivity.h"
+#include "cylindrical_worm_zc_zk_sensitivity.h"
+#include "cylindrical_worm_zc_zc_sensitivity.h"
+#include "spherical_convex_convex_sensitivity.h"
+#include "spherical_convex_concave_sensitivity.h"
+#include "spherical_convex_spur_sensitivity.h"
+#include "spherical_concave_convex_sensitivity.h"
+#include "spherical_concave_concave_sensitivity.h"
+#include "spherical_concave_spur_sensitivity.h"
+#include "spherical_spur_convex_sensitivity.h"
+#include "spherical_spur_concave_sensitivity.h"
+#include "spherical_spur_spur_sensitivity.h"
+#include "face_worm_sensitivity.h"
+
+static const mw_tangents mw_tangent_models[] = {
+    { "cylindrical_worm_za_za", cylindrical_worm_za_za_derive_tangent, cylindrical_worm_za_za_tangent },
+    { "cylindrical_worm_za_zi", cylindrical_worm_za_zi_derive_tangent, cylindrical_worm_za_zi_tangent },
+    { "cylindrical_worm_za_zn", cylindrical_worm_za_zn_derive_tangent, cylindrical_worm_za_zn_tangent },
+    { "cylindrical_worm_za_zk", cylindrical_worm_za_zk_derive_tangent, cylindrical_worm_za_zk_tangent },
+    { "cylindrical_worm_za_zc", cylindrical_worm_za_zc_derive_tangent, cylindrical_worm_za_zc_tangent },
+    { "cylindrical_worm_zi_za", cylindrical_worm_zi_za_derive_tangent, cylindrical_worm_zi_za_tangent },
+    { "cylindrical_worm_zi_zi", cylindrical_worm_zi_zi_derive_tangent, cylindrical_worm_zi_zi_tangent },
+    { "cylindrical_worm_zi_zn", cylindrical_worm_zi_zn_derive_tangent, cylindrical_worm_zi_zn_tangent },
+    { "cylindrical_worm_zi_zk", cylindrical_worm_zi_zk_derive_tangent, cylindrical_worm_zi_zk_tangent },
+    { "cylindrical_worm_zi_zc", cylindrical_worm_zi_zc_derive_tangent, cylindrical_worm_zi_zc_tangent },
+    { "cylindrical_worm_zn_za", cylindrical_worm_zn_za_derive_tangent, cylindrical_worm_zn_za_tangent },
+    { "cylindrical_worm_zn_zi", cylindrical_worm_zn_zi_derive_tangent, cylindrical_worm_zn_zi_tangent },
+    { "cylindrical_worm_zn_zn", cylindrical_worm_zn_zn_derive_tangent, cylindrical_worm_zn_zn_tangent },
+    { "cylindrical_worm_zn_zk", cylindrical_worm_zn_zk_derive_tangent, cylindrical_worm_zn_zk_tangent },
+    { "cylindrical_worm_zn_zc", cylindrical_worm_zn_zc_derive_tangent, cylindrical_worm_zn_zc_tangent },
+    { "cylindrical_worm_zk_za", cylindrical_worm_zk_za_derive_tangent, cylindrical_worm_zk_za_tangent },
+    { "cylindrical_worm_zk_zi", cylindrical_worm_zk_zi_derive_tangent, cylindrical_worm_zk_zi_tangent },
+    { "cylindrical_worm_zk_zn", cylindrical_worm_zk_zn_derive_tangent, cylindrical_worm_zk_zn_tangent },
+    { "cylindrical_worm_zk_zk", cylindrical_worm_zk_zk_derive_tangent, cylindrical_worm_zk_zk_tangent },
+    { "cylindrical_worm_zk_zc", cylindrical_worm_zk_zc_derive_tangent, cylindrical_worm_zk_zc_tangent },
+    { "cylindrical_worm_zc_za", cylindrical_worm_zc_za_derive_tangent, cylindrical_worm_zc_za_tangent },
+    { "cylindrical_worm_zc_zi", cylindrical_worm_zc_zi_derive_tangent, cylindrical_worm_zc_zi_tangent },
+    { "cylindrical_worm_zc_zn", cylindrical_worm_zc_zn_derive_tangent, cylindrical_worm_zc_zn_tangent },
+    { "cylindrical_worm_zc_zk", cylindrical_worm_zc_zk_derive_tangent, cylindrical_worm_zc_zk_tangent },
+    { "cylindrical_worm_zc_zc", cylindrical_worm_zc_zc_derive_tangent, cylindrical_worm_zc_zc_tangent },
+    { "spherical_convex_convex", spherical_convex_convex_derive_tangent, spherical_convex_convex_tangent },
+    { "spherical_convex_concave", spherical_convex_concave_derive_tangent, spherical_convex_concave_tangent },
+    { "spherical_convex_spur", spherical_convex_spur_derive_tangent, spherical_convex_spur_tangent },
+    { "spherical_concave_convex", spherical_concave_convex_derive_tangent, spherical_concave_convex_tangent },
+    { "spherical_concave_concave", spherical_concave_concave_derive_tangent, spherical_concave_concave_tangent },
+    { "spherical_concave_spur", spherical_concave_spur_derive_tangent, spherical_concave_spur_tangent },
+    { "spherical_spur_convex", spherical_spur_convex_derive_tangent, spherical_spur_convex_tangent },
+    { "spherical_spur_concave", spherical_spur_concave_derive_tangent, spherical_spur_concave_tangent },
+    { "spherical_spur_spur", spherical_spur_spur_derive_tangent, spherical_spur_spur_tangent },
+    { "face_worm", face_worm_derive_tangent, face_worm_tangent },
+};
