@@ -9,6 +9,7 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.design import changed
 from meshwright.limits import Request
+from meshwright.sections import section
 
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
@@ -257,4 +258,33 @@ def test_the_command_writes_every_list_of_the_schema(tmp_path, capsys):
 def test_a_section_of_a_drive_that_is_not_at_right_angles_is_an_error(capsys):
     assert main(["limits", "zk-zn-45", "--section-y-mm", "0"]) == 2
     message = capsys.readouterr().err
-    assert "--section-y-mm" in message and "45" in message
+    assert "section y" in message and "45" in message
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_a_section_lies_in_the_plane_asked_for_whatever_the_hand(hand):
+    found = _drive("ZN", hand=hand).limits(Request(section_y=3.0))
+    assert [c.point[1] for c in found.section_profile] == pytest.approx([3.0] * 11, abs=1e-12)
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_surface_command_writes_the_profiles_of_a_section(profile, hand):
+    drive = _drive(profile, hand=hand)
+    grids = {}
+    for member, plane, place in (("pinion", 1, 3.0), ("wheel", 2, 3.0 if hand == "right" else -3.0)):
+        grids[member] = section(drive, member, 3.0, 7)
+        assert np.allclose(grids[member].points[:, plane], place, atol=1e-11)
+    contacts = drive.limits(Request(section_y=3.0, radii=tuple(np.hypot(*grids["pinion"].points[:, :2].T))))
+    for k, c in enumerate(contacts.section_profile):
+        assert np.allclose(c.wheel_point, grids["wheel"].points[k], atol=1e-9)
+        assert np.allclose(c.normal, grids["pinion"].normals[k], atol=1e-9)  # the rack slides, it does not turn
+
+
+def test_a_section_on_the_command_line(capsys):
+    assert main(["surface", "zk-zn-90", "--member", "wheel", "--section", "1.5", "--grid", "5x2", "--json", "-"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["section_y_mm"] == 1.5 and document["shape"] == [5, 1]
+    assert [p[2] for p in document["points_mm"]] == pytest.approx([1.5] * 5, abs=1e-11)
+    assert main(["surface", "zk-zn-90", "--member", "wheel", "--section", "1.5", "--stl", "x.stl"]) == 2
+    assert main(["surface", "zk-zn-45", "--member", "wheel", "--section", "1.5"]) == 2

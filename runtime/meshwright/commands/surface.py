@@ -12,6 +12,7 @@ from meshwright.commands import options as common
 from meshwright.errors import UsageError
 from meshwright.files import write_bytes, write_json, write_text
 from meshwright.grids import grid
+from meshwright.sections import section
 from meshwright.step import step
 
 
@@ -20,6 +21,9 @@ def add_arguments(parser):
     parser.add_argument("--member", choices=("pinion", "wheel"), required=True)
     parser.add_argument("--region", choices=("flank", "fillet"), default="flank", help="default: flank")
     parser.add_argument("--grid", default="21x41", metavar="NxM", help="points across and along; default 21x41")
+    parser.add_argument(
+        "--section", type=common.number, metavar="C", help="profile in the plane y = C of a right-angle worm drive, mm"
+    )
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.surface/1)")
     parser.add_argument("--vtu", metavar="FILE", help="write for ParaView")
     parser.add_argument("--stl", metavar="FILE", help="write triangles")
@@ -29,6 +33,11 @@ def add_arguments(parser):
 def run(options):
     shape = _shape(options.grid)
     drive = common.drive_of(options)
+    if options.section is not None:
+        _refuse_with_section(options)
+        found = section(drive, options.member, options.section, shape[0])
+        write_json(options.json or "-", document(found) | {"section_y_mm": options.section})
+        return 0
     found = grid(drive, options.member, shape, options.region)
     if options.vtu:
         write_text(options.vtu, exports.vtu(found))
@@ -39,6 +48,15 @@ def run(options):
     if options.json or not (options.vtu or options.stl or options.step):
         write_json(options.json or "-", document(found))
     return 0
+
+
+def _refuse_with_section(options):
+    """A section is a line, not a surface: it is written as JSON only, and only of flanks."""
+    for name in ("vtu", "stl", "step"):
+        if getattr(options, name):
+            raise UsageError(f"--{name}: a section is a line; write it with --json, or leave --section out")
+    if options.region != "flank":
+        raise UsageError(f"--region {options.region}: sections are of the flank; leave --region or --section out")
 
 
 def document(found):

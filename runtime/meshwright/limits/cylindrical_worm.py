@@ -4,6 +4,8 @@ Frames: points of contact in the fixed frame of generation (z the hob's axis, x 
 points in closed form hold at right angles of the cutting axes; undercut and meshing axes hold at any.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from meshwright.errors import UsageError
@@ -22,8 +24,9 @@ SECTION_POINTS = 11
 
 def limits(drive, request):
     """All limits of the drive; see :class:`~meshwright.limits.results.Limits`."""
+    request = _of_right_hand(drive, request)
     if request.section_y is not None:
-        _need_right_angle(drive)
+        need_right_angle(drive)
     hob = Profile(drive, "hob")
     found = Limits(
         undercut=_undercut(drive, hob, request),
@@ -38,9 +41,16 @@ def limits(drive, request):
 
 def section(drive, request):
     """The profile of worm and wheel in the plane y = C: contact points in order of growing worm radius."""
-    _need_right_angle(drive)
-    points = _section_profile(drive, Profile(drive, "hob"), request)
+    need_right_angle(drive)
+    points = _section_profile(drive, Profile(drive, "hob"), _of_right_hand(drive, request))
     return tuple(p.mirrored() for p in points) if drive.design.mirrored else points
+
+
+def _of_right_hand(drive, request):
+    """The request as the right-hand drive gets it: the mirror image of a section lies at −y."""
+    if request.section_y is None or not drive.design.mirrored:
+        return request
+    return replace(request, section_y=-request.section_y)
 
 
 def _mirrored(found):
@@ -53,11 +63,12 @@ def _is_right_angle(drive):
     return abs(drive.design.value("cutting_shaft_angle_deg") - np.pi / 2) < 1e-9
 
 
-def _need_right_angle(drive):
+def need_right_angle(drive):
+    """Raise :class:`~meshwright.errors.UsageError` unless hob and blank stand at right angles in cutting."""
     if not _is_right_angle(drive):
         angle = np.degrees(drive.design.value("cutting_shaft_angle_deg"))
         raise UsageError(
-            f"--section-y-mm: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
+            f"section y: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
             " set design.cutting_shaft_angle_deg=90, or leave the section out"
         )
 
@@ -125,21 +136,22 @@ def _principal(angle):
 
 
 def _section_profile(drive, hob, request):
-    radii = request.radii
-    if not radii:
-        pitch = _pitch_radius(drive)
-        root, tip = (drive.design.value(f"worm_{end}_radius_mm", "blank") for end in ("root", "tip"))
-        module = drive.design.value("normal_module_mm")
-        inner = root if np.isfinite(root) else pitch - 1.2 * module
-        outer = tip if np.isfinite(tip) else pitch + module
-        radii = np.linspace(max(inner, hob.least_radius() * (1 + 1e-9)), outer, SECTION_POINTS)
     found = []
-    for radius in radii:
+    for radius in request.radii or section_radii(drive, hob, SECTION_POINTS):
         t = hob.at_radius(radius)
         psi = float(drive.function("section")(t, request.section_y)["psi_fixed_hob"]) if t is not None else np.nan
         if np.isfinite(psi):
             found.append(_contact(drive, t, psi))
     return tuple(found)
+
+
+def section_radii(drive, profile, count):
+    """Radii from root to tip of a profile: the worm's blank, or one module up and 1.2 down where it is not given."""
+    pitch, module = (drive.design.value(key) for key in (f"{profile.name}_pitch_radius_mm", "normal_module_mm"))
+    root, tip = (drive.design.value(f"worm_{end}_radius_mm", "blank") for end in ("root", "tip"))
+    inner = root if np.isfinite(root) else pitch - 1.2 * module
+    outer = tip if np.isfinite(tip) else pitch + module
+    return np.linspace(max(inner, profile.least_radius() * (1 + 1e-9)), outer, count)
 
 
 def _axes(drive):

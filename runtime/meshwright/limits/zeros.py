@@ -14,7 +14,7 @@ def zeros(function, samples):
     found = [samples[k] for k in np.flatnonzero(values == 0.0)]
     for k in changes:
         root = _refine(function, samples[k], samples[k + 1], values[k])
-        beside = min(abs(values[k]), abs(values[k + 1]))
+        beside = max(abs(values[k]), abs(values[k + 1]))
         if abs(function(np.array([root]))[0]) <= ZERO_SHARE * beside:
             found.append(root)
     return sorted(found)
