@@ -7,7 +7,7 @@ pair's error is at an end, the pair drives until its contact leaves the flank ov
 import dataclasses
 
 from meshwright.pairs import Mesh
-from meshwright.transmission import transmission_error
+from meshwright.transmission import rides_on_edge
 from meshwright.windows import contact_window
 
 FLAG = "edge_contact"
@@ -18,7 +18,7 @@ def edge_window(drive):
     window = contact_window(drive)
     if window.path is None or not window.complete:
         return None
-    if not transmission_error(Mesh(drive, window)).rides_on_edge:
+    if not rides_on_edge(Mesh(drive, window)):
         return None
     return tuple(sorted((window.begin.angle, window.end.angle)))
 

@@ -80,8 +80,21 @@ def transmission_error(mesh):
         other_envelope_peak_to_peak=float(other),
         transfers=transfers,
         vertex=vertex,
-        rides_on_edge=bool(np.ptp(pair) > ROUND_OFF and np.argmax(mesh.sense * pair) in (0, len(pair) - 1)),
+        rides_on_edge=_extreme_at_an_end(mesh, pair),
     )
+
+
+def rides_on_edge(mesh):
+    """Whether the pair that leads stands at an end of its window; False if an end does not exist."""
+    if not mesh.window.complete:
+        return False
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    return _extreme_at_an_end(mesh, mesh.errors(_critical(mesh, low, high, _vertex(mesh))))
+
+
+def _extreme_at_an_end(mesh, pair):
+    """For errors of a pair over its window, ascending."""
+    return bool(np.ptp(pair) > ROUND_OFF and np.argmax(mesh.sense * pair) in (0, len(pair) - 1))
 
 
 def envelopes(mesh, angles, edges=(None, None)):
