@@ -135,7 +135,7 @@ def test_limits_that_are_not_given_do_not_end_contact(tmp_path, capsys):
 def test_line_contact_has_no_path_but_every_key(capsys):
     equal = Drive.load("recess-action-full").design.as_solved()["design"]["worm_pitch_radius_mm"]
     arguments = ["recess-action-full", "--set", f"design.hob_pitch_radius_mm={equal!r}", "--json", "-"]
-    assert main(["ratio", *arguments]) == 1
+    assert main(["ratio", *arguments]) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["status"] == "line_contact"
     assert set(document["transmission_error"]) > {"envelope", "transfer_angles_deg", "vertex_deg"}
@@ -152,3 +152,14 @@ def test_moving_the_wheel_away_opens_the_backlash(capsys):
     wheel_radius = 277.38
     expected = 2 * 0.05 * np.tan(np.radians(10.0)) / np.cos(np.radians(3.0)) / wheel_radius / ARCSEC
     assert arcsec[1] - arcsec[0] == pytest.approx(expected, rel=0.05)
+
+
+def test_the_papers_limits_can_be_asked_for_by_name():
+    """Tip r2 + 2 m_n − shift and blade end 2 m_n + shift, as the packaged designs spell them out."""
+    tables = Drive.load("recess-action-semi").design.tables
+    design = {k: v for k, v in tables["design"].items() if v is not None}
+    named = {"drive": "cylindrical-worm", "design": design, "blank": {"limits": "recess-action"}}
+    first, second = Drive.from_tables(named), Drive.load("recess-action-semi")
+    for key in ("wheel_tip_radius_mm", "hob_tip_addendum_mm"):
+        assert first.design.value(key, "blank") == pytest.approx(second.design.value(key, "blank"), abs=1e-8)
+    assert first.contact_ratio().contact_ratio == pytest.approx(second.contact_ratio().contact_ratio, abs=1e-7)

@@ -89,6 +89,13 @@ worm_root = parameter("worm_root_radius_mm", "rho_root", "root radius of the wor
 hob_tip = parameter(
     "hob_tip_addendum_mm", "h_hob", "end of the blade beyond the pitch line", table=Table.BLANK, domain=POSITIVE
 )
+preset = parameter(
+    "limits",
+    "limits",
+    "whose rule gives the wheel's tip and the end of the blade where this table leaves them open",
+    table=Table.BLANK,
+    choices=(("recess-action", 1),),
+)
 separation = parameter(
     "separation_mm",
     "delta",
@@ -106,7 +113,8 @@ PARAMETERS = (
     hob_radius, hob_threads, wheel_radius, arc_radius, hob_pressure_angle, hob_wheel_radius, hob_arc_radius,
     hob_lead_angle, center_distance, cutting_distance, cutting_angle,
     error_distance, error_horizontal, error_vertical, error_axial,
-    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, separation, allowance,
+    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, preset, separation,
+    allowance,
 )  # fmt: skip
 
 s, m_n, m_x, T_1, T_2 = (q.symbol for q in (flank, normal_module, axial_module, threads, teeth))
@@ -138,6 +146,9 @@ RULES = (
     Rule(A, r_1 + r_2),
     Rule(A_gen, A + r_h - r_1),
     Rule(Sigma_gen, Sigma + lam - lam_h),
+    # The recess-action paper's limits, in any proportions; without the preset they stay open (not a number).
+    Rule(wheel_tip.symbol, (r_2 + 2 * m_n - shift.symbol) * preset.symbol),
+    Rule(hob_tip.symbol, (2 * m_n + shift.symbol) * preset.symbol),
 )
 
 GUARDS = (

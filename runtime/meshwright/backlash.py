@@ -24,8 +24,12 @@ def backlash(drive):
     """
     if drive.design.description["flanks_apart"]:
         return math.nan
-    here, there = (Mesh.of(d) for d in _both_flanks(drive))
-    if here.window.path is None or there.window.path is None:
+    one, other = _both_flanks(drive)
+    here = Mesh.of(one)
+    if here.window.path is None:
+        return math.nan
+    there = Mesh.of(other)
+    if there.window.path is None:
         return math.nan
     complete = here.window.complete and there.window.complete
     angles = np.arange(SAMPLES) / SAMPLES * drive.pitch() if complete else np.zeros(1)

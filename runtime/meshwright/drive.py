@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import analysis, edge, limits
+from meshwright import analysis, contact_ratio, edge, grids, limits
 from meshwright import design as designs
 from meshwright._library import library, model, text
 from meshwright.design import Design
@@ -107,6 +107,14 @@ class Drive:
     def limits(self, request=None):
         """Undercut, edges of regression, limit points, axes: see :class:`~meshwright.limits.results.Limits`."""
         return limits.limits_of(self, request)
+
+    def contact_ratio(self):
+        """Ends of contact, teeth in contact, transmission error: :class:`~meshwright.contact_ratio.ContactRatio`."""
+        return contact_ratio.contact_ratio(self)
+
+    def surface(self, member, shape=(21, 41), region="flank"):
+        """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.grids.Grid`."""
+        return grids.grid(self, member, shape, region)
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

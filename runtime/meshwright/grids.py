@@ -196,7 +196,7 @@ class _Sheet:
     def _patches(self):
         """Lengthwise coordinates of the edges of contact patches over the window; none without a window."""
         window, lengthwise = self.mesh.window, self.flank.body["lengthwise"]
-        if not window.complete or not lengthwise:
+        if window.path is None or not window.complete or not lengthwise:
             return np.empty(0)
         angles = np.linspace(window.begin.angle, window.end.angle, PATCHES)
         patches = [p for p in contours(self.drive, self.drive.tca(angles), 8) if p is not None]

@@ -81,10 +81,15 @@ class Mesh:
         return range(math.ceil((angle - high) / pitch), math.floor((angle - low) / pitch) + 1)
 
     def pairs(self, angle):
-        """Every :class:`Pair` inside its window at a pinion angle, nearest to contact first."""
+        """Every :class:`Pair` inside its window at a pinion angle, nearest to contact first.
+
+        Flanks that touch along lines transmit uniformly: all their pairs touch.
+        """
         numbers = list(self.numbers(angle))
         if not numbers:
             return ()
+        if self.window.path is None:
+            return tuple(Pair(k, angle - k * self.drive.pitch(), math.nan, 0.0) for k in numbers)
         own = np.array([angle - k * self.drive.pitch() for k in numbers])
         errors = self.errors(own)
         levers = np.abs(self.window.path.levers(self.mirror * own))

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright._library import ffi, library, text
+from meshwright.analysis import analyse
 
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
@@ -46,9 +47,10 @@ class Path:
         tried = np.arange(9) / 8.0 * drive.pitch()
         first = None
         for angle in np.stack([tried, -tried], axis=1).ravel()[1:]:
-            unknowns, (status,) = drive.trace([angle])
+            found = analyse(drive, np.array([-angle if drive.design.mirrored else angle]))
+            (status,) = found.status
             if status == "converged":
-                return cls.through(drive, angle, unknowns[0]), status
+                return cls.through(drive, angle, found.solutions[0]), status
             if status == "line_contact":
                 return None, status
             first = first or status

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from meshwright.folds import fold_angle
+from meshwright.line_windows import line_ends
 from meshwright.path import Path
 from meshwright.roots import bracketed
 
@@ -50,7 +51,7 @@ class Window:
     """Contact of one pair from ``begin`` to ``end``, in the order in which the driving pinion turns.
 
     ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where there is none,
-    and ``status`` is the status word that says why.
+    and ``status`` is the status word that says why. Line contact has no path but may begin and end.
     """
 
     begin: Event
@@ -81,17 +82,27 @@ class Window:
 def contact_window(drive):
     """The :class:`Window` of a drive's tooth pair: the stretch of its path inside every limit, nearest to angle 0."""
     path, status = Path.start(drive)
-    if path is None:
-        return Window(NO_EVENT, NO_EVENT, None, status)
     limits = limits_of(drive)
+    if path is None:
+        ends = _line_ends(drive, limits) if status == "line_contact" else (NO_EVENT, NO_EVENT)
+        return Window(*_in_order(drive, ends), None, status)
     path = _searched(path, limits)
     ends = _ends(path, limits)
     if ends is None:
         return Window(NO_EVENT, NO_EVENT, path)
-    path = _with_margin(path, ends)
+    return Window(*_in_order(drive, ends), _with_margin(path, ends))
+
+
+def _in_order(drive, ends):
+    """Begin and end, as the user counts angles, of the lower and upper event of the right-hand drive."""
     sign = _mirror(drive)
-    begin, end = (Event(sign * e.angle, e.reason, e.member) for e in ends)
-    return Window(end, begin, path) if _descending(drive) else Window(begin, end, path)
+    lower, upper = (Event(sign * e.angle, e.reason, e.member) for e in ends)
+    return (upper, lower) if _descending(drive) else (lower, upper)
+
+
+def _line_ends(drive, limits):
+    found = line_ends(drive, limits)
+    return tuple(NO_EVENT if e is None else Event(e[0], e[1].reason, e[1].member) for e in found)
 
 
 def limits_of(drive):

@@ -7,12 +7,10 @@ import math
 
 import numpy as np
 
-from meshwright.backlash import backlash
 from meshwright.commands import options as common
 from meshwright.files import write_json, write_text
-from meshwright.pairs import Mesh
 from meshwright.results import ARCSEC
-from meshwright.transmission import fourier, transmission_error
+from meshwright.transmission import fourier
 
 #: Tooth orders of the Fourier components that are written.
 ORDERS = 8
@@ -26,33 +24,32 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    mesh = Mesh.of(drive)
-    document = report(mesh, common.angles_of(options, drive))
+    found = drive.contact_ratio()
+    contents = document(drive, found, common.angles_of(options, drive))
     if options.json:
-        write_json(options.json, document)
+        write_json(options.json, contents)
     else:
-        write_text("-", _page(drive, mesh, document))
-    return 0 if mesh.window.complete else 1
+        write_text("-", _page(drive, contents))
+    return 0 if found.mesh.window.complete else 1
 
 
-def report(mesh, angles):
-    """The ``meshwright.ratio/1`` document; contact teeth at the pinion ``angles``, rad."""
-    drive, window = mesh.drive, mesh.window
+def document(drive, found, angles):
+    """The ``meshwright.ratio/1`` document of a contact ratio; contact teeth at the pinion ``angles``, rad."""
     return {
         "schema": "meshwright.ratio/1",
         "drive": drive.design.family,
         "design": drive.design.as_solved(),
-        "status": window.status,
-        "begin": _event(window.begin),
-        "end": _event(window.end),
-        "contact_ratio": _number(mesh.contact_ratio),
+        "status": found.status,
+        "begin": _event(found.begin),
+        "end": _event(found.end),
+        "contact_ratio": _number(found.contact_ratio),
         "average_contact_teeth": {
-            "over_one_pitch": _number(mesh.average_over_pitch()),
-            "begin_to_end": _number(mesh.average_begin_to_end()),
+            "over_one_pitch": _number(found.average_over_pitch),
+            "begin_to_end": _number(found.average_begin_to_end),
         },
-        "contact_teeth": [_teeth(mesh, angle) for angle in angles],
-        "transmission_error": _transmission(mesh),
-        "backlash_arcsec": _number(backlash(drive) / ARCSEC),
+        "contact_teeth": [_teeth(found.mesh, angle) for angle in angles],
+        "transmission_error": _transmission(found),
+        "backlash_arcsec": _number(found.backlash / ARCSEC),
     }
 
 
@@ -68,14 +65,14 @@ def _teeth(mesh, angle):
     return entry
 
 
-def _transmission(mesh):
+def _transmission(ratio):
     keys = (
         "pair_peak_to_peak_arcsec", "envelope_peak_to_peak_arcsec", "envelope", "other_envelope_peak_to_peak_arcsec",
         "envelope_with_edges_peak_to_peak_arcsec", "transfer_angles_deg", "vertex_deg", "rides_on_edge", "orders",
     )  # fmt: skip
-    if mesh.window.path is None:
+    found = ratio.transmission_error
+    if found is None:
         return dict.fromkeys(keys)
-    found = transmission_error(mesh)
     values = (
         _number(found.pair_peak_to_peak / ARCSEC),
         _number(found.envelope_peak_to_peak / ARCSEC),
@@ -85,7 +82,7 @@ def _transmission(mesh):
         [math.degrees(a) for a in found.transfers] or None,
         _number(math.degrees(found.vertex)),
         found.rides_on_edge,
-        _orders(mesh),
+        _orders(ratio.mesh),
     )
     return dict(zip(keys, values, strict=True))
 
@@ -107,13 +104,13 @@ def _number(value):
     return float(value) if math.isfinite(value) else None
 
 
-def _page(drive, mesh, document):
-    error, average = document["transmission_error"], document["average_contact_teeth"]
+def _page(drive, contents):
+    error, average = contents["transmission_error"], contents["average_contact_teeth"]
     transfers = error["transfer_angles_deg"] or [None]
     rows = [
-        ("contact begins at", *_at(document["begin"])),
-        ("contact ends at", *_at(document["end"])),
-        ("contact ratio", _shown(document["contact_ratio"], "")),
+        ("contact begins at", *_at(contents["begin"])),
+        ("contact ends at", *_at(contents["end"])),
+        ("contact ratio", _shown(contents["contact_ratio"], "")),
         ("teeth in contact, over one pitch", _shown(average["over_one_pitch"], "")),
         ("teeth in contact, begin to end", _shown(average["begin_to_end"], "")),
         ("transmission error of a pair", _shown(error["pair_peak_to_peak_arcsec"], "arcsec peak to peak")),
@@ -123,11 +120,11 @@ def _page(drive, mesh, document):
         ("  of the other envelope", _shown(error["other_envelope_peak_to_peak_arcsec"], "arcsec peak to peak")),
         ("pairs change at", ", ".join(_shown(a, "deg") for a in transfers)),
         ("vertex at", _shown(error["vertex_deg"], "deg")),
-        ("backlash", _shown(document["backlash_arcsec"], "arcsec of the wheel")),
+        ("backlash", _shown(contents["backlash_arcsec"], "arcsec of the wheel")),
     ]  # fmt: skip
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
-    if mesh.window.status != "converged":
-        lines.append(f"no path of contact: {mesh.window.status}")
+    if contents["status"] != "converged":
+        lines.append(f"no path of contact points: {contents['status']}")
     lines += [f"{name:<34} {', '.join(values)}" for name, *values in rows]
     if error["rides_on_edge"]:
         lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")

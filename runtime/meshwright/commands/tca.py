@@ -7,10 +7,10 @@ import numpy as np
 
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.contact_line import contact_line
 from meshwright.errors import UsageError
 from meshwright.files import write_csv, write_json, write_text
 from meshwright.pattern import contour
-
 
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5
@@ -52,12 +52,17 @@ def run(options):
 
 
 def _add_contours(points, drive, result, count):
-    """One-sided radii at the design's separation; ``radius_on_flank_mm`` stops at the edges of the flanks."""
+    """One-sided radii at the design's separation; ``radius_on_flank_mm`` stops at the edges of the flanks.
+
+    Where the flanks touch along a line: the line, from edge to edge.
+    """
     with progress(len(points)) as step:
         for point, angle in zip(points, result.angles, strict=True):
             step(f"contact patch at {np.degrees(angle):.1f}°")
             patch = contour(drive, angle, count, result=result)
             point["contour"] = [] if patch is None else _radii(patch)
+            if point["status"] == "line_contact":
+                point["contact_line_mm"] = _line(drive, result, angle)
 
 
 def _add_other_contacts(points, drive, result):
@@ -68,6 +73,12 @@ def _add_other_contacts(points, drive, result):
             found = drive.contacts(angle).relative_to(result.reference_error)
             same = np.linalg.norm(found.points - result.points[k], axis=1) < SAME_POINT
             point["other_contacts"] = [c for c, known in zip(found.to_points(), same, strict=True) if not known]
+
+
+def _line(drive, result, angle):
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    start = result.solutions[int(np.argmin(np.abs(result.angles - angle)))]
+    return (contact_line(drive, mirror * angle, start).points * [1.0, mirror, 1.0]).tolist()
 
 
 def _radii(patch):
@@ -89,7 +100,7 @@ def _flat(point):
     for key, value in point.items():
         if isinstance(value, dict):
             flat |= {f"{key}.{inner}": v for inner, v in _flat(value).items()}
-        elif key == "contour":
+        elif key in ("contour", "contact_line_mm"):
             continue
         elif key == "flags":
             flat[key] = " ".join(value)

@@ -1,0 +1,85 @@
+"""Flanks that touch along lines: the line itself, and the window in which any of it lies on the flanks."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.contact_line import contact_line
+
+SPUR = {
+    "drive": "spherical",
+    "design": {
+        "module_mm": 4.0,
+        "pinion_teeth": 36,
+        "wheel_teeth": 72,
+        "pressure_angle_deg": 20.0,
+        "pinion_form": "spur",
+        "wheel_form": "spur",
+        "face_width_mm": 15.0,
+    },
+}
+
+
+def _equal_helicoids():
+    drive = Drive.load("recess-action-full")
+    return drive.with_(design={"hob_pitch_radius_mm": drive.design.as_solved()["design"]["worm_pitch_radius_mm"]})
+
+
+def _involute_contact_ratio(module, teeth, pressure_angle):
+    """ISO 21771: transverse contact ratio of a spur pair with tips one module beyond the pitch circles."""
+    radii = [module * t / 2 for t in teeth]
+    lengths = [math.sqrt((r + module) ** 2 - (r * math.cos(pressure_angle)) ** 2) for r in radii]
+    distance = module * sum(teeth) / 2
+    path = sum(lengths) - distance * math.sin(pressure_angle)
+    return path / (math.pi * module * math.cos(pressure_angle))
+
+
+@pytest.mark.parametrize("pressure_angle", [20.0, 25.0])
+def test_spur_gears_have_the_contact_ratio_of_the_standard(pressure_angle):
+    drive = Drive.from_tables(SPUR).with_(design={"pressure_angle_deg": pressure_angle})
+    found = drive.contact_ratio()
+    assert found.status == "line_contact"
+    assert (found.begin.reason, found.begin.member) == ("tip", "wheel")
+    assert (found.end.reason, found.end.member) == ("tip", "pinion")
+    expected = _involute_contact_ratio(4.0, (36, 72), math.radians(pressure_angle))
+    assert found.contact_ratio == pytest.approx(expected, abs=1e-8)
+
+
+def _line(drive, angle):
+    starts, _ = drive.trace([angle])
+    return contact_line(drive, angle, starts[0])
+
+
+def test_the_line_of_spur_gears_runs_straight_across_the_face():
+    line = _line(Drive.from_tables(SPUR), 0.02)
+    ends = line.points[[0, -1]]
+    assert np.abs(ends[:, 2]) == pytest.approx([7.5, 7.5], abs=1e-9)
+    assert np.ptp(line.points[:, :2], axis=0) == pytest.approx([0.0, 0.0], abs=1e-10)
+
+
+def test_a_worm_and_its_equal_hob_touch_along_a_curve_from_edge_to_edge():
+    drive = _equal_helicoids()
+    line = _line(drive, math.radians(1000.0))
+    blade_end = math.pi / (2 * math.sin(math.radians(10.0))) + 4.0 / math.cos(math.radians(10.0))
+    wheel = drive.flank("wheel")(line.parameters["wheel"])
+    at_tip = np.abs(wheel.margins["tip"][[0, -1]]) < 1e-8
+    at_root = np.abs(line.parameters["wheel"][[0, -1], 0] - blade_end) < 1e-8
+    at_sheet = np.abs(wheel.margins["spurious_sheet"][[0, -1]]) < 1e-6
+    assert (at_tip | at_root | at_sheet | (np.abs(wheel.regular[[0, -1]]) < 1e-6)).all()
+
+
+def test_line_contact_begins_earlier_and_ends_later_than_contact_at_a_point():
+    """The line reaches past the point that a barely larger hob leaves of it."""
+    line, point = _equal_helicoids().contact_ratio(), Drive.load("recess-action-full").contact_ratio()
+    assert line.begin.angle < point.begin.angle and line.end.angle > point.end.angle
+
+
+def test_the_command_draws_the_line(capsys):
+    equal = _equal_helicoids().design.value("hob_pitch_radius_mm")
+    setting = ["--set", f"design.hob_pitch_radius_mm={equal!r}"]
+    assert main(["tca", "recess-action-full", *setting, "--phi-deg", "1000", "--contour", "8", "--json", "-"]) == 1
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert point["contour"] == [] and len(point["contact_line_mm"]) > 10
