@@ -9,6 +9,9 @@ from meshwright.roots import bracketed
 STEP = 1e-5
 MAX_STEPS = 60
 
+#: A fold is approached until it is nearer than this, in pitches.
+NEAR = 1e-4
+
 
 def fold_angle(path, side):
     """The input angle of the fold beyond the path's lower (0) or upper (-1) end; None if the end is no fold.
@@ -18,7 +21,7 @@ def fold_angle(path, side):
     """
     if len(path.angles) < 2:
         return None
-    branch = _Branch(path, side)
+    branch = _Branch(_approached(path, side), side)
     here, slope = branch.at_end()
     if slope is None:
         return None
@@ -33,6 +36,19 @@ def fold_angle(path, side):
             return float(branch.angle)
         here, slope = here + step, further
     return None
+
+
+def _approached(path, side):
+    """The path continued towards its end in ever smaller steps: close to a fold its fastest unknown stands out."""
+    pitch = path.drive.pitch()
+    step = (1.0 if side else -1.0) * pitch / 32.0
+    while abs(step) > NEAR * pitch:
+        longer = path.extended(path.angles[side] + step)
+        if len(longer.angles) > len(path.angles):
+            path = longer
+        else:
+            step *= 0.5
+    return path
 
 
 class _Branch:
