@@ -20,8 +20,8 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(const double *given, co
     open[22] = 0;
     open[23] = 0;
     open[24] = 0;
-    open[31] = 0;
     open[32] = 0;
+    open[33] = 0;
     (void)p;
     (void)dp;
     if (open[5] && !open[2] && !open[3] && !open[6]) { /* lambda_worm */
@@ -195,6 +195,46 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(const double *given, co
         const double t1 = t0 - dp[17];
         dp[20] = t1;
         open[20] = 0;
+    }
+    if (open[25] && !open[1] && !open[4] && !open[5] && !open[8] && !open[9] && !open[31]) { /* R_tip */
+        const double t0 = p[5] + p[8];
+        const double t1 = p[1] * p[4];
+        const double t2 = dp[5] + dp[8];
+        const double t3 = dp[1] * p[4];
+        const double t4 = p[1] * dp[4];
+        const double t5 = p[1] * 2.0;
+        double s6, c6;
+        cylindrical_worm_zi_zi_sincos(t0, &s6, &c6);
+        const double t8 = dp[1] * 2.0;
+        const double t9 = t3 + t4;
+        const double t10 = t5 - p[9];
+        const double t11 = t8 - dp[9];
+        const double t12 = 2.0 * s6;
+        const double t13 = t2 * c6;
+        const double t14 = t1 / t12;
+        const double t15 = 1.0 / t12;
+        const double t16 = 2.0 * t13;
+        const double t17 = t14 * t16;
+        const double t18 = t14 + t10;
+        const double t19 = t9 - t17;
+        const double t20 = dp[31] * t18;
+        const double t21 = t15 * t19;
+        const double t22 = t21 + t11;
+        const double t23 = p[31] * t22;
+        const double t24 = t20 + t23;
+        dp[25] = t24;
+        open[25] = 0;
+    }
+    if (open[30] && !open[1] && !open[9] && !open[31]) { /* h_hob */
+        const double t0 = p[1] * 2.0;
+        const double t1 = dp[1] * 2.0;
+        const double t2 = p[9] + t0;
+        const double t3 = dp[9] + t1;
+        const double t4 = dp[31] * t2;
+        const double t5 = p[31] * t3;
+        const double t6 = t4 + t5;
+        dp[30] = t6;
+        open[30] = 0;
     }
 }
 
