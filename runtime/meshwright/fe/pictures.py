@@ -44,9 +44,11 @@ def stress_over_angle(positions: list[dict], path: Path) -> None:
         values = [position["bending"][name]["max_principal_mpa"] for position in ordered]
         bending.plot(angles, values, "o-", label=f"{name}, largest principal")
     for axes, title in ((contact, "contact stress"), (bending, "stress in the fillets")):
-        axes.set(ylabel=f"{title} / MPa", ylim=(0.0, None))
+        axes.margins(y=0.1)
+        axes.set(ylabel=f"{title} / MPa")
+        axes.set_ylim(bottom=0.0)
         axes.grid(alpha=0.3)
-        axes.legend()
+        axes.legend(loc="lower right")
     bending.set_xlabel("pinion angle / deg")
     figure.savefig(path, dpi=_DPI)
 
