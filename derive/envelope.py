@@ -101,8 +101,7 @@ def shared_angles(surface):
 def explicit_angle(surface, angle, sign):
     """Solve the last condition, homogeneous in the cosine and sine of ``angle``, for that parameter.
 
-    Of two opposite directions, ``sign`` = ±1 selects the one with which ``solve_direction`` of sign · condition
-    answers.
+    Of a·cos + b·sin = 0 the result is the direction (cos, sin) ∝ sign · (b, −a): the opposite one solves it too.
     """
     *others, condition = surface.conditions
     a, b = _direction(condition, angle)
@@ -119,17 +118,6 @@ def in_turn(condition, angle):
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
         raise ValueError("the equation is not linear in the cosine and sine of one angle")
     return a, b, c
-
-
-def solve_direction(condition, angle):
-    """Solve a·cos + b·sin = 0 for the direction of ``angle``: what replaces its cosine and sine.
-
-    The result is (cos, sin) = (b, −a)/√(a² + b²). The opposite direction solves the equation too: negate the
-    condition to select it.
-    """
-    a, b = _direction(condition, angle)
-    length = sp.sqrt(a**2 + b**2)
-    return {sp.cos(angle): b / length, sp.sin(angle): -a / length}
 
 
 def _direction(condition, angle):

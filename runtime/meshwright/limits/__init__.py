@@ -14,20 +14,14 @@ FAMILIES = {
     "face-worm": face_worm.limits,
     "spherical": spherical.limits,
 }
-SECTIONS = {"cylindrical-worm": cylindrical_worm.section}
 SEARCHES = {"cylindrical-worm": contacts.contacts}
 
-__all__ = ["FAMILIES", "Limits", "Request", "contacts_of", "limits_of", "section_of"]
+__all__ = ["FAMILIES", "Limits", "Request", "contacts_of", "limits_of"]
 
 
 def limits_of(drive, request=None):
     """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad."""
     return _of_family(drive, FAMILIES, "limits")(drive, request or Request())
-
-
-def section_of(drive, request):
-    """Contact points of the section y = ``request.section_y``: see :attr:`Limits.section_profile`."""
-    return _of_family(drive, SECTIONS, "sections")(drive, request)
 
 
 def contacts_of(drive, angle):

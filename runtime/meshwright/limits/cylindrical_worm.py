@@ -39,13 +39,6 @@ def limits(drive, request):
     return _mirrored(found) if drive.design.mirrored else found
 
 
-def section(drive, request):
-    """The profile of worm and wheel in the plane y = C: contact points in order of growing worm radius."""
-    need_right_angle(drive)
-    points = _section_profile(drive, Profile(drive, "hob"), _of_right_hand(drive, request))
-    return tuple(p.mirrored() for p in points) if drive.design.mirrored else points
-
-
 def _of_right_hand(drive, request):
     """The request as the right-hand drive gets it: the mirror image of a section lies at −y."""
     if request.section_y is None or not drive.design.mirrored:
