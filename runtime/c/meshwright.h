@@ -117,6 +117,10 @@ size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0,
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags);
 
+/* Rules differentiated: dp[np] holds the changes of the parameters given[np] and receives those that follow from them;
+ * p[np] is given, completed. Returns MW_CONVERGED, or MW_BAD_INPUT for a drive whose parameters a system solves. */
+int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp);
+
 /* Exact derivatives of a contact along a change[np] of the given parameters: dp[np] with what follows by rules, dx[nx]
  * of the unknowns, dr[3] of the contact point, fixed frame. given[np] as the design has them (NaN: open), p[np] the
  * same completed, s set up for p and phi, x[nx] the solution. Returns MW_CONVERGED, MW_SINGULAR where the contact does

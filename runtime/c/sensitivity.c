@@ -19,6 +19,14 @@ static const mw_tangents *find(const mw_model *m)
     return NULL;
 }
 
+int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp)
+{
+    const mw_tangents *t = find(m);
+    if (!t || m->nsystems > 0) return MW_BAD_INPUT;
+    t->derive(given, p, dp);
+    return MW_CONVERGED;
+}
+
 /* Below this share of the largest pivot the contact does not determine its point: line contact. */
 static const double RANK_TOLERANCE = 1e-12;
 
@@ -28,9 +36,8 @@ int mw_sensitivity(const mw_model *m, const double *given, const double *p, doub
     const mw_tangents *t = find(m);
     double R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], right[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     double gap;
-    if (!t || m->nsystems > 0) return MW_BAD_INPUT;
     memcpy(dp, change, sizeof(double) * (size_t)m->np);
-    t->derive(given, p, dp);
+    if (mw_complete_tangent(m, given, p, dp) < 0) return MW_BAD_INPUT;
     for (int j = 0; j < m->nx; j++) dx[j] = 0.0;
     t->contact(p, dp, phi, x, dx, right, dr);
     for (int j = 0; j < m->nx; j++) right[j] = -right[j];
