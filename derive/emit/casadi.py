@@ -6,7 +6,6 @@ from pathlib import Path
 import casadi
 
 
-
 def function(plan):
     """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards.
 

@@ -11,7 +11,11 @@ from derive.schedule import Schedule
 
 def _in_lanes(leaves):
     """The scalar operands, per lane: ``s[3]`` becomes ``s[3 * MW_LANES + l]``."""
-    return {node: f"{text[:-1]} * MW_LANES + l]" if text.endswith("]") else f"{text}[l]" for node, text in leaves.items()}
+    return {node: _in_lane(text) for node, text in leaves.items()}
+
+
+def _in_lane(text):
+    return f"{text[:-1]} * MW_LANES + l]" if text.endswith("]") else f"{text}[l]"
 
 
 def header(plan: Schedule, generator: str):

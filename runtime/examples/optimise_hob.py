@@ -6,7 +6,6 @@ import math
 
 import casadi
 import numpy as np
-
 from meshwright import Drive
 from meshwright.optimise import Completion, contact, semi_major
 from meshwright.results import ARCSEC
@@ -39,7 +38,8 @@ def main():
         limits += [(x[error] - points[middle][0][error]) / ARCSEC for k, (x, _) in enumerate(points) if k != middle]
 
     problem = {"x": q, "f": (length / WANTED_MM - 1) ** 2, "g": casadi.vertcat(*limits)}
-    options = {"ipopt": {"hessian_approximation": "limited-memory", "print_level": 0, "max_iter": 60}, "print_time": False}
+    ipopt = {"hessian_approximation": "limited-memory", "print_level": 0, "sb": "yes", "max_iter": 60}
+    options = {"ipopt": ipopt, "print_time": False}
     solver = casadi.nlpsol("design", "ipopt", problem, options)
     best = solver(x0=at, lbx=[at[0] - 0.7, 2.5], ubx=[at[0] + 3.0, 5.0], lbg=-BOUND_ARCSEC, ubg=BOUND_ARCSEC)
     values = np.asarray(best["x"]).ravel()

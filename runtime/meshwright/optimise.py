@@ -118,10 +118,10 @@ def contact(drive):
 
 
 def semi_major(drive, observed, separation):
-    """Semi-major axis of the contact ellipse (mm) from an observation, as an expression; explicit flanks only."""
+    """Semi-major axis of the contact ellipse (mm) of an observation, as an expression; explicit flanks only."""
     pinion, wheel = drive.design.description["bodies"]
     if pinion["conditions"] or wheel["conditions"]:
-        raise UsageError(f"{drive.design.description['title']}: the ellipse of an implicit flank has no expression here")
+        raise UsageError(f"{drive.design.description['title']}: no expression for the ellipse of an implicit flank")
     normal = observed[3:6]
     first = observed[pinion["at"] : pinion["at"] + 3]
     first = first - casadi.dot(first, normal) * normal

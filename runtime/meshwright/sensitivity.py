@@ -97,7 +97,6 @@ def _derivative(m, given, parameters, phi, state, x, column):
     alone = given.copy()
     alone[column] = parameters[column]
     dp, dx, dr = np.empty(m.np), np.empty(m.nx), np.empty(3)
-    ended = library().mw_sensitivity(
-        m, *map(_pointer, (alone, parameters)), phi, *map(_pointer, (state, np.ascontiguousarray(x), change, dp, dx, dr))
-    )
+    rest = map(_pointer, (state, np.ascontiguousarray(x), change, dp, dx, dr))
+    ended = library().mw_sensitivity(m, _pointer(alone), _pointer(parameters), phi, *rest)
     return (dx, dr) if ended >= 0 else None

@@ -30,7 +30,7 @@ QUANTILES = (0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0)
 
 @dataclass(frozen=True)
 class Variation:
-    """What happens to one key ("table.key"), in the key's unit: ``uniform`` low and high, ``normal`` mean and deviation."""
+    """What happens to one key ("table.key"), in its unit: ``uniform`` low, high or ``normal`` mean, deviation."""
 
     key: str
     kind: str
@@ -93,7 +93,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Rows:
-    """A solved slice: ``sample`` numbers, ``values`` (S, K), ``status`` and ``error`` (S, N), ``points`` (S, N, 3), ``flags``."""
+    """A solved slice: ``sample`` (S,), ``values`` (S, K), ``status``, ``error``, ``flags`` (S, N), ``points`` (S, N, 3)."""
 
     sample: np.ndarray
     values: np.ndarray

@@ -13,14 +13,14 @@ from pathlib import Path
 
 import casadi
 import numpy as np
+from meshwright import Drive
+from meshwright._library import ffi, library
 
-from tests.benchmarks import baselines
-from tests.benchmarks.timing import best, compile_c, compiler, instructions
 from derive import drives
 from derive.schedule import schedule
 from derive.tape import Stage
-from meshwright import Drive
-from meshwright._library import ffi, library
+from tests.benchmarks import baselines
+from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
 ROOT = Path(__file__).resolve().parents[2]
 RUNTIME, GENERATED, HERE = ROOT / "runtime" / "c", ROOT / "generated" / "c", Path(__file__).parent
@@ -89,7 +89,8 @@ def lane_points(case, width):
 
 def _run(program, case, *arguments):
     command = [str(program), *map(str, arguments)]
-    return float(subprocess.run(command, input=case.text(), capture_output=True, text=True, check=True).stdout.split()[0])
+    done = subprocess.run(command, input=case.text(), capture_output=True, text=True, check=True)
+    return float(done.stdout.split()[0])
 
 
 def _counted(program, case, folder, *options):
@@ -101,7 +102,8 @@ def _counted(program, case, folder, *options):
 
 
 def scalar_program(case, folder, *options):
-    sources = [HERE / "scalar_trace.c", *(p for p in RUNTIME.glob("*.c") if not p.name.startswith(("lanes", "library")))]
+    every_drive = ("lanes", "library", "sensitivity")
+    sources = [HERE / "scalar_trace.c", *(p for p in RUNTIME.glob("*.c") if not p.name.startswith(every_drive))]
     name = case.name
     defines = [f'-DHEADER="{name}.h"', f"-DMODEL={name}_model", f"-DMODEL_NX={name}_NX"]
     return compile_c(sources, folder / "scalar", f"-I{GENERATED}", f"-I{RUNTIME}", *defines, *options)
@@ -180,7 +182,7 @@ def main():
             case = case_of(design, first, step)
             rates, counts, plan = measure(case, folder)
             for kernel, rate in rates.items():
-                shown = "not on this processor" if rate is None else f"{rate:.4g} points/s {rate / rates['scipy']:.1f}x SciPy"
+                shown = f"{rate:.4g} points/s {rate / rates['scipy']:.1f}x SciPy" if rate else "not on this processor"
                 print(f"{case.name} {kernel} {shown}", flush=True)
             _remarks(case, rates, counts, plan, top)
             growth.append((case.name, len(case.start), operations(plan), rates["scalar"]))
@@ -198,10 +200,10 @@ def main():
 def _remarks(case, rates, counts, plan, top):
     if None not in counts.values():
         for kernel, count in counts.items():
-            print(f"  {kernel}: {count:.0f} instructions a point, {count / counts['scalar']:.1f} times the scalar kernel's")
+            print(f"  {kernel}: {count:.0f} instructions a point, {count / counts['scalar']:.1f} times the scalar's")
     widest = max(r for k, r in rates.items() if k.startswith("lanes") and r)
     share = widest * operations(plan) / top
-    print(f"  widest lanes: {operations(plan)} operations a step, {100 * share:.0f} % of the measured peak of {top:.3g}/s")
+    print(f"  widest lanes: {operations(plan)} operations a step, {100 * share:.0f} % of the measured peak {top:.3g}/s")
 
 
 if __name__ == "__main__":

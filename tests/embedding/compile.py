@@ -40,7 +40,7 @@ def strict_object(command, header, folder, standard):
     """Object file of a translation unit that holds one header and refers to its model."""
     unit = folder / ("unit.c" if standard.startswith("c9") else "unit.cpp")
     prefix = Path(header).stem
-    before = 'extern "C" const mw_model *model(void);\n' if standard.startswith("c++") else "const mw_model *model(void);\n"
+    before = ('extern "C" ' if standard.startswith("c++") else "") + "const mw_model *model(void);\n"
     unit.write_text(f'#include "{header}"\n{before}const mw_model *model(void) {{ return &{prefix}_model; }}\n')
     output = folder / "unit.o"
     run(*command, f"-std={standard}", "-O1", *STRICT, *EXACT, f"-I{GENERATED}", "-c", unit, "-o", output)

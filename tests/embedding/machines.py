@@ -82,7 +82,12 @@ def arm64(path, problem):
     """Steps and solution on an emulated 64-bit ARM processor."""
     from unicorn import UC_ARCH_ARM64, UC_MODE_ARM, Uc
     from unicorn.arm64_const import (
-        UC_ARM64_REG_CPACR_EL1, UC_ARM64_REG_D0, UC_ARM64_REG_LR, UC_ARM64_REG_SP, UC_ARM64_REG_X0, UC_ARM64_REG_X1,
+        UC_ARM64_REG_CPACR_EL1,
+        UC_ARM64_REG_D0,
+        UC_ARM64_REG_LR,
+        UC_ARM64_REG_SP,
+        UC_ARM64_REG_X0,
+        UC_ARM64_REG_X1,
         UC_ARM64_REG_X2,
     )  # fmt: skip
 
@@ -98,11 +103,18 @@ def arm64(path, problem):
 
 
 def cortex_m7(path, problem):
-    """Steps and solution of Cortex-M7 code on an emulated processor that has its instructions, the FPv5 unit included."""
+    """Steps and solution of Cortex-M7 code on an emulated processor with its instructions, FPv5 included."""
     from unicorn import UC_ARCH_ARM, UC_MODE_THUMB, Uc
     from unicorn.arm_const import (
-        UC_ARM_REG_C1_C0_2, UC_ARM_REG_D0, UC_ARM_REG_FPEXC, UC_ARM_REG_LR, UC_ARM_REG_R0, UC_ARM_REG_R1,
-        UC_ARM_REG_R2, UC_ARM_REG_SP, UC_CPU_ARM_MAX,
+        UC_ARM_REG_C1_C0_2,
+        UC_ARM_REG_D0,
+        UC_ARM_REG_FPEXC,
+        UC_ARM_REG_LR,
+        UC_ARM_REG_R0,
+        UC_ARM_REG_R1,
+        UC_ARM_REG_R2,
+        UC_ARM_REG_SP,
+        UC_CPU_ARM_MAX,
     )  # fmt: skip
 
     uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB)

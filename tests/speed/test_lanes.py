@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-
 from meshwright import Drive
 from meshwright._library import ffi, library
 

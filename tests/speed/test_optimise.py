@@ -26,7 +26,8 @@ def test_casadi_differentiates_the_contact_as_the_library_does():
     slopes = casadi.Function("slopes", [q], [casadi.jacobian(unknowns, q)])
     at = [drive.design.as_solved()["design"][key.partition(".")[2]] for key in KEYS]
     ours = sensitivity(drive, [angle])
-    expected = np.stack([ours.unknowns[u["name"]][0, [ours.of(k) for k in KEYS]] for u in drive.design.description["unknowns"]])
+    columns = [ours.of(key) for key in KEYS]
+    expected = np.stack([ours.unknowns[u["name"]][0, columns] for u in drive.design.description["unknowns"]])
     assert np.asarray(slopes(at)) == pytest.approx(expected, rel=1e-7, abs=1e-7)
 
 
@@ -39,6 +40,7 @@ def test_the_ellipse_as_an_expression_is_that_of_the_analysis():
 
 
 def test_ipopt_finds_a_hob_with_the_wanted_ellipse_within_the_bound_on_the_error():
-    done = subprocess.run([sys.executable, ROOT / "runtime" / "examples" / "optimise_hob.py"], capture_output=True, text=True)
+    example = ROOT / "runtime" / "examples" / "optimise_hob.py"
+    done = subprocess.run([sys.executable, example], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "semi-major axis 6.0000 mm" in done.stdout

@@ -17,8 +17,8 @@ _FORMS = "low:high or normal:mean:deviation"
 
 def add_arguments(parser):
     parser.add_argument("design", metavar="DESIGN", help="packaged design or TOML file")
-    parser.add_argument("--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key; repeatable")
-    parser.add_argument("--vary", action="append", required=True, metavar="TABLE.KEY=RANGE", help=f"{_FORMS}; repeatable")
+    parser.add_argument("--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key")
+    parser.add_argument("--vary", action="append", required=True, metavar="TABLE.KEY=RANGE", help=_FORMS)
     how = parser.add_mutually_exclusive_group(required=True)
     how.add_argument("--samples", type=int, metavar="N", help="random samples")
     how.add_argument("--grid", type=int, metavar="N", help="levels of every varied key, all combined")
