@@ -97,6 +97,14 @@ def _extreme_at_an_end(mesh, pair):
     return bool(np.ptp(pair) > ROUND_OFF and np.argmax(mesh.sense * pair) in (0, len(pair) - 1))
 
 
+def peak_to_peak(mesh):
+    """Peak to peak of the transmitted envelope alone, rad; NaN for a window without both ends."""
+    if not mesh.window.complete:
+        return math.nan
+    ends = tuple(sorted((mesh.window.begin.angle, mesh.window.end.angle)))
+    return _ranges(mesh, ends, _vertex(mesh), _transfers(mesh))[0 if mesh.sense > 0 else 1]
+
+
 def envelopes(mesh, angles, edges=(None, None)):
     """:class:`Envelopes` at pinion angles (N,), over the pairs inside their windows and, with the mesh's
     :func:`~meshwright.edge_contact.edge_paths`, those that touch with an edge.

@@ -8,6 +8,7 @@ import numpy as np
 from meshwright.backlash import backlash
 from meshwright.contact_line import ContactLine, contact_line
 from meshwright.drive import Drive
+from meshwright.edge_contact import edge_paths
 from meshwright.pairs import Mesh
 from meshwright.pattern import Contour, along_ellipse, contour
 from meshwright.placement import placements
@@ -34,24 +35,27 @@ ORDERS = 8
 
 @dataclass(frozen=True)
 class Running:
-    """All pairs of the drive together; ``envelopes`` run over the window, ``pitch`` over one pitch in its middle,
-    with the number of ``teeth`` in contact and the ``separations`` (K, N) mm of the pairs ``pitch.numbers``.
-    ``amplitudes`` are those of the transmitted error by tooth order, rad; ``backlash`` is a wheel angle, rad.
+    """All pairs of the drive together.
+
+    ``envelopes`` run over the window, ``pitch`` over one pitch in its middle, with the number of ``teeth`` in contact
+    and the ``separations`` (K, N), mm, of the pairs ``pitch.numbers``; ``rigid`` is the pitch once more for rigid
+    teeth, whose edges go on where a flank has ended. ``amplitudes`` are those of the transmitted error by tooth order,
+    rad; ``backlash`` is a wheel angle, rad.
     """
 
     mesh: Mesh
     error: TransmissionError
     envelopes: Envelopes
     pitch: Envelopes
+    rigid: Envelopes
     teeth: np.ndarray
     separations: np.ndarray
     amplitudes: np.ndarray
     backlash: float
 
-    @property
-    def transmitted(self):
-        """The transmitted envelope over one pitch, rad: (N,)."""
-        return self.pitch.upper if self.error.envelope == "upper" else self.pitch.lower
+    def transmitted(self, found):
+        """The transmitted one of the envelopes ``found``, rad: (N,)."""
+        return found.upper if self.error.envelope == "upper" else found.lower
 
     @property
     def constant(self):
@@ -176,6 +180,7 @@ def _running(mesh, angles):
         error=transmission_error(mesh),
         envelopes=envelopes(mesh, angles),
         pitch=over_pitch,
+        rigid=envelopes(mesh, over_pitch.angles, edge_paths(mesh)),
         teeth=np.array([mesh.teeth_in_contact(angle) for angle in over_pitch.angles]),
         separations=separations,
         amplitudes=fourier(mesh, ORDERS)[0],

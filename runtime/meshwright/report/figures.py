@@ -78,6 +78,7 @@ def _pair_error(analysis):
     figure = style.figure(6.4, 3.7)
     axes = figure.subplots()
     axes.plot(np.degrees(analysis.tca.angles), analysis.tca.error / ARCSEC, color=style.INK)
+    _zoom(axes, analysis.tca.error / ARCSEC)
     axes.set(xlabel=PINION_ANGLE, ylabel="transmission error, arcsec")
     return figure
 
@@ -98,14 +99,19 @@ def _drive_error(analysis):
                 linewidth=1.6 if followed else 0.8,
                 label="this pair" if followed else None,
             )
-        transmitted = found.upper if running.error.envelope == "upper" else found.lower
+        transmitted = running.transmitted(found)
         axes.plot(angles, (transmitted - zero) / ARCSEC, color=style.WHEEL, linewidth=2.2, label="transmitted")
         axes.set_ylabel("relative error, arcsec")
+    values = [running.transmitted(running.pitch)]
+    if running.rigid.edge_contact.any():
+        values.append(running.transmitted(running.rigid))
+        zoom.plot(angles, (values[-1] - zero) / ARCSEC, "--", color=style.WARN, linewidth=1.2)
+        whole.plot([], [], "--", color=style.WARN, linewidth=1.2, label="with edges")
     whole.plot([], [], color=style.SOFT, linewidth=0.8, label="other pairs")
-    whole.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    whole.legend(ncols=4, columnspacing=1.2, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     if running.constant:
         _zoom(whole, (running.envelopes.pairs - zero) / ARCSEC)
-    _zoom(zoom, (running.transmitted - zero) / ARCSEC)
+    _zoom(zoom, (np.concatenate(values) - zero) / ARCSEC)
     zoom.set(xlabel=PINION_ANGLE)
     zoom.set_title("over one pitch", fontsize=8.5, fontweight="normal")
     return figure
@@ -169,7 +175,8 @@ _DRIVE_ERROR = Picture(
     "transmission-error",
     "Transmission error of the pairs and of the drive",
     "Wheel angle less ratio times pinion angle, less its value at the reference angle. The wheel follows the pair that "
-    "leads: the transmitted envelope.",
+    "leads: the transmitted envelope. Dashed: of rigid teeth, whose edges go on "
+    "where a flank has ended.",
     _drive_error,
 )
 _TEETH = Picture(

@@ -141,7 +141,8 @@ def _error(analysis):
             Finding(
                 "note",
                 "The leading pair stands at an end of its window when it hands over: the drive's transmission error "
-                "steps there instead of passing smoothly from pair to pair.",
+                "steps there instead of passing smoothly from pair to pair. With the edges of rigid teeth it is "
+                f"{number(error.envelope_with_edges_peak_to_peak / ARCSEC, 4)} arcsec peak to peak.",
             )
         )
     if analysis.running.constant:

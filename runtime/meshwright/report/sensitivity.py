@@ -7,7 +7,7 @@ import numpy as np
 
 from meshwright.pairs import Mesh
 from meshwright.results import TCA
-from meshwright.transmission import transmission_error
+from meshwright.transmission import peak_to_peak
 
 #: Size and label of a misalignment that a workshop would call small, by the unit of its key.
 STEPS = {"mm": (0.01, "0.01 mm"), "deg": (1 / 60, "1′")}
@@ -61,7 +61,7 @@ def sensitivity(drive, parameter, angles):
 
 def _peak_to_peak(drive):
     mesh = Mesh.of(drive)
-    return math.nan if mesh.window.path is None else transmission_error(mesh).envelope_peak_to_peak
+    return math.nan if mesh.window.path is None else peak_to_peak(mesh)
 
 
 def meridional(points):

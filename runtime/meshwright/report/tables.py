@@ -6,6 +6,7 @@ import numpy as np
 
 from meshwright.report.numbers import fixed, number, title, unit
 from meshwright.results import ARCSEC
+from meshwright.transmission import ROUND_OFF
 
 _HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank", "contact": "Contact"}
 
@@ -107,7 +108,7 @@ def _nominal(analysis):
 
 def _effect(analysis, effect, k):
     shifts = [number(v, 4) for member in ("pinion", "wheel") for v in effect.shift(member)[k]]
-    peaks = [number(p / ARCSEC, 4) for p in effect.peak_to_peak]
+    peaks = [number(p / ARCSEC if not p < ROUND_OFF else 0.0, 4) for p in effect.peak_to_peak]
     return (effect.meaning, effect.label, number(effect.error[k] / ARCSEC, 4), *shifts, *peaks)
 
 
