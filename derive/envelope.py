@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Rotation
 from derive.symbols import Quantity
 
 
@@ -85,17 +84,6 @@ def explicit(surface):
         done = replace(surface, parameters=remaining, conditions=tuple(others))
         return substitute(done, {parameter: named}), Solved(named, solution, slope)
     raise ValueError("the equation of meshing is linear in none of its parameters")
-
-
-def shared_angles(surface):
-    """Pairs of parameters that occur as a sum in one rotation of the surface's motion."""
-    pairs = []
-    for factor in surface.motion.factors:
-        if isinstance(factor, Rotation):
-            present = [p for p in surface.parameters if sp.diff(factor.angle, p) == 1]
-            if len(present) == 2:
-                pairs.append(tuple(present))
-    return pairs
 
 
 def explicit_angle(surface, angle, sign):

@@ -29,20 +29,7 @@ class Function:
     results: tuple[Result, ...]
 
 
-def cosine_form(expression, angle):
-    """Coefficients (a, b, c) of an expression that reads a·cos + b·sin − c in one angle.
-
-    Raises ``ValueError`` for any other form.
-    """
-    cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
-    form = sp.sympify(expression).xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
-    a, b = sp.diff(form, cosine), sp.diff(form, sine)
-    if {cosine, sine, angle} & (a.free_symbols | b.free_symbols):
-        raise ValueError("the expression is not linear in the cosine and sine of one angle")
-    return a, b, -form.xreplace({cosine: sp.Integer(0), sine: sp.Integer(0)})
-
-
-def solve_cosine_form(a, b, c):
-    """Both angles with a·cos + b·sin = c; not a number where there is none (a² + b² < c²)."""
-    middle, half = sp.atan2(b, a), sp.atan2(sp.sqrt(a**2 + b**2 - c**2), c)
+def both_turns(a, b, c):
+    """Both angles with a·cos + b·sin + c = 0; not a number where there is none (a² + b² < c²)."""
+    middle, half = sp.atan2(b, a), sp.atan2(sp.sqrt(a**2 + b**2 - c**2), -c)
     return middle + half, middle - half

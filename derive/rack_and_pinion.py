@@ -12,8 +12,8 @@ import sympy as sp
 
 from derive import vectors as v
 from derive.chain import Rx, Rz, translation
-from derive.envelope import envelope, merge_sum
-from derive.functions import cosine_form, solve_cosine_form
+from derive.envelope import envelope, in_turn, merge_sum
+from derive.functions import both_turns
 from derive.surface import Surface
 from derive.symbols import Quantity
 
@@ -66,7 +66,7 @@ def contacts_of_worm_point(rack, turn):
     """
     psi = Quantity("psi_rack", "rad", "rack angle")
     right_angle = replace(rack, shaft_angle=sp.pi / 2)
-    return solve_cosine_form(*cosine_form(meshing(right_angle, psi, turn), psi))
+    return both_turns(*in_turn(meshing(right_angle, psi, turn), psi))
 
 
 def second_type_angles(rack):
@@ -79,7 +79,7 @@ def second_type_angles(rack):
     section, normal = rack.flank.point, rack.flank.normal
     about_worm_axis = v.dot(normal, v.cross(v.K, section))
     transverse = Rz(psi).direction(normal)[1]
-    return solve_cosine_form(*cosine_form(about_worm_axis - rack.pitch_line * transverse, psi))
+    return both_turns(*in_turn(about_worm_axis - rack.pitch_line * transverse, psi))
 
 
 def section_angle(rack, offset):
