@@ -1,4 +1,10 @@
-"""The audit record.
+"""The audit record: what the sources print, what we derive, what was proved of it, which generated files rest on it.
 
-What the sources print, what we derive, what was proved of it, and which generated files rest on it.
+claims.py        the words in which documents are encoded: scopes of definitions, claims, printed numbers
+documents/       the four source documents as printed; identities/ what we claim of our own derivations
+ledger.py        every claim judged by the prover, every object hashed and linked, one root over all
+provenance.py    which equations each generated function rests on
+record.py        the whole record, and the files it is written to; store.py pages.py render.py validation.py their text
+check.py         re-checks the record, check_code.py the generated C; both run alone and ship beside the record
+explain.py       from a C function or an equation back to the sources
 """

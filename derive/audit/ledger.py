@@ -82,14 +82,6 @@ class Ledger:
         self.objects.setdefault(key, {**body, "sha256": key})
         return key
 
-    def equation_ids(self, prefix: str) -> list[str]:
-        """The ids of all equations of a chapter, sorted."""
-        return sorted(
-            item["id"]
-            for item in self.objects.values()
-            if item["object"] == "equation" and item["id"].startswith(prefix)
-        )
-
 
 def build(chapters: Sequence[Chapter]) -> Ledger:
     """Judge every claim."""

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from derive.audit.claims import Document
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.published import comparisons
-from derive.audit.render import LaTeX, MathML, difference, symbol_text
+from derive.audit.render import LaTeX, MathML, difference
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
 from derive.prove.certificate import decimal
 from derive.prove.points import arctangent
@@ -146,7 +146,7 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
     drops = getattr(verdict.claim, "drops", "")
     return Entry(
         verdict.claim.key, verdict, verdict.status, STATUS_TEXT[verdict.status], readings, corrected, contradiction,
-        conditions + ((f"step: divided by {symbol_text(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
+        conditions + ((f"step: divided by {mathml.plain(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
         getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
         re.sub(r"\w+", lambda word: names.get(word[0], word[0]), verdict.change),
     )  # fmt: skip
@@ -172,7 +172,7 @@ def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
     definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())
     return Part(
         Markup(mathml.equation(left, right)), LaTeX().equation(left, right), str(part.outcome), definitions,
-        _evidence(part), _denominators(part), _instance(part.decision.instance, statement.signs), statement.id,
+        _evidence(mathml, part), _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
     )  # fmt: skip
 
 
@@ -196,7 +196,7 @@ def _figure_part(mathml: MathML, part: Judged) -> Part:
     )
 
 
-def _evidence(part: Judged) -> str:
+def _evidence(mathml: MathML, part: Judged) -> str:
     decision = part.decision
     name = f"certificate {part.certificate[:12]}"
     if str(part.outcome) == "proved":
@@ -211,7 +211,7 @@ def _evidence(part: Judged) -> str:
         )
         how = (
             f"{terms} terms cancel"
-            + (f" by the relations of {', '.join(map(_pretty, used))}" if used else " without any relation")
+            + (f" by the relations of {', '.join(map(mathml.plain, used))}" if used else " without any relation")
             if terms
             else "both sides expand to the same polynomial"
         )
@@ -221,29 +221,24 @@ def _evidence(part: Judged) -> str:
     return f"{name}: neither proved nor refuted"
 
 
-def _pretty(generator: str) -> str:
-    head, _, rest = generator.partition("(")
-    return f"{head} {symbol_text(rest.rstrip(')'))}" if rest else symbol_text(generator)
-
-
-def _denominators(part: Judged) -> tuple[str, ...]:
+def _denominators(mathml: MathML, part: Judged) -> tuple[str, ...]:
     """Denominators that must not vanish, readable where short."""
     decision = part.decision
     found: dict[str, None] = {}
     for component in decision.components:
         for factor, _ in component.denominators:
             if any(any(powers) for powers in factor):
-                found.setdefault(_polynomial(factor, decision.names))
+                found.setdefault(_polynomial(mathml, factor, decision.names))
     return tuple(f"{text} ≠ 0" for text in found)
 
 
-def _polynomial(terms: Terms, names: tuple[str, ...]) -> str:
+def _polynomial(mathml: MathML, terms: Terms, names: tuple[str, ...]) -> str:
     if len(terms) > SHOWN_TERMS:
         return f"a denominator of {len(terms)} terms (in the certificate)"
     parts = []
     for powers, factor in sorted(terms.items(), reverse=True):
         body = " ".join(
-            _pretty(name) + (f"^{power}" if power > 1 else "")
+            mathml.plain(name) + (f"^{power}" if power > 1 else "")
             for name, power in zip(names, powers, strict=True)
             if power
         )
@@ -252,17 +247,17 @@ def _polynomial(terms: Terms, names: tuple[str, ...]) -> str:
     return " ".join(parts).removeprefix("+ ")
 
 
-def _instance(instance: Instance | None, signs: frozenset[str]) -> dict | None:
+def _instance(mathml: MathML, instance: Instance | None) -> dict | None:
     if instance is None:
         return None
     point = instance.point
-    values = [(symbol_text(name), str(value)) for name, value in sorted(point.symbols.items())]
+    values = [(mathml.plain(name), str(value)) for name, value in sorted(point.symbols.items())]
     angles = []
     for name, t in sorted(point.half_tangents.items()):
         degrees = 360 * arctangent(t) / (4 * arctangent(Fraction(1)))
         angles.append(
             (
-                symbol_text(name),
+                mathml.plain(name),
                 decimal(Fraction(round(degrees * 10**6), 10**6)),
                 str((1 - t * t) / (1 + t * t)),
                 str(2 * t / (1 + t * t)),

@@ -96,7 +96,7 @@ def _split(name: str) -> tuple[str, str, str]:
         return GREEK.get(match[1], match[1]), match[2], "′" * bool(match[3])
     head, _, tail = name.partition("_")
     head_text = "".join(_split(head)[:2]) if re.fullmatch(r"[A-Za-z]+\d+", head) else GREEK.get(head, head)
-    return head_text, ", ".join(GREEK.get(part, part) for part in tail.split("_")) if tail else "", ""
+    return head_text, ", ".join("".join(_split(part)[:2]) for part in tail.split("_")) if tail else "", ""
 
 
 def _parts(shown: str) -> tuple[str, str, str]:
@@ -113,6 +113,14 @@ class Format:
 
     def write(self, tree: Tree) -> str:
         return self._write(tree)[0]
+
+    def plain(self, name: str) -> str:
+        """A symbol, or the cosine, sine or jet of one, as plain text in the letters of the source."""
+        head, bracket, rest = name.partition("(")
+        if bracket and head in ("cos", "sin"):
+            return f"{head} {self.plain(rest.rstrip(')'))}"
+        symbol, slash, divisor = name.partition("/")
+        return self.names.get(symbol, symbol_text(symbol)) + slash + divisor
 
     def _write(self, tree: Tree) -> tuple[str, int]:
         if isinstance(tree, int):
@@ -135,12 +143,27 @@ class Format:
             marked = isinstance(term, tuple) and term[0] == "mark"
             inner = term[1] if marked else term
             negative = isinstance(inner, tuple) and inner[0] == "-"
-            body = self._within(inner[1] if negative else inner, PRODUCT)
-            sign = self.operator("−") if negative else (self.operator("+") if position else "")
+            signed = self._without_sign(inner[1] if negative else inner)
+            body = self._within(inner[1] if negative else inner, PRODUCT) if signed is None else signed
+            if signed is not None:
+                sign = self.operator("∓" if negative else "±")
+            else:
+                sign = self.operator("−") if negative else (self.operator("+") if position else "")
             parts.append(self.mark(sign + body) if marked else sign + body)
         return self.row("".join(parts)), SUM
 
+    def _without_sign(self, term: Tree) -> str | None:
+        """What follows a printed ± in a term, or None if it has none."""
+        if self.names.get(term if isinstance(term, str) else "") == "±":
+            return ""
+        if isinstance(term, tuple) and term[0] == "*" and self.names.get(str(term[1])) == "±":
+            rest = term[2] if len(term) == 3 else ("*", *term[2:])
+            return self._within(rest, PRODUCT)
+        return None
+
     def _negative(self, _, arguments) -> tuple[str, int]:
+        if (signed := self._without_sign(arguments[0])) is not None:
+            return self.row(self.operator("∓") + signed), SUM
         return self.row(self.operator("−") + self._within(arguments[0], PRODUCT)), SUM
 
     def _product(self, _, arguments) -> tuple[str, int]:

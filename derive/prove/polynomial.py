@@ -52,11 +52,6 @@ class PolynomialRing:
             return {tuple(map(int, powers)): int(factor) for powers, factor in poly.to_dict().items()}
         return {powers: int(factor) for powers, factor in poly.items()}
 
-    def from_terms(self, terms: Terms) -> Poly:
-        if self.backend == "flint":
-            return self._context.from_dict(terms)
-        return self._context.from_dict(terms)
-
     def partial(self, poly: Poly, name: str) -> Poly:
         """Derivative with respect to one generator."""
         if self.backend == "flint":

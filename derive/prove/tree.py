@@ -211,15 +211,6 @@ def symbols(tree: Tree) -> set[str]:
     return found
 
 
-def substitute(tree: Tree, replacement: Mapping[str, Tree]) -> Tree:
-    """Replace symbols by trees; used only to change the words of a statement, never to derive."""
-    if isinstance(tree, str):
-        return replacement.get(tree, tree)
-    if isinstance(tree, int) or tree[0] == "jet":
-        return tree
-    return rebuild(tree, [substitute(child, replacement) for child in children(tree)])
-
-
 def canonical(value: object) -> str:
     """The one JSON text of a value: sorted keys, no spaces. What is hashed is this text."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)

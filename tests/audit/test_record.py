@@ -63,6 +63,12 @@ def test_record_contains_no_time_and_no_path_of_this_machine():
         assert not re.search(r"20\d\d-\d\d-\d\dT", text)
 
 
+def test_pages_are_written_alike_every_time(tmp_path, capsys):
+    assert command.main(["html", "--output", str(tmp_path)]) == 0
+    written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert written == {path.name: path.read_bytes() for path in (GENERATED / "audit").iterdir()}
+
+
 def test_pages_need_no_network():
     for path in (GENERATED / "audit").glob("*.html"):
         text = path.read_text(encoding="utf-8")

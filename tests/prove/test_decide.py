@@ -41,8 +41,10 @@ TRUE = [
     "d(tan(a), a) = 1 + tan(a)**2",
     "d(d(sin(a)*a**2, a), a) = 2*sin(a) + 4*a*cos(a) - a**2*sin(a)",
     "(1/x - 1/y)*x*y = y - x",
+    "d(atan2(y, x), x) = -y/(x**2 + y**2)",
+    "d(sin(turn)*t, t) = sin(turn) + t*rate*cos(turn)",
 ]
-VECTORS = {name: f"vec({name}1, {name}2, {name}3)" for name in "uvw"}
+VECTORS = {name: f"vec({name}1, {name}2, {name}3)" for name in "uvw"} | {"turn": "rate*t"}
 
 
 @pytest.mark.parametrize("text", TRUE)

@@ -50,6 +50,8 @@ DOCUMENT = Document(
         "Ny": ("Ny1", "-", "component of N1"),
         "Nz": ("Nz1", "-", "component of N1"),
         "R1": ("R1", "mm", "hob surface, in S1"),
+        "R1_l": ("∂R1/∂l1", "-", "tangent along the edge"),
+        "R1_th": ("∂R1/∂θ1", "mm", "tangent along the turn"),
         "R2": ("R2", "mm", "locus of the hob, in S2"),
         "V12": ("V12", "mm/s", "velocity of the hob relative to the wheel, in S1"),
         "omega1": ("ω1⁽¹⁾", "1/s", "angular velocity of the hob, in S1"),
