@@ -1,6 +1,7 @@
 """``python -m derive [DRIVE…] [--output FOLDER]``: run the six stages and replace the generated files."""
 
 import argparse
+import json
 import sys
 import time
 from contextlib import contextmanager
@@ -8,7 +9,7 @@ from pathlib import Path
 
 from derive import compiler, drives
 from derive.audit import record
-from derive.emit import lanes, sensitivity
+from derive.emit import external, lanes, sensitivity
 from derive.files import replace_text
 
 
@@ -42,6 +43,8 @@ def main(arguments=None):
         files["c/models.h"] = compiler.table_of_models(known)
         files["c/lane_models.h"] = lanes.table_of_models(known)
         files["c/sensitivity_models.h"] = sensitivity.table_of_models(known)
+        shapes = {name: json.loads(files[f"c/{name}.json"])["shapes"] for name in known}
+        files["c/casadi_models.h"] = external.table(shapes.items())
         with log("emit", "audit record"):
             files |= record.files(ledger, files)
         files["manifest.json"] = compiler.manifest(files)

@@ -93,7 +93,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Rows:
-    """A solved slice: ``sample`` (S,), ``values`` (S, K), ``status``, ``error``, ``flags`` (S, N), ``points`` (S, N, 3)."""
+    """A solved slice: ``sample`` (S,), ``values`` (S, K), ``status``, ``error``, ``flags`` (S, N), ``points``."""
 
     sample: np.ndarray
     values: np.ndarray

@@ -10,6 +10,7 @@ import pytest
 casadi = pytest.importorskip("casadi")
 
 from meshwright import Drive  # noqa: E402
+from meshwright._library import SHIPPED  # noqa: E402
 from meshwright.optimise import Completion, contact, semi_major  # noqa: E402
 from meshwright.sensitivity import sensitivity  # noqa: E402
 
@@ -44,3 +45,11 @@ def test_ipopt_finds_a_hob_with_the_wanted_ellipse_within_the_bound_on_the_error
     done = subprocess.run([sys.executable, example], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "semi-major axis 6.0000 mm" in done.stdout
+
+
+def test_the_library_itself_is_an_external_function_of_casadi():
+    drive = Drive.load("recess-action-full")
+    solve = casadi.external("cylindrical_worm_zn_zn_contact", str(SHIPPED / "libmeshwright.so"))
+    expected = drive.trace(np.array([7.0]))[0][0]
+    found = solve(drive.design.parameters, 7.0, expected + 1e-4)
+    assert np.asarray(found).ravel() == pytest.approx(expected, abs=1e-10)
