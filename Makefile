@@ -38,7 +38,8 @@ audit: generate
 build: setup
 	@$(MAKE) --no-print-directory -j$$(nproc 2>/dev/null || echo 2) $(SHIP)/libmeshwright.so
 
-$(OBJECTS)/library.o $(patsubst runtime/c/%.c,$(OBJECTS)/%.o,$(wildcard runtime/c/lanes*.c)): $(wildcard generated/c/*.h)
+$(addprefix $(OBJECTS)/,library.o sensitivity.o casadi_entry.o $(patsubst runtime/c/%.c,%.o,$(wildcard runtime/c/lanes*.c))): \
+		$(wildcard generated/c/*.h)
 
 $(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h)
 	@mkdir -p $(OBJECTS)
