@@ -170,3 +170,9 @@ class Drive:
     @property
     def bodies(self):
         return self.pinion, self.wheel
+
+    @property
+    def completion(self):
+        """What fills open parameters, in the order in which it runs: the defaults, then the rules."""
+        defaults = (Rule(p.symbol, p.default) for p in self.parameters if p.default is not None)
+        return *defaults, *self.rules

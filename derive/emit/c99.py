@@ -202,9 +202,9 @@ def _system(plan, drive):
 def _rules(drive, prefix):
     """Each default and rule of the drive: parameter index, statements, value, name."""
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    defaults = [(p.symbol, p.default) for p in drive.parameters if p.default is not None]
-    for target, value in [*defaults, *((r.target, r.value) for r in drive.rules)]:
-        body = _from_parameters(drive, prefix, [value])
+    for rule in drive.completion:
+        body = _from_parameters(drive, prefix, [rule.value])
+        target = rule.target
         yield {"index": index[target], "statements": body.statements, "value": body.results[0], "name": target.name}
 
 

@@ -5,11 +5,13 @@ from pathlib import Path
 
 import casadi
 
+from derive.tape import Lowering, Stage, Tape
 
 def function(plan):
-    """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards.
+    """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards, rules.
 
-    The unknowns of the start system are read from their places in x. Derivatives are left to CasADi.
+    The unknowns of the start system are read from their places in x. Derivatives are left to CasADi. ``rules`` are
+    the values of the defaults and rules that complete a design, each from p alone, in the order in which they run.
     """
     drive, tape = plan.drive, plan.tape
     p = casadi.SX.sym("p", len(drive.parameters))
@@ -30,8 +32,15 @@ def function(plan):
         "start_guess": vector(plan.start_guess),
         "scale": vector(plan.scales),
         "guards": vector(plan.guards),
+        "rules": casadi.vertcat(*_rules(drive, inputs)),
     }
     return casadi.Function(drive.name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))
+
+
+def _rules(drive, inputs):
+    tape = Tape()
+    lower = Lowering(tape, {q.symbol: Stage.DESIGN for q in drive.parameters}, drive.definitions)
+    return tape.evaluate([lower(rule.value) for rule in drive.completion], inputs, casadi)
 
 
 def text(plan):

@@ -47,6 +47,7 @@ def describe(plan, provenance):
         "systems": [
             {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems
         ],
+        "rules": _rules(drive),
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in drive.guards],
         "outputs": [
             {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
@@ -160,6 +161,12 @@ def _parameter(p):
         "required": p.required,
         "choices": {word: value for word, value in p.choices},
     }
+
+
+def _rules(drive):
+    """Which parameter each default and rule fills, in the order in which they run."""
+    index = {p.symbol: k for k, p in enumerate(drive.parameters)}
+    return [index[rule.target] for rule in drive.completion]
 
 
 def _size(key, _value, meaning):
