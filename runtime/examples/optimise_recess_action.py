@@ -103,8 +103,9 @@ def optimised(drive):
 
 
 def _contacts(drive, design, start, errors):
-    """Indices of the limits that apply, and the outputs of :func:`~meshwright.differentiable.differentiable_tca`, a column
-    for each of the angles, of a drive with errors of assembly. Start values come from the C solver, at the start.
+    """Indices of the limits that apply, and the outputs of
+    :func:`~meshwright.differentiable.differentiable_tca`, a column for each of the angles, of a drive with errors of
+    assembly. Start values come from the C solver, at the start design.
     """
     here = _with_design(drive, start).with_(misalignment=errors)
     start_values, words = here.trace(ANGLES)
