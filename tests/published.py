@@ -52,7 +52,9 @@ def table(rows, solved, misprints):
         )
         for column in COLUMNS
     }
-    blocks.append("largest difference: " + ", ".join(f"{h} {worst[c]:.5f}" for h, c in zip(HEADINGS, COLUMNS, strict=True)))
+    blocks.append(
+        "largest difference: " + ", ".join(f"{h} {worst[c]:.5f}" for h, c in zip(HEADINGS, COLUMNS, strict=True))
+    )
     return "\n".join(blocks), worst
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.contact_line import contact_line
 from meshwright.placement import placements

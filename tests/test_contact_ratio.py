@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.pairs import Mesh

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.edge_contact import edge_paths
 from meshwright.pairs import Mesh

@@ -123,9 +123,7 @@ def differences():
             exact = _polished(paper, start, mpmath.mpf(phi))
             error = exact[5] - mpmath.mpf(tables["design"]["worm_threads"]) / tables["design"]["wheel_teeth"] * phi
             residual = [abs(float(r)) for r in paper.residual([mpmath.mpf(float(x)) for x in start], mpmath.mpf(phi))]
-            rows.append(
-                (abs(float(error - result.error[0])) * 648000 / math.pi, max(residual[:3]), max(residual[3:5]))
-            )
+            rows.append((abs(float(error - result.error[0])) * 648000 / math.pi, max(residual[:3]), max(residual[3:5])))
     return np.array(rows)
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.folds import fold_angle
 from meshwright.path import Path

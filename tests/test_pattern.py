@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.pairs import Mesh

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.exports import quadrilaterals, stl, vtu

@@ -44,9 +44,7 @@ shaft_angle = parameter("shaft_angle_deg", "Sigma", "shaft angle", domain=(0, sp
 shift = parameter("pitch_line_shift_mm", "dx", "pitch line below the middle of the blade height", default=0)
 hob_radius = parameter("hob_pitch_radius_mm", "r_hob", "reference radius of the hob", domain=POSITIVE)
 hob_threads = parameter("hob_threads", "T_hob", "threads of the hob", domain=POSITIVE, integer=True)
-wheel_radius = parameter(
-    "grinding_wheel_radius_mm", "r_c_worm", "grinding wheel radius of the worm", domain=POSITIVE
-)
+wheel_radius = parameter("grinding_wheel_radius_mm", "r_c_worm", "grinding wheel radius of the worm", domain=POSITIVE)
 arc_radius = parameter("profile_arc_radius_mm", "rho_c_worm", "profile arc radius of the worm", domain=POSITIVE)
 hob_pressure_angle = parameter(
     "hob_pressure_angle_deg", "alpha_hob", "pressure angle of the hob's profile", domain=(0, sp.pi / 2)
@@ -54,9 +52,7 @@ hob_pressure_angle = parameter(
 hob_wheel_radius = parameter(
     "hob_grinding_wheel_radius_mm", "r_c_hob", "grinding wheel radius of the hob", domain=POSITIVE
 )
-hob_arc_radius = parameter(
-    "hob_profile_arc_radius_mm", "rho_c_hob", "profile arc radius of the hob", domain=POSITIVE
-)
+hob_arc_radius = parameter("hob_profile_arc_radius_mm", "rho_c_hob", "profile arc radius of the hob", domain=POSITIVE)
 hob_lead_angle = parameter("hob_lead_angle_deg", "lambda_hob", "lead angle of the hob", domain=(0, sp.pi / 2))
 center_distance = parameter("center_distance_mm", "A", "centre distance", domain=POSITIVE)
 cutting_distance = parameter("cutting_center_distance_mm", "A_gen", "cutting centre distance", domain=POSITIVE)
@@ -65,15 +61,11 @@ cutting_angle = parameter("cutting_shaft_angle_deg", "Sigma_gen", "cutting shaft
 error_distance = parameter(
     "center_distance_mm", "dA", "centre distance error, wheel away from the worm", table=Table.MISALIGNMENT, default=0
 )
-error_horizontal = parameter(
-    "horizontal_deg", "dh", "shaft angle error, about x", table=Table.MISALIGNMENT, default=0
-)
+error_horizontal = parameter("horizontal_deg", "dh", "shaft angle error, about x", table=Table.MISALIGNMENT, default=0)
 error_vertical = parameter(
     "vertical_deg", "dv", "tilt about y of the already tilted wheel frame", table=Table.MISALIGNMENT, default=0
 )
-error_axial = parameter(
-    "axial_mm", "da", "shift of the wheel along its own axis", table=Table.MISALIGNMENT, default=0
-)
+error_axial = parameter("axial_mm", "da", "shift of the wheel along its own axis", table=Table.MISALIGNMENT, default=0)
 
 wheel_tip = parameter(
     "wheel_tip_radius_mm", "R_tip", "outside cylinder of the wheel", table=Table.BLANK, domain=POSITIVE
@@ -81,9 +73,7 @@ wheel_tip = parameter(
 wheel_throat = parameter(
     "wheel_throat_radius_mm", "R_throat", "throat circle of the wheel", table=Table.BLANK, domain=POSITIVE
 )
-face_width = parameter(
-    "wheel_face_width_mm", "b_wheel", "face width of the wheel", table=Table.BLANK, domain=POSITIVE
-)
+face_width = parameter("wheel_face_width_mm", "b_wheel", "face width of the wheel", table=Table.BLANK, domain=POSITIVE)
 worm_tip = parameter("worm_tip_radius_mm", "rho_tip", "tip radius of the worm", table=Table.BLANK, domain=POSITIVE)
 worm_root = parameter("worm_root_radius_mm", "rho_root", "root radius of the worm", table=Table.BLANK, domain=POSITIVE)
 hob_tip = parameter(
@@ -105,7 +95,11 @@ separation = parameter(
     default=sp.Rational(632, 100000),
 )
 allowance = parameter(
-    "elastic_allowance_mm", "delta_e", "separation below which a pair counts as touching", table=Table.CONTACT, default=0
+    "elastic_allowance_mm",
+    "delta_e",
+    "separation below which a pair counts as touching",
+    table=Table.CONTACT,
+    default=0,
 )
 
 PARAMETERS = (
@@ -370,9 +364,7 @@ def catalogue():
     (ZC, ZC) operations; composed from point, normal and their derivatives on either flank, 537 to 940, that is 1.6 to
     1.2 times as many, and the pivot order of the Newton step could not be chosen in advance.
     """
-    return {
-        _name(worm, hob): partial(cylindrical_worm, worm, hob) for worm in TOOLS for hob in TOOLS
-    }
+    return {_name(worm, hob): partial(cylindrical_worm, worm, hob) for worm in TOOLS for hob in TOOLS}
 
 
 def _name(worm_profile, hob_profile):

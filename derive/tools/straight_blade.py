@@ -11,7 +11,9 @@ from derive.tools.worm_body import WormTool
 def straight_blade(body, definitions):
     """Groove flank of a ZN worm or hob in its body frame; parameters (t, ψ), t along the edge from its apex."""
     alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank
-    t = Quantity(f"t_{body.name}", "mm", "distance along the edge from the virtual apex of both edges", body.name, (0, sp.oo))
+    t = Quantity(
+        f"t_{body.name}", "mm", "distance along the edge from the virtual apex of both edges", body.name, (0, sp.oo)
+    )
     half_groove = body.groove_width * sp.sin(body.lead_angle) / 2
     apex = definitions.let(
         f"r_t_{body.name}",
@@ -22,9 +24,7 @@ def straight_blade(body, definitions):
     )
     blade = (apex + t * sp.cos(alpha), sp.Integer(0), s * t * sp.sin(alpha))
     section = definitions.let_vector(f"P_{body.name}", Rx(body.lead_angle).point(blade), "blade edge", "mm", body.name)
-    flank = helicoid(
-        definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s
-    )
+    flank = helicoid(definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s)
     pitch_point = body.groove_width / (2 * sp.sin(alpha))
     return WormTool(
         flank,

@@ -6,6 +6,7 @@ import math
 
 import casadi
 import numpy as np
+
 from meshwright import Drive
 from meshwright.optimise import Completion, contact, semi_major
 from meshwright.results import ARCSEC

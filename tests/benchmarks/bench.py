@@ -13,12 +13,12 @@ from pathlib import Path
 
 import casadi
 import numpy as np
-from meshwright import Drive
-from meshwright._library import ffi, library
 
 from derive import drives
 from derive.schedule import schedule
 from derive.tape import Stage
+from meshwright import Drive
+from meshwright._library import ffi, library
 from tests.benchmarks import baselines
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 

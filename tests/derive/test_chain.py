@@ -10,7 +10,11 @@ from derive.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, swing, 
 a, b, p, q, t = sp.symbols("a b p q t", real=True)
 POINT = sp.symbols("x y z", real=True)
 NUMBERS = dict(
-    zip((a, b, p, q, t, *POINT), map(sp.Rational, ("0.7", "-1.3", "2.5", "0.4", "0.9", "1.1", "-2.2", "3.3")), strict=True)
+    zip(
+        (a, b, p, q, t, *POINT),
+        map(sp.Rational, ("0.7", "-1.3", "2.5", "0.4", "0.9", "1.1", "-2.2", "3.3")),
+        strict=True,
+    )
 )
 
 

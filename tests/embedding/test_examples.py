@@ -5,10 +5,10 @@ import subprocess
 import sys
 
 import pytest
+
 from meshwright import Drive
 from meshwright._library import SHIPPED
 from meshwright.results import ARCSEC
-
 from tests.embedding import compile as c
 
 EXAMPLES = c.ROOT / "runtime" / "examples"

@@ -1,8 +1,8 @@
 """Packaged designs of the face worm report and the same designs in the independent formulation."""
 
 import mpmath
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.independent.face_worm import FaceWorm
 
 NAMES = tuple(f"face-worm-{worm}-{side}" for worm in ("conical", "cylindrical") for side in ("convex", "concave"))

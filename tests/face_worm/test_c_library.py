@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.face_worm.designs import NAMES
 
 ROOT = Path(__file__).resolve().parents[2]

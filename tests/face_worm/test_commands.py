@@ -3,8 +3,8 @@
 import json
 
 import pytest
-from meshwright.cli import main
 
+from meshwright.cli import main
 from tests.face_worm.designs import NAMES
 
 

@@ -6,8 +6,8 @@ from itertools import product
 import mpmath
 import numpy as np
 import pytest
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.face_worm.designs import ERRORS, NAMES, UNKNOWNS, changed, driving, independent
 
 ARCSEC = math.pi / 648000

@@ -5,9 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
+
 from meshwright import Drive, UsageError
 from meshwright.head_cutter import clearance, least_tilt
-
 from tests.face_worm.designs import NAMES, changed, independent
 
 

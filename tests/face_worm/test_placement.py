@@ -3,8 +3,8 @@
 import mpmath
 import numpy as np
 import pytest
-from meshwright import DesignError, Drive
 
+from meshwright import DesignError, Drive
 from tests.face_worm.designs import NAMES, changed, independent
 
 

@@ -5,8 +5,8 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from meshwright import DesignError, Drive
 
+from meshwright import DesignError, Drive
 from tests.face_worm.designs import NAMES, UNKNOWNS, independent
 
 ARCSEC = math.pi / 648000

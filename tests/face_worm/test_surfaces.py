@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.face_worm.designs import NAMES, changed
 
 ANGLES = np.linspace(-0.6, 0.6, 7)

@@ -3,10 +3,10 @@
 import mpmath
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.limits.face_worm import undercut
 from meshwright.limits.singular_lines import edges
-
 from tests.face_worm.designs import NAMES, independent
 
 CONVEX = [name for name in NAMES if name.endswith("convex")]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
 from meshwright.fe.blocks import Block, FineZone, graded
 from meshwright.fe.deck import ContactPair, Deck, NodalForces, Part, Support, write
 from meshwright.fe.hexahedra import nodal_areas

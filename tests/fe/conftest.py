@@ -1,6 +1,7 @@
 """The solver: tests that need it are skipped, and say so, where it cannot be had."""
 
 import pytest
+
 from meshwright.fe.solver import INSTALL_HINT, find_ccx
 
 

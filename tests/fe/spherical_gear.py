@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import ToothForm, ToothSide
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from spherical_gear import SphericalGear
+
 from meshwright.fe.material import Material
 from meshwright.fe.pair import GearPair, Member, Touch
-from spherical_gear import SphericalGear
 
 STEEL = Material(205000.0, 0.29)  # AISI 1045 of the spherical report, table 4.1
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe.body import PlacedTooth, mesh_body

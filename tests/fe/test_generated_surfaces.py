@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from meshwright import Drive
 from spherical_gear import SphericalGear
+
+from meshwright import Drive
 
 GEARS = {
     ("concave", "pinion"): SphericalGear(33, 1, 66.0),

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import dblquad
+
 from meshwright.fe.hertz import axis_ratio, elliptic_contact, line_contact
 from meshwright.fe.material import Material, contact_modulus, max_principal, von_mises
-from scipy.integrate import dblquad
 
 STEEL = Material(205000.0, 0.29)
 MODULUS = contact_modulus(STEEL, STEEL)

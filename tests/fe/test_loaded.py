@@ -4,6 +4,8 @@ import json
 
 import numpy as np
 import pytest
+from test_solver_chain import linear_field, macneal_harder_patch
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe.blocks import Block
@@ -15,7 +17,6 @@ from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.material import Material
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
-from test_solver_chain import linear_field, macneal_harder_patch
 
 TORQUE = Load(100e3, "pinion")
 MATES = {"concave": 1054, "spur": 1364, "convex": 1542}

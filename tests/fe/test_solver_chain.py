@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from blocks_in_contact import block, graded_lengths, press
+
 from meshwright.fe.blocks import Block
 from meshwright.fe.deck import Deck, Part, Support, write
 from meshwright.fe.hertz import elliptic_contact, line_contact

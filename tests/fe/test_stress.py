@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe import analysis

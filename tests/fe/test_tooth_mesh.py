@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from spherical_gear import SphericalGear
+
 from meshwright.fe.body import PlacedTooth, mesh_body
 from meshwright.fe.hexahedra import FACES
 from meshwright.fe.tooth import ContactZone, MeshDensity, face_rows, mesh_tooth
-from spherical_gear import SphericalGear
 
 PINION = SphericalGear(33, 1, 66.0)
 WHEELS = {

@@ -5,6 +5,7 @@ Absolute stresses of the spherical report are not compared: its torque is lost a
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, prepare

@@ -119,7 +119,7 @@ def _facing(hob, t, psi, d, m_gen):
 
 
 def wheel_flank(hob, t, psi, d, m_gen):
-    """Explicit wheel flank and its normal, wheel frame, from the hob's meshing equation, linear in the axial coordinate."""
+    """Explicit wheel flank and its normal, wheel frame, from the meshing equation, linear in the axial coordinate."""
     sigma, a_gen = d["cutting_shaft_angle_deg"], d["cutting_center_distance_mm"]
     px, py, pz = hob.profile(t)
     ca, sa, cl, sl = math.cos(hob.alpha), math.sin(hob.alpha), math.cos(hob.lam), math.sin(hob.lam)
@@ -133,7 +133,9 @@ def wheel_flank(hob, t, psi, d, m_gen):
     x, y = c * px - s * py, s * px + c * py
     n_x, n_y, n_z = c * normal[0] - s * normal[1], s * normal[0] + c * normal[1], normal[2]
     arm = x - a_gen
-    z = ((hob.p * n_z / m_gen - n_y * math.cos(sigma) * arm + n_z * math.sin(sigma) * arm) / n_x + math.cos(sigma) * y) / math.sin(sigma)
+    z = (
+        (hob.p * n_z / m_gen - n_y * math.cos(sigma) * arm + n_z * math.sin(sigma) * arm) / n_x + math.cos(sigma) * y
+    ) / math.sin(sigma)
     phi_h = psi - (z - pz) / hob.p
 
     def to_wheel(a, b, c):

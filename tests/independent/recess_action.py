@@ -50,7 +50,9 @@ class Helicoid:
     def normal(self, l, theta):
         """R_l × R_θ, unit."""
         m, sa = self.m, self.m.sin(self.alpha)
-        along = rotate("z", -theta, [m.cos(self.alpha), -self.s * sa * m.sin(self.lam), self.s * sa * m.cos(self.lam)], m)
+        along = rotate(
+            "z", -theta, [m.cos(self.alpha), -self.s * sa * m.sin(self.lam), self.s * sa * m.cos(self.lam)], m
+        )
         x, y, _ = self.point(l, theta)
         normal = cross(along, [y, -x, -self.p])
         length = m.sqrt(dot(normal, normal))
@@ -78,7 +80,7 @@ class Paper:
 
     def residual(self, unknowns, phi3):
         """Position (3), two components of n1 × n3, and the meshing equation of hob and gear."""
-        m, q = self.m, self.q
+        m = self.m
         l1, theta1, phi1, l3, theta3, phi2 = unknowns
         point1, normal1 = self.hob.point(l1, theta1), self.hob.normal(l1, theta1)
         gear = self._to_gear(point1, phi1)
@@ -94,8 +96,8 @@ class Paper:
         wheel_axis = [0 * x, -m.sin(self.gamma1), m.cos(self.gamma1)]
         v_hob = [-y, x, 0 * x]
         v_gear = [self.ratio * c for c in cross(wheel_axis, [x - self.C1, y, z])]
-        meshing = dot(n, [a - b for a, b in zip(v_hob, v_gear)])
-        return [a - b for a, b in zip(r_gear, r_worm)] + [normals[1], normals[2], meshing]
+        meshing = dot(n, [a - b for a, b in zip(v_hob, v_gear, strict=True)])
+        return [a - b for a, b in zip(r_gear, r_worm, strict=True)] + [normals[1], normals[2], meshing]
 
     def _turn_to_gear(self, a, phi1):
         m = self.m

@@ -186,9 +186,7 @@ class WormDrive:
         worm, n_worm = (rotate("z", phi_1, a) for a in self.worm.at(t_w, psi_w))
         wheel, n_wheel = (rotate("z", -phi_2, a) for a in self.wheel(t_h, psi_h, phi_h))
         wheel[2] += self.da
-        wheel, n_wheel = (
-            rotate("x", -(self.sigma + self.dh), rotate("y", self.dv, a)) for a in (wheel, n_wheel)
-        )
+        wheel, n_wheel = (rotate("x", -(self.sigma + self.dh), rotate("y", self.dv, a)) for a in (wheel, n_wheel))
         wheel[0] += self.A + self.dA
         parallel = cross(n_worm, n_wheel)
         apart = [a - b for a, b in zip(worm, wheel, strict=True)]

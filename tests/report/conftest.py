@@ -1,6 +1,7 @@
 """Reports that several tests read, each made once."""
 
 import pytest
+
 from meshwright import Drive
 from meshwright.report import analyse, page
 

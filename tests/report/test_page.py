@@ -6,6 +6,7 @@ import subprocess
 from html.parser import HTMLParser
 
 import pytest
+
 from meshwright import Drive, cli
 from meshwright.report import analyse, page
 from meshwright.report.numbers import fixed, number, unit

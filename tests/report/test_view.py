@@ -4,6 +4,7 @@ import base64
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.pattern import along_ellipse
 from meshwright.report import analyse

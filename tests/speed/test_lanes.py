@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright._library import ffi, library
 

@@ -3,12 +3,12 @@
 import mpmath
 import numpy as np
 import pytest
-from meshwright import Drive, UsageError
-from meshwright.design import given_vector
-from meshwright.sensitivity import sensitivity
 
 from derive import drives, newton
 from derive.schedule import schedule
+from meshwright import Drive, UsageError
+from meshwright.design import given_vector
+from meshwright.sensitivity import sensitivity
 
 STEP = mpmath.mpf(10) ** -18
 

@@ -7,6 +7,7 @@ import time
 
 import numpy as np
 import pytest
+
 from meshwright import Drive, sweep
 from meshwright import design as designs
 from meshwright.cli import main

@@ -1,6 +1,7 @@
 """Designs and the independent formulation, shared by the tests of spherical gears."""
 
 import pytest
+
 from meshwright import Drive
 
 

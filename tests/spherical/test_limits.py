@@ -6,11 +6,11 @@ import math
 import mpmath
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.limits import spherical as limits
 from meshwright.limits.results import Request
-
 from tests.independent.spherical import Gear
 
 

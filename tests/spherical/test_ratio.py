@@ -5,9 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.pairs import Mesh
-
 from tests.independent.spherical import spur_contact_ratio
 
 

@@ -5,8 +5,8 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.independent.spherical import Gear
 
 FORMS = [("convex", 72.0), ("concave", 72.0), ("convex", 1e7), ("spur", None)]

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from meshwright import Drive
 
+from meshwright import Drive
 from tests.worm.designs import PROFILES, plain
 
 

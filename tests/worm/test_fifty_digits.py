@@ -5,9 +5,9 @@ import itertools
 import mpmath
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.design import changed
-
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 

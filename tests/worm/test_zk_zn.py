@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+
 from meshwright import Drive
 from meshwright.results import ARCSEC
-
 from tests.worm.designs import packaged
 
 

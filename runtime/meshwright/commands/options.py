@@ -45,7 +45,9 @@ def angles(text):
     if re.fullmatch(rf"{_NUMBER}:{_NUMBER}:{_NUMBER}", text):
         begin, end, step = map(float, text.split(":"))
         if step == 0 or (end - begin) / step < 0:
-            raise UsageError(f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign")
+            raise UsageError(
+                f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign"
+            )
         count = int(np.floor((end - begin) / step + 1e-9)) + 1
         if count > 10_000_000:
             raise UsageError(f"--phi-deg {text}: {count} angles; choose a larger step")
