@@ -7,6 +7,7 @@ import casadi
 
 from derive.tape import Lowering, Stage, Tape
 
+
 def function(plan):
     """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards, rules.
 

@@ -64,7 +64,7 @@ class TCA:
         return bool(self.solved.all()) and not any(IMPOSSIBLE & set(f) for f in self.flags)
 
     def ellipse(self, k, points=97):
-        """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN where there is none."""
+        """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN without one."""
         angle = np.linspace(0.0, 2.0 * np.pi, points)[:, None]
         along, across = self.major[k], np.cross(self.normals[k], self.major[k])
         major, minor = self.semi_axes[k]
