@@ -102,7 +102,7 @@ def _counted(program, case, folder, *options):
 
 
 def scalar_program(case, folder, *options):
-    every_drive = ("lanes", "library", "sensitivity")
+    every_drive = ("lanes", "library", "sensitivity", "casadi")
     sources = [HERE / "scalar_trace.c", *(p for p in RUNTIME.glob("*.c") if not p.name.startswith(every_drive))]
     name = case.name
     defines = [f'-DHEADER="{name}.h"', f"-DMODEL={name}_model", f"-DMODEL_NX={name}_NX"]
