@@ -36,7 +36,9 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
         known = ", ".join(_FAMILIES)
         raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives; there are {known}")
     module, forms = _FAMILIES[drive.design.family]
-    if rim_thickness is None:
+    if rim_thickness is not None:
+        spherical.check_rim(drive, rim_thickness)
+    else:
         rim_thickness = _RIM_MODULES * drive.design.value(module)
     if not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
         raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")

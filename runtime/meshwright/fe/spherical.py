@@ -11,6 +11,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.drive import Drive
+from meshwright.errors import UsageError
 from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
@@ -19,6 +20,17 @@ from meshwright.fe.tooth import ToothForm, ToothSide
 # The rim reaches at most so many root radii below the root.
 _DEEPEST_RIM = 0.8
 _TIP_SAMPLES = 33
+
+
+def check_rim(drive: Drive, rim_thickness: float) -> None:
+    """Refuse a rim deeper than the members allow; members without a root radius have no bore and allow any."""
+    for member in ("pinion", "wheel"):
+        root = drive.design.sizes.get(f"{member}_root_radius_mm", np.inf)
+        if rim_thickness > _DEEPEST_RIM * root:
+            raise UsageError(
+                f"--rim-mm {rim_thickness:g}: no bore is left in the {member}, whose root radius is {root:.4g} mm; "
+                f"give at most {_DEEPEST_RIM * root:.4g}"
+            )
 
 
 def gear_form(drive: Drive, member: str, rim_thickness: float) -> ToothForm:
