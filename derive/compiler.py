@@ -24,7 +24,10 @@ MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
 
 
 def compile_drive(drive, record, log):
-    """All generated files of one drive: relative path → text. ``record`` is the audit record it is checked against."""
+    """All generated files of one drive: relative path → text.
+
+    ``record`` holds the objects of the audit record against which it is checked, by their hash.
+    """
     with log("prove", drive.name):
         origin = provenance(record, drive.family, drive.variant)
     with log("schedule", drive.name):

@@ -6,6 +6,7 @@ earlier definitions; differentiation follows them.
 
 import sympy as sp
 
+from derive.differentiate import partial
 from derive.symbols import Quantity
 
 
@@ -46,11 +47,11 @@ class Definitions:
     def derivative(self, expression, variable):
         """Total derivative by ``variable``, following definitions."""
         expression = sp.sympify(expression)
-        total = sp.diff(expression, variable)
+        total = partial(expression, variable)
         for symbol in sorted(expression.free_symbols & self._values.keys(), key=str):
             inner = self._derivative_of(symbol, variable)
             if inner != 0:
-                total += sp.diff(expression, symbol) * inner
+                total += partial(expression, symbol) * inner
         return total
 
     def derivative_vector(self, vector, variable):

@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cache
 
 import sympy as sp
-from sympy.physics import units as si
 
 
 class Quantity(sp.Symbol):
@@ -37,26 +35,19 @@ class Table(Enum):
     CONTACT = "contact"
 
 
-#: Interface unit (key suffix) → the unit used inside and the exact factor between them.
+#: Interface unit (key suffix) → the unit used inside and the exact factor to it.
 _INTERFACE_UNITS = {
-    "mm": ("mm", si.millimeter, si.millimeter),
-    "deg": ("rad", si.degree, si.radian),
-    "arcmin": ("rad", si.degree / 60, si.radian),
-    "arcsec": ("rad", si.degree / 3600, si.radian),
-    "um": ("mm", si.micrometer, si.millimeter),
-    "per_mm": ("1/mm", 1 / si.millimeter, 1 / si.millimeter),
-    "mm_per_rad2": ("mm/rad^2", si.millimeter / si.radian**2, si.millimeter / si.radian**2),
+    "mm": ("mm", sp.S.One),
+    "deg": ("rad", sp.rad(1)),
+    "per_mm": ("1/mm", sp.S.One),
+    "mm_per_rad2": ("mm/rad^2", sp.S.One),
 }
 
 
-@cache
 def interface_unit(key):
     """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
     suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")
-    if not suffix:
-        return "", "", sp.Integer(1)
-    inner, outside, inside = _INTERFACE_UNITS[suffix]
-    return suffix, inner, sp.nsimplify(si.convert_to(outside, inside) / inside)
+    return (suffix, *_INTERFACE_UNITS.get(suffix, ("", sp.S.One)))
 
 
 @dataclass(frozen=True)

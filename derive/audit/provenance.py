@@ -5,9 +5,10 @@ The table names verdicts by family; the prove stage refuses a name that the reco
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TypedDict
 
-from derive.audit.ledger import Ledger, Verdict
+from derive.audit.check import root_of
 
 #: Rotations and constant frames are in every function.
 COMMON = ("conventions/rotations", "conventions/frames", "conventions/sums")
@@ -34,12 +35,15 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(ledger: Ledger, family: str, variant: dict[str, str]) -> Provenance:
-    """Root hash and equation ids of a drive, by function name without the drive's prefix."""
+def provenance(objects: Mapping[str, dict], family: str, variant: dict[str, str]) -> Provenance:
+    """Root hash and equation ids of a drive, by function name without the drive's prefix.
+
+    ``objects`` are those of the record by their hash, just proved or read from where it was written.
+    """
     functions = {name: list(dict.fromkeys(COMMON + keys)) for name, keys in _functions(family, variant).items()}
     used = sorted({key for keys in functions.values() for key in keys})
-    _require_proved(ledger, used)
-    return {"root_hash": ledger.root, "equations": used, "equations_of": functions}
+    _require_proved(objects, used)
+    return {"root_hash": root_of(objects), "equations": used, "equations_of": functions}
 
 
 def _functions(family: str, variant: dict[str, str]) -> dict[str, tuple[str, ...]]:
@@ -79,15 +83,16 @@ def _functions(family: str, variant: dict[str, str]) -> dict[str, tuple[str, ...
     raise KeyError(f"no table of equations for the family {family!r}; add one here")
 
 
-def _require_proved(ledger: Ledger, names: list[str]) -> None:
-    known = {verdict.id: verdict for verdicts in ledger.verdicts.values() for verdict in verdicts}
+def _require_proved(objects: Mapping[str, dict], names: list[str]) -> None:
+    verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
     for name in names:
-        if name not in known or not _holds(known[name]):
+        if name not in verdicts or not _holds(objects, verdicts[name]):
             raise ValueError(f"{name} is not a proved statement of the record")
 
 
-def _holds(verdict: Verdict) -> bool:
+def _holds(objects: Mapping[str, dict], verdict: dict) -> bool:
     """Proved, or ambiguous with a proved reading (damaged print)."""
-    return verdict.status in ("proved", "proved_with_correction") or any(
-        str(reading.outcome) == "proved" for reading in verdict.readings
+    return verdict["status"] in ("proved", "proved_with_correction") or any(
+        reading["parts"] and all(objects[part["certificate"]]["outcome"] == "proved" for part in reading["parts"])
+        for reading in verdict["readings"]
     )

@@ -1,0 +1,38 @@
+"""Partial derivatives of expressions, each distinct part differentiated once.
+
+The rules are SymPy's own, taken without the questions (is it zero, is it finite) that its ``diff`` asks of every part.
+"""
+
+import sympy as sp
+
+
+def partial(expression, variable):
+    """∂expression/∂variable of sums, products, powers and functions that know their own derivative (``fdiff``)."""
+    return _partial(expression, variable, {})
+
+
+def _partial(expression, variable, known):
+    if variable not in expression.free_symbols:
+        return sp.S.Zero
+    if expression == variable:
+        return sp.S.One
+    if expression not in known:
+        inner = [_partial(argument, variable, known) for argument in expression.args]
+        known[expression] = _chain_rule(expression, inner)
+    return known[expression]
+
+
+def _chain_rule(expression, inner):
+    """The derivative from those of the arguments."""
+    if expression.is_Add:
+        return sp.Add(*inner)
+    if expression.is_Mul:
+        return sp.Add(*(_product(expression.args, k, d) for k, d in enumerate(inner) if d != 0))
+    if expression.is_Pow and inner[1] == 0:
+        base, exponent = expression.args
+        return exponent * base ** (exponent - 1) * inner[0]
+    return sp.Add(*(expression.fdiff(k) * d for k, d in enumerate(inner, 1) if d != 0))
+
+
+def _product(factors, k, derivative):
+    return sp.Mul(*factors[:k], derivative, *factors[k + 1 :])
