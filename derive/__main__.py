@@ -28,7 +28,7 @@ def log(stage, name):
 
 def main(arguments=None):
     """Exit status 0, or 2 for an unknown drive."""
-    parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__)
     parser.add_argument("drive", nargs="*", help="drives to compile; default: all")
     parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")
     options = parser.parse_args(arguments)
@@ -42,7 +42,7 @@ def main(arguments=None):
         try:
             files = _some(options.drive, known)
         except check.Rejected as error:
-            print(f"the audit record cannot be relied on: {error}; prove everything with python -m derive", file=sys.stderr)
+            print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
             return 2
     else:
         files = _everything(known)

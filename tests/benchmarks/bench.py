@@ -4,9 +4,7 @@ Quote ratios, not seconds: they are what one run on one machine can compare. Not
 start each point from the one before; ``casadi-c-extrapolated`` starts from this runtime's own extrapolation.
 """
 
-import re
 import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +17,7 @@ from derive.schedule import schedule
 from derive.tape import Stage
 from meshwright import Drive
 from meshwright._library import ffi, library
-from tests.benchmarks import baselines
+from tests.benchmarks import baselines, regeneration
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -164,14 +162,6 @@ def peak(folder):
     return float(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout.split()[0])
 
 
-def stages():
-    """Seconds of each stage of a full regeneration, and its sum for the recess-action drive."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "derive", "--output", folder]
-        log = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stderr
-    return [(m[1], m[2], float(m[3])) for m in re.finditer(r"^(\S+) +(.+?) +([\d.]+) s$", log, re.MULTILINE)]
-
-
 def main():
     print(f"compiler {' '.join(compiler())}; every kernel without contraction, one core; quote the ratios")
     growth = []
@@ -189,12 +179,7 @@ def main():
     print("\ncost over the number of unknowns: drive, unknowns, operations a step, ns a point, ns an unknown")
     for name, unknowns, count, rate in growth:
         print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
-    print("\nregeneration, seconds a stage")
-    log = stages()
-    for stage in dict.fromkeys(entry[0] for entry in log):
-        total = sum(t for s, _, t in log if s == stage)
-        one = sum(t for s, n, t in log if s == stage and n == growth[0][0])
-        print(f"  {stage:<9} {total:7.2f} all drives {one:7.2f} {growth[0][0]}")
+    regeneration.report(growth[0][0])
 
 
 def _remarks(case, rates, counts, plan, top):

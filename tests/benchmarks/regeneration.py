@@ -1,0 +1,50 @@
+"""How long it takes from a drive's definition to compiled C, and to prove and re-check the audit record."""
+
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from tests.benchmarks.timing import FLAGS, compiler
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def report(drive):
+    """Print seconds a stage for all drives and for ``drive``, then whole processes."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        log, every = _timed(sys.executable, "-m", "derive", "--output", folder / "all")
+        own, one = _timed(sys.executable, "-m", "derive", drive, "--output", folder / "one")
+        _, compiled = _compile(folder / "one" / "c", drive)
+        _, checked = _timed(sys.executable, "-I", "-S", folder / "all" / "audit" / "check.py")
+    total, single = _seconds(log), _seconds(own)
+    print(f"\nregeneration, seconds a stage: all drives, {drive} alone")
+    for stage in total:
+        print(f"  {stage:<9} {total[stage]:7.2f} {single[stage]:7.2f}")
+    print("whole processes, seconds")
+    print(f"  {every:7.2f} python -m derive")
+    print(f"  {one + compiled:7.2f} python -m derive {drive} ({one:.2f}) and its C compiled ({compiled:.2f})")
+    print(f"  {checked:7.2f} generated/audit/check.py")
+
+
+def _timed(*command):
+    begin = time.perf_counter()
+    done = subprocess.run([str(part) for part in command], cwd=ROOT, capture_output=True, text=True, check=True)
+    return done.stderr, time.perf_counter() - begin
+
+
+def _compile(folder, drive):
+    source = folder / "model.c"
+    source.write_text(f'#include "{drive}.h"\nextern const mw_model *model;\nconst mw_model *model = &{drive}_model;\n')
+    return _timed(*compiler(), *FLAGS, "-c", source, "-o", folder / "model.o")
+
+
+def _seconds(log):
+    """Stage -> seconds, from the log of ``python -m derive``."""
+    seconds = {}
+    for stage, time_spent in re.findall(r"^(\S+) .*? ([\d.]+) s$", log, re.MULTILINE):
+        seconds[stage] = seconds.get(stage, 0.0) + float(time_spent)
+    return seconds
