@@ -68,9 +68,10 @@ def _everything(known):
     files = _of_drives(known, known, ledger.objects)
     files["c/models.h"] = compiler.table_of_models(known)
     files["c/lane_models.h"] = lanes.table_of_models(known)
-    files["c/sensitivity_models.h"] = sensitivity.table_of_models(known)
-    shapes = {name: json.loads(files[f"c/{name}.json"])["shapes"] for name in known}
-    files["c/casadi_models.h"] = external.table(shapes.items())
+    described = {name: json.loads(files[f"c/{name}.json"]) for name in known}
+    systems = {name: [system["name"] for system in d["systems"]] for name, d in described.items()}
+    files["c/sensitivity_models.h"] = sensitivity.table_of_models(systems)
+    files["c/casadi_models.h"] = external.table((name, d["shapes"]) for name, d in described.items())
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     files["manifest.json"] = compiler.manifest(files)

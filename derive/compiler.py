@@ -38,8 +38,8 @@ def compile_drive(drive, record, log):
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
             f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",
-            f"casadi/{drive.name}.casadi": casadi.text(plan),
         }
+        files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
         # last: it adds the changes of the inputs to the tape
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, metadata.GENERATOR)
         return files

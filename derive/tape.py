@@ -290,6 +290,11 @@ class Tape:
                         stack.extend((a, False) for a in reversed(self.nodes[i].args))
         return order
 
+    def inputs_of(self, outputs):
+        """Symbols of the inputs that ``outputs`` depend on."""
+        read = {a for i in self.needed(outputs) for a in self.nodes[i].args} | set(outputs)
+        return {self.nodes[i].value for i in read if self.nodes[i].op == "input"}
+
     def evaluate(self, outputs, inputs, arithmetic=math):
         """Values of ``outputs`` for ``inputs`` (symbol → number) in any arithmetic that has the functions.
 

@@ -5,7 +5,7 @@ import pytest
 from meshwright import metadata
 from meshwright._library import library, model, text
 
-MAX_UNKNOWNS, MAX_OBSERVATION = 8, 512  # MW_MAX_UNKNOWNS, MW_MAX_OBSERVATION of meshwright.h
+MAX_UNKNOWNS, MAX_OBSERVATION, MAX_PARAMETERS = 8, 512, 128  # MW_MAX_... of meshwright.h
 
 
 @pytest.mark.parametrize("name", metadata.drives())
@@ -15,6 +15,8 @@ def test_a_model_fits_the_runtime(name):
     assert m.nx <= MAX_UNKNOWNS
     assert m.nstart <= MAX_UNKNOWNS
     assert m.no <= MAX_OBSERVATION
+    assert m.np <= MAX_PARAMETERS
+    assert all(m.systems[k].n <= MAX_UNKNOWNS for k in range(m.nsystems))
     assert text(m.hash) == metadata.drives()[name]["specification_hash"]
 
 

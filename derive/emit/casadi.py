@@ -1,10 +1,11 @@
-"""Print a schedule as a CasADi function: the same tape over CasADi's SX symbols."""
+"""Print a schedule as CasADi functions: the same tapes over CasADi's SX symbols."""
 
 import tempfile
 from pathlib import Path
 
 import casadi
 
+from derive.drive import PATH
 from derive.tape import Lowering, Stage, Tape
 
 
@@ -44,9 +45,37 @@ def _rules(drive, inputs):
     return tape.evaluate([lower(rule.value) for rule in drive.completion], inputs, casadi)
 
 
-def text(plan):
-    """The function as ``casadi.Function.load`` reads it from a file."""
+def system_function(drive, plan):
+    """CasADi function of a design system: (p, path, y) → residual, guess, scale, values that it fills in, watch.
+
+    ``watch`` must be positive along the path; it is empty if there is nothing to watch.
+    """
+    p, path = casadi.SX.sym("p", len(drive.parameters)), casadi.SX.sym("path")
+    y = casadi.SX.sym("y", len(plan.unknowns))
+    inputs = {q.symbol: p[k] for k, q in enumerate(drive.parameters)} | {PATH: path}
+    inputs |= {u: y[k] for k, u in enumerate(plan.unknowns)}
+    results = {
+        name: casadi.vertcat(*plan.tape.evaluate(nodes, inputs, casadi))
+        for name, nodes in (
+            ("residual", plan.residual),
+            ("guess", plan.guess),
+            ("scale", plan.scales),
+            ("values", plan.values),
+            ("watch", [] if plan.watch is None else [plan.watch]),
+        )
+    }
+    name = f"{drive.name}_{plan.system.name}"
+    return casadi.Function(name, [p, path, y], list(results.values()), ["p", "path", "y"], list(results))
+
+
+def texts(plan):
+    """The drive's function and those of its design systems as ``casadi.Function.load`` reads them, by name."""
+    functions = [function(plan), *(system_function(plan.drive, system) for system in plan.systems)]
+    return {f.name(): _text(f) for f in functions}
+
+
+def _text(saved):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "function.casadi"
-        function(plan).save(str(path))
+        saved.save(str(path))
         return path.read_text(encoding="ascii")

@@ -44,9 +44,7 @@ def describe(plan, provenance):
         "flanks_apart": drive.flanks_apart,
         "absorbs_errors": drive.absorbs_errors,
         "sizes": [_size(*entry) for entry in drive.sizes],
-        "systems": [
-            {"name": system.name, "message": system.message, "keys": list(system.keys)} for system in drive.systems
-        ],
+        "systems": [_system(drive, system) for system in drive.systems],
         "rules": _rules(drive),
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in drive.guards],
         "outputs": [
@@ -167,6 +165,18 @@ def _rules(drive):
     """Which parameter each default and rule fills, in the order in which they run."""
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
     return [index[rule.target] for rule in drive.completion]
+
+
+def _system(drive, system):
+    """A design system: why it may have no solution, its number of unknowns, which parameters it fills in."""
+    symbols = [p.symbol for p in drive.parameters]
+    return {
+        "name": system.name,
+        "message": system.message,
+        "keys": list(system.keys),
+        "unknowns": len(system.unknowns),
+        "fills": [symbols.index(target) for target in system.fills],
+    }
 
 
 def _size(key, _value, meaning):

@@ -1,11 +1,13 @@
-"""Print what a change of the parameters does: directional derivatives of rules, residual and contact point.
+"""Print what a change of the parameters does: directional derivatives of rules, design systems, residual and contact.
 
-One direction at a time: the tangent of every value on the tape, by the chain rule. With the Jacobian of the contact
-this gives exact sensitivities of the solution (implicit function theorem); see ``runtime/c/sensitivity.c``.
+One direction at a time: the tangent of every value on the tape, by the chain rule. With the Jacobians of the design
+systems and of the contact this gives exact sensitivities of their solutions (implicit function theorem); see
+``runtime/c/sensitivity.c``.
 """
 
 import sympy as sp
 
+from derive.drive import PATH
 from derive.emit.c99 import Printer
 from derive.emit.render import render
 from derive.tape import Lowering, Stage, Tape
@@ -38,11 +40,10 @@ def header(plan, generator):
     drive, tape, lower = plan.drive, plan.tape, plan.lower
     parameters = [p.symbol for p in drive.parameters]
     by_p, by_x = _seeds(tape, lower, parameters, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
-    leaves = {lower(s): f"p[{k}]" for k, s in enumerate(parameters)} | {lower(drive.instant): "phi"}
-    leaves |= {lower(s): f"x[{k}]" for k, s in enumerate(plan.unknowns)}
-    leaves |= {node: f"dp[{k}]" for k, node in enumerate(by_p.values())}
-    leaves |= {node: f"dx[{k}]" for k, node in enumerate(by_x.values())}
-    tangent = _Tangents(tape, by_p | by_x)
+    by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
+    leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
+    leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
+    tangent = _Tangents(tape, by_p | by_phi | by_x)
     point = next(o for o in plan.observed if o.name == _POINT)
     nodes = [*plan.residual, *point.nodes]
     return render(
@@ -52,36 +53,71 @@ def header(plan, generator):
         generator=generator,
         defaults=[k for k, p in enumerate(drive.parameters) if p.default is not None],
         rules=list(_rules(drive)),
+        systems=[_system(system, drive) for system in plan.systems],
         tangent=Printer(tape, drive.name, leaves).body([tangent(i) for i in nodes])[0],
     )
 
 
+def _leaves(lower, name, symbols, seeds):
+    """C operands of inputs ``name[k]`` and of their seeds ``dname[k]``."""
+    leaves = {lower(s): f"{name}[{k}]" for k, s in enumerate(symbols)}
+    return leaves | {seeds[lower(s)]: f"d{name}[{k}]" for k, s in enumerate(symbols)}
+
+
 def _rules(drive):
-    """Tangent of each rule of the drive: parameter index, C body, name."""
+    """Tangent of each rule of the drive: parameter index, what it needs, C body, name."""
     symbols = [p.symbol for p in drive.parameters]
     index = {symbol: k for k, symbol in enumerate(symbols)}
     for rule in drive.rules:
         tape = Tape()
         lower = Lowering(tape, dict.fromkeys(symbols, Stage.DESIGN), drive.definitions)
         seeds = _seeds(tape, lower, symbols, Stage.DESIGN)
-        leaves = {lower(s): f"p[{k}]" for k, s in enumerate(symbols)}
-        leaves |= {node: f"dp[{k}]" for k, node in enumerate(seeds.values())}
-        value = _Tangents(tape, seeds)(lower(rule.value))
-        needs = sorted(index[s] for s in sp.sympify(rule.value).free_symbols & index.keys())
+        node = lower(rule.value)
+        value = _Tangents(tape, seeds)(node)
         yield {
             "index": index[rule.target],
             "name": rule.target.name,
-            "needs": needs,
-            "body": Printer(tape, drive.name, leaves).body([value])[0],
+            "needs": sorted(index[s] for s in tape.inputs_of([node])),
+            "body": Printer(tape, drive.name, _leaves(lower, "p", symbols, seeds)).body([value])[0],
         }
 
 
-def table_of_models(names):
-    """C source that lists the sensitivity functions of every drive, for the shared library."""
-    includes = "".join(f'#include "{name}_sensitivity.h"\n' for name in names)
-    rows = "".join(f'    {{ "{name}", {name}_derive_tangent, {name}_tangent }},\n' for name in names)
+def _system(plan, drive):
+    """Tangents of a design system: of its residual and of the values that it fills in, along dq and dy."""
+    tape, lower = plan.tape, plan.lower
+    symbols = [p.symbol for p in drive.parameters]
+    by_q, by_y = _seeds(tape, lower, symbols, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
+    leaves = _leaves(lower, "q", symbols, by_q) | _leaves(lower, "y", plan.unknowns, by_y)
+    printer = Printer(tape, drive.name, leaves | {lower(PATH): f"q[{len(symbols)}]"})
+    tangent = _Tangents(tape, by_q | by_y)
+    return {
+        "name": plan.system.name,
+        "unknowns": plan.unknowns,
+        "residual": printer.body([tangent(i) for i in plan.residual])[0],
+        "values": printer.body([tangent(i) for i in plan.values])[0],
+        "fills": [symbols.index(target) for target in plan.system.fills],
+    }
+
+
+def table_of_models(systems):
+    """C source that lists the sensitivity functions of every drive, for the shared library.
+
+    ``systems``: names of the design systems of each drive by the drive's name.
+    """
+    includes = "".join(f'#include "{name}_sensitivity.h"\n' for name in systems)
+    tables = "".join(_table_of_systems(name, own) for name, own in systems.items() if own)
+    rows = "".join(
+        f'    {{ "{name}", {name}_derive_tangent, {f"{name}_system_tangents" if own else "NULL"}, {name}_tangent }},\n'
+        for name, own in systems.items()
+    )
     return (
         "/* The sensitivity functions of every drive. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
         f"{includes}\n"
+        f"{tables}"
         f"static const mw_tangents mw_tangent_models[] = {{\n{rows}}};\n"
     )
+
+
+def _table_of_systems(name, systems):
+    rows = "".join(f"    {{ {name}_{system}_tangent, {name}_{system}_fill_tangent }},\n" for system in systems)
+    return f"static const mw_system_tangents {name}_system_tangents[] = {{\n{rows}}};\n"

@@ -1,60 +1,124 @@
-/* Entries for casadi.external("<drive>_contact", library): (p, phi, start) -> x, the contact near start at complete
- * parameters p. A contact that is not found is an error of the call.  SPDX-License-Identifier: MIT-0 */
+/* Entries for casadi.external(name, library), with derivatives.  SPDX-License-Identifier: MIT-0
+ *
+ * <drive>_complete: given -> p, the parameters of a design (NaN: open) completed by rules and design systems.
+ * <drive>_contact: (p, phi, start) -> x, the contact near start at complete parameters p.
+ * A design that cannot be completed and a contact that is not found are errors of the call. */
+#include <string.h>
 #include "meshwright.h"
 
 typedef long long casadi_int;
 
-static int contact(const char *drive, const double **arg, double **res, double *s)
+/* work w[np + 1] */
+static int complete(const mw_model *m, const double **arg, double **res, double *w)
 {
-    const mw_model *m = mw_find(drive);
-    double x[MW_MAX_UNKNOWNS];
     mw_info info;
-    if (!m || !arg[0] || !arg[2] || m->setup(arg[0], s)) return 1;
-    m->set_phi(s, arg[1] ? arg[1][0] : 0.0);
-    for (int j = 0; j < m->nx; j++) x[j] = arg[2][j];
-    if (mw_refine(m, s, x, &info) < 0) return 1;
-    for (int j = 0; res[0] && j < m->nx; j++) res[0][j] = x[j];
+    double p[MW_MAX_PARAMETERS];
+    if (!arg[0] || m->np > MW_MAX_PARAMETERS) return 1;
+    memcpy(p, arg[0], sizeof(double) * (size_t)m->np);
+    if (mw_complete(m, p, w, &info)) return 1;
+    if (res[0]) memcpy(res[0], p, sizeof(double) * (size_t)m->np);
     return 0;
 }
 
-static const char *const inputs[] = { "p", "phi", "start" };
+/* (given, p) -> dp/d(given); the columns of open parameters are 0 */
+static int complete_jacobian(const mw_model *m, const double **arg, double **res, double *w)
+{
+    (void)w;
+    const double *given = arg[0], *p = arg[1];
+    if (!given || !p) return 1;
+    if (!res[0]) return 0;
+    memset(res[0], 0, sizeof(double) * (size_t)(m->np * m->np));
+    for (int k = 0; k < m->np; k++) {
+        double *column = res[0] + k * m->np;
+        if (given[k] != given[k]) continue;
+        column[k] = 1.0;
+        if (mw_complete_tangent(m, given, p, column) < 0) return 1;
+    }
+    return 0;
+}
 
-#define MW_CASADI(drive, np, ns, nx) \
-    int drive##_contact(const double **arg, double **res, casadi_int *iw, double *w, int mem); \
-    casadi_int drive##_contact_n_in(void); \
-    casadi_int drive##_contact_n_out(void); \
-    const char *drive##_contact_name_in(casadi_int i); \
-    const char *drive##_contact_name_out(casadi_int i); \
-    const casadi_int *drive##_contact_sparsity_in(casadi_int i); \
-    const casadi_int *drive##_contact_sparsity_out(casadi_int i); \
-    int drive##_contact_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w); \
-    int drive##_contact(const double **arg, double **res, casadi_int *iw, double *w, int mem) \
+/* work w[ns] */
+static int contact(const mw_model *m, const double **arg, double **res, double *w)
+{
+    double x[MW_MAX_UNKNOWNS];
+    mw_info info;
+    if (!arg[0] || !arg[2] || m->setup(arg[0], w)) return 1;
+    m->set_phi(w, arg[1] ? arg[1][0] : 0.0);
+    memcpy(x, arg[2], sizeof(double) * (size_t)m->nx);
+    if (mw_refine(m, w, x, &info) < 0) return 1;
+    if (res[0]) memcpy(res[0], x, sizeof(double) * (size_t)m->nx);
+    return 0;
+}
+
+/* (p, phi, start, x) -> dx/dp, dx/dphi; the start has no influence. Work w[ns]. */
+static int contact_jacobian(const mw_model *m, const double **arg, double **res, double *w)
+{
+    const double *p = arg[0], *x = arg[3], phi = arg[1] ? arg[1][0] : 0.0;
+    double dp[MW_MAX_PARAMETERS] = { 0.0 }, point[3];
+    if (!p || !x || m->np > MW_MAX_PARAMETERS || m->setup(p, w)) return 1;
+    m->set_phi(w, phi);
+    for (int k = 0; res[0] && k < m->np; k++) {
+        dp[k] = 1.0;
+        if (mw_contact_tangent(m, p, dp, phi, 0.0, w, x, res[0] + k * m->nx, point) < 0) return 1;
+        dp[k] = 0.0;
+    }
+    return res[1] && mw_contact_tangent(m, p, dp, phi, 1.0, w, x, res[1], point) < 0;
+}
+
+static const char *const complete_in[] = { "given", "p" }, *const complete_out[] = { "p", "jac_p_given" };
+static const char *const contact_in[] = { "p", "phi", "start", "x" };
+static const char *const contact_out[] = { "x" };
+static const char *const contact_slopes[] = { "jac_x_p", "jac_x_phi", "jac_x_start" };
+
+/* One external function: name##_in and name##_out are its sparsity patterns, ins and outs the names of both. */
+#define MW_ENTRY(name, drive, call, ins, outs, work) \
+    int name(const double **arg, double **res, casadi_int *iw, double *w, int mem); \
+    casadi_int name##_n_in(void); \
+    casadi_int name##_n_out(void); \
+    const char *name##_name_in(casadi_int i); \
+    const char *name##_name_out(casadi_int i); \
+    const casadi_int *name##_sparsity_in(casadi_int i); \
+    const casadi_int *name##_sparsity_out(casadi_int i); \
+    int name##_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w); \
+    enum { name##_ins = sizeof name##_in / sizeof name##_in[0], name##_outs = sizeof name##_out / sizeof name##_out[0] }; \
+    int name(const double **arg, double **res, casadi_int *iw, double *w, int mem) \
     { \
+        const mw_model *m = mw_find(#drive); \
         (void)iw; \
         (void)mem; \
-        return contact(#drive, arg, res, w); \
+        return m ? call(m, arg, res, w) : 1; \
     } \
-    casadi_int drive##_contact_n_in(void) { return 3; } \
-    casadi_int drive##_contact_n_out(void) { return 1; } \
-    const char *drive##_contact_name_in(casadi_int i) { return i >= 0 && i < 3 ? inputs[i] : NULL; } \
-    const char *drive##_contact_name_out(casadi_int i) { return i == 0 ? "x" : NULL; } \
-    const casadi_int *drive##_contact_sparsity_in(casadi_int i) \
+    casadi_int name##_n_in(void) { return name##_ins; } \
+    casadi_int name##_n_out(void) { return name##_outs; } \
+    const char *name##_name_in(casadi_int i) { return i >= 0 && i < name##_ins ? ins[i] : NULL; } \
+    const char *name##_name_out(casadi_int i) { return i >= 0 && i < name##_outs ? outs[i] : NULL; } \
+    const casadi_int *name##_sparsity_in(casadi_int i) { return i >= 0 && i < name##_ins ? name##_in[i] : NULL; } \
+    const casadi_int *name##_sparsity_out(casadi_int i) { return i >= 0 && i < name##_outs ? name##_out[i] : NULL; } \
+    int name##_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w) \
     { \
-        static const casadi_int dense[3][3] = { { np, 1, 1 }, { 1, 1, 1 }, { nx, 1, 1 } }; \
-        return i >= 0 && i < 3 ? dense[i] : NULL; \
-    } \
-    const casadi_int *drive##_contact_sparsity_out(casadi_int i) \
-    { \
-        static const casadi_int dense[3] = { nx, 1, 1 }; \
-        return i == 0 ? dense : NULL; \
-    } \
-    int drive##_contact_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w) \
-    { \
-        *sz_arg = 3; \
-        *sz_res = 1; \
+        *sz_arg = name##_ins; \
+        *sz_res = name##_outs; \
         *sz_iw = 0; \
-        *sz_w = ns; \
+        *sz_w = work; \
         return 0; \
     }
+
+/* Patterns are { rows, columns, 1 } where dense, else { rows, columns, begin of each column, ... }: all 0 is empty. */
+#define MW_CASADI(drive, np, ns, nx) \
+    static const casadi_int drive##_angle[] = { 1, 1, 1 }, drive##_p[] = { np, 1, 1 }, drive##_x[] = { nx, 1, 1 }; \
+    static const casadi_int drive##_p_by_p[] = { np, np, 1 }, drive##_x_by_p[] = { nx, np, 1 }; \
+    static const casadi_int drive##_x_by_start[nx + 3] = { nx, nx }; \
+    static const casadi_int *const drive##_complete_in[] = { drive##_p }; \
+    static const casadi_int *const drive##_complete_out[] = { drive##_p }; \
+    static const casadi_int *const jac_##drive##_complete_in[] = { drive##_p, drive##_p }; \
+    static const casadi_int *const jac_##drive##_complete_out[] = { drive##_p_by_p }; \
+    static const casadi_int *const drive##_contact_in[] = { drive##_p, drive##_angle, drive##_x }; \
+    static const casadi_int *const drive##_contact_out[] = { drive##_x }; \
+    static const casadi_int *const jac_##drive##_contact_in[] = { drive##_p, drive##_angle, drive##_x, drive##_x }; \
+    static const casadi_int *const jac_##drive##_contact_out[] = { drive##_x_by_p, drive##_x, drive##_x_by_start }; \
+    MW_ENTRY(drive##_complete, drive, complete, complete_in, complete_out, np + 1) \
+    MW_ENTRY(jac_##drive##_complete, drive, complete_jacobian, complete_in, (complete_out + 1), 0) \
+    MW_ENTRY(drive##_contact, drive, contact, contact_in, contact_out, ns) \
+    MW_ENTRY(jac_##drive##_contact, drive, contact_jacobian, contact_in, contact_slopes, ns)
 
 #include "casadi_models.h"

@@ -1,11 +1,11 @@
 /* Complete a design: rules and defaults, then the systems that place its tools.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
+#include "complete.h"
 #include "newton.h"
 
 enum { PATH_STEPS = 32, MAX_HALVINGS = 8 };
 
-/* Follow one system from its guess along its path. Negative if the path breaks off or leaves the regular part. */
-static int follow(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
+int mw_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
 {
     double scale[MW_MAX_UNKNOWNS], last[MW_MAX_UNKNOWNS], slope[MW_MAX_UNKNOWNS] = { 0.0 };
     double *path = q + m->np, at = 0.0, step = 1.0 / PATH_STEPS;
@@ -41,7 +41,7 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info)
         double y[MW_MAX_UNKNOWNS] = { 0.0 };
         if (m->systems[k].open(p) == 0) continue;
         memcpy(q, p, sizeof(double) * (size_t)m->np);
-        if (follow(m, &m->systems[k], q, y, info) < 0) return 1 + k;
+        if (mw_solve_system(m, &m->systems[k], q, y, info) < 0) return 1 + k;
         m->systems[k].fill(y, q);
         memcpy(p, q, sizeof(double) * (size_t)m->np);
         m->derive(p);

@@ -31,8 +31,8 @@ typedef enum mw_status {
     MW_STATUS_END = 1000
 } mw_status;
 
-/* Largest nx and no of any model. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512 };
+/* Largest nx, no and np of any model. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128 };
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
@@ -117,14 +117,18 @@ size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0,
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags);
 
-/* Rules differentiated: dp[np] holds the changes of the parameters given[np] and receives those that follow from them;
- * p[np] is given, completed. Returns MW_CONVERGED, or MW_BAD_INPUT for a drive whose parameters a system solves. */
+/* mw_complete differentiated: dp[np] holds the changes of the parameters given[np] (NaN: open) and receives those that
+ * follow from them by rules and design systems; p[np] is given, completed. Returns MW_CONVERGED, or why a design system
+ * has no regular solution. */
 int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp);
 
-/* Exact derivatives of a contact along a change[np] of the given parameters: dp[np] with what follows by rules, dx[nx]
- * of the unknowns, dr[3] of the contact point, fixed frame. given[np] as the design has them (NaN: open), p[np] the
- * same completed, s set up for p and phi, x[nx] the solution. Returns MW_CONVERGED, MW_SINGULAR where the contact does
- * not determine its point, or MW_BAD_INPUT for a drive whose parameters a design system solves. */
+/* Exact derivatives of a contact along changes dp[np] of the complete parameters p[np] and dphi of the angle: dx[nx]
+ * of the unknowns, dr[3] of the contact point, fixed frame. s set up for p and phi, x[nx] the solution. Returns
+ * MW_CONVERGED, or MW_SINGULAR where the contact does not determine its point. */
+int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, double phi, double dphi, const double *s,
+                       const double *x, double *dx, double *dr);
+
+/* Both in a row, along a change[np] of the given parameters: dp[np], dx[nx], dr[3] and returns as above. */
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr);
 

@@ -1,13 +1,19 @@
-/* Exact sensitivities of a contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
+/* Exact sensitivities of a design and of its contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
+#include "complete.h"
 #include "linear.h"
-#include "meshwright.h"
+
+typedef struct mw_system_tangents {
+    void (*equations)(const double *q, const double *dq, const double *y, const double *dy, double *dR);
+    void (*fill)(const double *q, const double *y, const double *dy, double *known, double *dq);
+} mw_system_tangents;
 
 typedef struct mw_tangents {
     const char *drive;
-    void (*derive)(const double *given, const double *p, double *dp);
-    void (*contact)(const double *p, const double *dp, double phi, const double *x, const double *dx, double *dR,
-                    double *dr);
+    void (*derive)(double *known, const double *p, double *dp);
+    const mw_system_tangents *systems;
+    void (*contact)(const double *p, const double *dp, double phi, double dphi, const double *x, const double *dx,
+                    double *dR, double *dr);
 } mw_tangents;
 
 #include "sensitivity_models.h"
@@ -19,31 +25,68 @@ static const mw_tangents *find(const mw_model *m)
     return NULL;
 }
 
-int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp)
+/* Below this share of the largest pivot a system does not determine its solution: line contact. */
+static const double RANK_TOLERANCE = 1e-12;
+
+/* Change of a solution: J change = -dR; J and dR are overwritten. */
+static int implicit(int n, double *J, double *dR, const double *scale, double *change)
 {
-    const mw_tangents *t = find(m);
-    if (!t || m->nsystems > 0) return MW_BAD_INPUT;
-    t->derive(given, p, dp);
+    double gap;
+    for (int i = 0; i < n; i++) dR[i] = -dR[i];
+    return mw_linear_solve(n, J, dR, scale, RANK_TOLERANCE, change, &gap) < n ? MW_SINGULAR : MW_CONVERGED;
+}
+
+static int place(const mw_model *m, const mw_system *system, const mw_system_tangents *t, const double *p,
+                 double *known, double *dp)
+{
+    double q[MW_MAX_PARAMETERS + 1], y[MW_MAX_UNKNOWNS] = { 0.0 }, dy[MW_MAX_UNKNOWNS] = { 0.0 };
+    double R[MW_MAX_UNKNOWNS], dR[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    mw_info info;
+    memcpy(q, p, sizeof(double) * (size_t)m->np);
+    if (mw_solve_system(m, system, q, y, &info) < 0) return info.status;
+    t->equations(q, dp, y, dy, dR);
+    system->eval(q, y, R, J);
+    system->scale(q, scale);
+    if (implicit(system->n, J, dR, scale, dy) < 0) return MW_SINGULAR;
+    t->fill(q, y, dy, known, dp);
     return MW_CONVERGED;
 }
 
-/* Below this share of the largest pivot the contact does not determine its point: line contact. */
-static const double RANK_TOLERANCE = 1e-12;
+int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp)
+{
+    double known[MW_MAX_PARAMETERS];
+    const mw_tangents *t = find(m);
+    if (!t || m->np > MW_MAX_PARAMETERS) return MW_BAD_INPUT;
+    memcpy(known, given, sizeof(double) * (size_t)m->np);
+    t->derive(known, p, dp);
+    for (int k = 0; k < m->nsystems; k++) {
+        if (m->systems[k].open(known) == 0) continue;
+        const int ended = place(m, &m->systems[k], &t->systems[k], p, known, dp);
+        if (ended < 0) return ended;
+        t->derive(known, p, dp);
+    }
+    return MW_CONVERGED;
+}
+
+int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, double phi, double dphi, const double *s,
+                       const double *x, double *dx, double *dr)
+{
+    double R[MW_MAX_UNKNOWNS], dR[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    const mw_tangents *t = find(m);
+    if (!t) return MW_BAD_INPUT;
+    for (int j = 0; j < m->nx; j++) dx[j] = 0.0;
+    t->contact(p, dp, phi, dphi, x, dx, dR, dr);
+    m->eval(s, x, R, J);
+    m->scale(s, scale);
+    if (implicit(m->nx, J, dR, scale, dx) < 0) return MW_SINGULAR;
+    t->contact(p, dp, phi, dphi, x, dx, dR, dr);
+    return MW_CONVERGED;
+}
 
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr)
 {
-    const mw_tangents *t = find(m);
-    double R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], right[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    double gap;
     memcpy(dp, change, sizeof(double) * (size_t)m->np);
-    if (mw_complete_tangent(m, given, p, dp) < 0) return MW_BAD_INPUT;
-    for (int j = 0; j < m->nx; j++) dx[j] = 0.0;
-    t->contact(p, dp, phi, x, dx, right, dr);
-    for (int j = 0; j < m->nx; j++) right[j] = -right[j];
-    m->eval(s, x, R, J);
-    m->scale(s, scale);
-    if (mw_linear_solve(m->nx, J, right, scale, RANK_TOLERANCE, dx, &gap) < m->nx) return MW_SINGULAR;
-    t->contact(p, dp, phi, x, dx, right, dr);
-    return MW_CONVERGED;
+    const int ended = mw_complete_tangent(m, given, p, dp);
+    return ended < 0 ? ended : mw_contact_tangent(m, p, dp, phi, 0.0, s, x, dx, dr);
 }

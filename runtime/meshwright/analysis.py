@@ -155,7 +155,7 @@ class _Points:
         for output in self.description["outputs"]:
             if output["name"] in recovered:
                 columns[output["name"]] = output, self.observed[:, output["offset"]]
-        values = {name: (mirror if _turns(u) else 1.0) * self._only(column) for name, (u, column) in columns.items()}
+        values = {name: (mirror if turns(name) else 1.0) * self._only(column) for name, (_, column) in columns.items()}
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
     def flags(self):
@@ -203,9 +203,9 @@ class _Points:
         )
 
 
-def _turns(entry):
-    """Whether a number is an angle of rotation about a z-type axis, which a mirror image negates."""
-    return entry["name"].startswith(("psi_", "phi_"))
+def turns(name):
+    """Whether a number of this name is an angle of rotation about a z-type axis, which a mirror image negates."""
+    return name.startswith(("psi_", "phi_"))
 
 
 def _flag_names(m):

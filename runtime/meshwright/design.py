@@ -216,6 +216,17 @@ def given_vector(design):
     return _vector(design.description, design.tables)
 
 
+def is_real(parameter):
+    """Whether a parameter is a real number: neither a count nor a choice."""
+    return not (parameter["integer"] or parameter["choices"])
+
+
+def has_rival(design, key):
+    """Whether a design key is the other name of one that is given, and so determined by it."""
+    given = {k for k, value in design.tables["design"].items() if value is not None}
+    return key not in given and any(key in group and given & set(group) for group in design.description["exclusive"])
+
+
 def _complete(c, description, p, checked):
     """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
     work, info = np.empty(c.np + 1), ffi.new("mw_info *")

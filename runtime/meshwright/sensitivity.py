@@ -1,7 +1,8 @@
 """Exact sensitivities of a contact: what a small change of each parameter does to it.
 
 The generated derivatives give the change of the residual and of the contact point along a parameter, following the
-rules by which other parameters depend on it; the implicit function theorem gives the change of the solution.
+rules and design systems by which other parameters depend on it; the implicit function theorem gives the change of
+the solutions, of the design systems and of the contact.
 """
 
 import math
@@ -9,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright import analysis
 from meshwright import design as designs
-from meshwright._library import ffi, library, model
-from meshwright.errors import UsageError
+from meshwright._library import library, model
+from meshwright.analysis import pointer
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,8 @@ class Sensitivity:
     """Derivatives at N pinion angles (rad) by the parameters ``keys`` ("table.key"), per inner unit (mm, rad).
 
     ``unknowns[name]`` and ``error``, the transmission error in rad: (N, K). ``points``: contact point in the fixed
-    frame, mm: (N, K, 3). NaN where there is no contact point.
+    frame, mm: (N, K, 3). NaN where there is no contact point. ``design``: derivatives of the complete parameter
+    vector, (P, K).
     """
 
     angles: np.ndarray
@@ -27,6 +30,7 @@ class Sensitivity:
     unknowns: dict[str, np.ndarray]
     error: np.ndarray
     points: np.ndarray
+    design: np.ndarray
 
     def of(self, key):
         """Column of a key."""
@@ -37,66 +41,60 @@ def sensitivity(drive, angles):
     """:class:`Sensitivity` of a drive at pinion angles, by every real parameter of design and misalignment.
 
     A parameter that the design leaves to a rule is taken as if it alone were given; what a given parameter changes by
-    rules changes with it. Raises :class:`~meshwright.errors.UsageError` for a left-hand drive, and for a drive whose
-    parameters a system of equations solves.
+    rules or design systems changes with it. A left-hand drive is the mirror image: its angles, transmission error and
+    points are those of the drive of that hand.
     """
-    description, m = drive.design.description, model(drive.design.description["name"])
-    if m.nsystems:
-        raise UsageError(f"{description['title']}: its parameters follow from a system of equations; no sensitivities")
-    if drive.design.mirrored:
-        raise UsageError("hand = 'left': sensitivities are those of the right-hand mirror image; set hand to right")
+    description, checked = drive.design.description, drive.design
     angles = np.atleast_1d(np.asarray(angles, dtype=float))
-    given = designs.given_vector(drive.design)
-    columns = [k for k, p in enumerate(description["parameters"]) if _counts(p, k, drive.design, given)]
-    x, status = drive.trace(angles)
-    n, count, nx = len(angles), len(columns), m.nx
-    changes, points = np.full((n, count, nx), np.nan), np.full((n, count, 3), np.nan)
-    for i, phi in enumerate(angles):
-        if status[i] != "converged":
-            continue
-        state = _state(m, drive.design.parameters, phi)
-        for j, column in enumerate(columns):
-            solved = _derivative(m, given, drive.design.parameters, phi, state, x[i], column)
-            if solved is not None:
-                changes[i, j], points[i, j] = solved
+    columns = [k for k, p in enumerate(description["parameters"]) if _counts(p, k, checked)]
+    design = np.stack([_of_design(checked, column) for column in columns], axis=1)
+    changes, points = _of_contact(drive, angles, design)
+    mirror = -1.0 if checked.mirrored else 1.0
+    names = [u["name"] for u in description["unknowns"]]
+    turning = [mirror if k == description["error"] or analysis.turns(name) else 1.0 for k, name in enumerate(names)]
     parameters = description["parameters"]
     return Sensitivity(
         angles=angles,
         keys=tuple(f"{parameters[k]['table']}.{parameters[k]['key']}" for k in columns),
-        unknowns={u["name"]: changes[..., k] for k, u in enumerate(description["unknowns"])},
-        error=changes[..., description["error"]],
-        points=points,
+        unknowns={name: turning[k] * changes[..., k] for k, name in enumerate(names)},
+        error=mirror * changes[..., description["error"]],
+        points=points * [1.0, mirror, 1.0],
+        design=design,
     )
 
 
-def _counts(parameter, k, design, given):
+def _counts(parameter, k, design):
     """Whether a parameter is a real number in effect, and not the other name of one that is given."""
-    if parameter["table"] not in ("design", "misalignment") or parameter["integer"] or parameter["choices"]:
+    if parameter["table"] not in ("design", "misalignment") or not designs.is_real(parameter):
         return False
     if math.isnan(design.parameters[k]):
         return False
-    rivals = [group for group in design.description["exclusive"] if parameter["key"] in group]
-    return not (rivals and parameter["table"] == "design" and math.isnan(given[k]))
+    return parameter["table"] != "design" or not designs.has_rival(design, parameter["key"])
 
 
-def _pointer(array):
-    return ffi.from_buffer("double[]", array)
+def _of_design(design, column):
+    """Change of the complete parameter vector per unit of one parameter, as if that were given."""
+    m = model(design.description["name"])
+    given, change = designs.given_vector(design), np.zeros(m.np)
+    given[column], change[column] = design.parameters[column], 1.0
+    ended = library().mw_complete_tangent(m, pointer(given), pointer(design.parameters), pointer(change))
+    return change if ended >= 0 else np.full(m.np, np.nan)
 
 
-def _state(m, parameters, phi):
-    s = np.empty(m.ns)
-    m.setup(_pointer(parameters), _pointer(s))
-    m.set_phi(_pointer(s), phi)
-    return s
-
-
-def _derivative(m, given, parameters, phi, state, x, column):
-    """Changes of the unknowns and of the contact point per unit of one parameter; None where they do not exist."""
-    change = np.zeros(m.np)
-    change[column] = 1.0
-    alone = given.copy()
-    alone[column] = parameters[column]
-    dp, dx, dr = np.empty(m.np), np.empty(m.nx), np.empty(3)
-    rest = map(_pointer, (state, np.ascontiguousarray(x), change, dp, dx, dr))
-    ended = library().mw_sensitivity(m, _pointer(alone), _pointer(parameters), phi, *rest)
-    return (dx, dr) if ended >= 0 else None
+def _of_contact(drive, angles, design):
+    """Changes (N, K, nx) of the unknowns and (N, K, 3) of the contact point of the right-hand drive."""
+    m, p = model(drive.design.description["name"]), drive.design.parameters
+    solved = analysis.analyse(drive, angles)
+    changes = np.full((len(angles), design.shape[1], m.nx), np.nan)
+    points, s = np.full((*changes.shape[:2], 3), np.nan), np.empty(m.ns)
+    m.setup(pointer(p), pointer(s))
+    for i in np.flatnonzero([status == "converged" for status in solved.status]):
+        phi = -angles[i] if drive.design.mirrored else angles[i]
+        m.set_phi(pointer(s), phi)
+        x = np.ascontiguousarray(solved.solutions[i])
+        for j, direction in enumerate(design.T):
+            dp, dx, dr = np.ascontiguousarray(direction), np.empty(m.nx), np.empty(3)
+            arguments = map(pointer, (s, x, dx, dr))
+            if library().mw_contact_tangent(m, pointer(p), pointer(dp), phi, 0.0, *arguments) >= 0:
+                changes[i, j], points[i, j] = dx, dr
+    return changes, points

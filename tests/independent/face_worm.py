@@ -61,6 +61,9 @@ class FaceWorm:
     d_offset: object = mpf(0)
     d_axial: object = mpf(0)
     d_angle: object = mpf(0)
+    tilt_change: object = mpf(0)
+    cutter_radius: object = None
+    blade_angle: object = None
     placed: dict = field(default_factory=dict)
 
     @property
@@ -108,22 +111,42 @@ class FaceWorm:
         phase = self._phase(near.get("phase"))
         places = zip((self.inner, self.outer), (near.get("hob_A1"), near.get("hob_A2")), strict=True)
         on_circle = [self._at_radius(radius, phase, start) for radius, start in places]
-        a1, a2 = (self.hob_cut(0, *at, phase)[0] for at in on_circle)
-        pitch = self._pitch(phase)
+        return self.install(phase, *on_circle, self._pitch(phase))
+
+    def install(self, phase, inner, outer, pitch):
+        """The head-cutter through the points of the hob-cut flank at these hob parameters."""
+        a1, a2 = (self.hob_cut(0, *at, phase)[0] for at in (inner, outer))
         p, n = self.hob_cut(*pitch, phase)
         centre = self._centre(a1, p, a2)
         z_g = unit(cross(p - a1, a2 - p))
         z_g = z_g if z_g[2] > 0 else -z_g
         x_g = unit(p - centre)
         y_g = cross(z_g, x_g)
-        edge = cross(n, y_g)
-        edge = edge if dot(edge, z_g) > 0 else -edge
+        radius, plain = norm(p - centre), self._blade(n, x_g, y_g, z_g)
+        c, s = cos(self.tilt_change), sin(self.tilt_change)
+        x_g, z_g = x_g * c - z_g * s, x_g * s + z_g * c
+        tilted = self._blade(n, x_g, y_g, z_g)
+        radius = radius * cos(tilted) / cos(plain) if self.cutter_radius is None else self.cutter_radius
         self.placed = {
-            "phase": phase, "A1": a1, "P": p, "A2": a2, "hob_A1": on_circle[0], "hob_A2": on_circle[1],
-            "hob_P": pitch, "radius": norm(p - centre), "x": x_g, "y": y_g, "z": z_g, "O": centre,
-            "tilt": acos(z_g[2]), "blade": atan2(dot(edge, x_g), dot(edge, z_g)),
+            "phase": phase, "A1": a1, "P": p, "A2": a2, "hob_A1": inner, "hob_A2": outer, "hob_P": pitch,
+            "radius": radius, "x": x_g, "y": y_g, "z": z_g, "O": p - x_g * radius, "tilt": acos(z_g[2]),
+            "blade": tilted if self.blade_angle is None else self.blade_angle,
         }  # fmt: skip
         return self.placed
+
+    @staticmethod
+    def _blade(n, x_g, y_g, z_g):
+        """Angle of the blade that lies in the section x, z and touches the flank of normal n."""
+        edge = cross(n, y_g)
+        edge = edge if dot(edge, z_g) > 0 else -edge
+        return atan2(dot(edge, x_g), dot(edge, z_g))
+
+    def placement(self, phase, inner, outer, pitch):
+        """Residuals of the hob parameters: meshing and radius at A1 and A2, the rule at P, meshing at the phase."""
+        residual = [self.hob_meshing(0, 0, 0, phase)]
+        for at, radius in ((inner, self.inner), (outer, self.outer)):
+            residual += [self.hob_meshing(0, *at, phase), norm(self.hob_cut(0, *at, phase)[0][:2]) - radius]
+        return residual + (list(pitch) if self.rule == "mid" else self._on_pitch_cones(*pitch, phase))
 
     def _phase(self, near=None):
         """All roots over a turn by sign changes; the one nearest zero."""
@@ -153,16 +176,15 @@ class FaceWorm:
     def _pitch(self, phase):
         if self.rule == "mid":
             return [mpf(0)] * 3
+        return _solve(lambda *at: self._on_pitch_cones(*at, phase), [0, 0, 0])
+
+    def _on_pitch_cones(self, u, theta, psi, phase):
         t, r_p = tan(self.cone), self.diameter / 2
         eta_sine = -t * self.offset / (self.position + r_p * t)
         height = -r_p * sqrt(1 - eta_sine**2)
         radius = sqrt(self.position**2 + (self.offset + r_p * eta_sine) ** 2)
-
-        def equations(u, theta, psi):
-            r = self.hob_cut(u, theta, psi, phase)[0]
-            return [self.hob_meshing(u, theta, psi, phase), norm(r[:2]) - radius, r[2] - height]
-
-        return _solve(equations, [0, 0, 0])
+        r = self.hob_cut(u, theta, psi, phase)[0]
+        return [self.hob_meshing(u, theta, psi, phase), norm(r[:2]) - radius, r[2] - height]
 
     @staticmethod
     def _centre(a, b, c):
@@ -224,14 +246,14 @@ class FaceWorm:
         )
         return r, tilt * (PERM * (rz(phi) * n))
 
+    def residual(self, u_w, t_w, psi, u_g, t_g, phi_2, phi):
+        """Positions, equal normals (two products), meshing."""
+        r1, n1 = self.in_mesh(u_w, t_w, psi, phi)
+        r2, n2 = self.gear(u_g, t_g)
+        r2, n2 = rz(phi_2) * r2, rz(phi_2) * n2
+        across = cross(n2, rz(phi_2) * self.placed["z"])
+        return [*(r1 - r2), dot(n1, across), dot(n1, cross(n2, across)), self.worm_meshing(u_w, t_w, psi)]
+
     def contact(self, phi, start):
-        """(u_w, θ_w, ψ, u_g, θ_g, φ2) at worm angle φ: positions, equal normals (two products), meshing."""
-
-        def equations(u_w, t_w, psi, u_g, t_g, phi_2):
-            r1, n1 = self.in_mesh(u_w, t_w, psi, phi)
-            r2, n2 = self.gear(u_g, t_g)
-            r2, n2 = rz(phi_2) * r2, rz(phi_2) * n2
-            across = cross(n2, rz(phi_2) * self.placed["z"])
-            return [*(r1 - r2), dot(n1, across), dot(n1, cross(n2, across)), self.worm_meshing(u_w, t_w, psi)]
-
-        return _solve(equations, start)
+        """(u_w, θ_w, ψ, u_g, θ_g, φ2) at worm angle φ."""
+        return _solve(lambda *unknowns: self.residual(*unknowns, phi), start)

@@ -13,7 +13,7 @@ SENSE = {"convex": 1, "concave": -1}
 
 @dataclass(frozen=True)
 class Gear:
-    """m, T, α (rad), form, sphere radius (None: spur), flank sign; a = m and b = π m/4."""
+    """m, T, α (rad), form, sphere radius (None: spur), flank sign; a = m and b = π m/4 unless given."""
 
     module: object
     teeth: int
@@ -21,6 +21,8 @@ class Gear:
     form: str
     sphere_radius: object
     s: int
+    edge_offset: object = None
+    half_space: object = None
 
     @property
     def r(self):
@@ -28,11 +30,11 @@ class Gear:
 
     @property
     def a(self):
-        return mpf(self.module)
+        return mpf(self.module) if self.edge_offset is None else self.edge_offset
 
     @property
     def b(self):
-        return pi * mpf(self.module) / 4
+        return pi * mpf(self.module) / 4 if self.half_space is None else self.half_space
 
     @property
     def pitch_point(self):
@@ -96,13 +98,17 @@ class Pair:
     dh: object = 0
     dv: object = 0
 
+    def pinion_in_mesh(self, phi1, l1, q1):
+        """Point and normal of the pinion in the fixed frame."""
+        p = self.pinion
+        turn1 = phi1 - p.s * p.b / p.r
+        return tuple(_tilt(self.dh, self.dv, _rz(turn1, v)) for v in p.flank(l1, q1))
+
     def residual(self, phi1, l1, q1, l2, q2, error):
         p, w = self.pinion, self.wheel
         phi2 = mpf(p.teeth) / w.teeth * phi1 + error
-        turn1 = phi1 - p.s * p.b / p.r
         turn2 = pi - phi2 - w.s * w.b / w.r
-        (r1, n1), (r2, n2) = p.flank(l1, q1), w.flank(l2, q2)
-        r1, n1 = (_tilt(self.dh, self.dv, _rz(turn1, v)) for v in (r1, n1))
+        (r1, n1), (r2, n2) = self.pinion_in_mesh(phi1, l1, q1), w.flank(l2, q2)
         r2, n2 = _rz(turn2, r2), _rz(turn2, n2)
         centre = p.r + w.r + self.dc
         return [r1[0] - r2[0] - centre, r1[1] - r2[1], r1[2] - r2[2], n1[0] + n2[0], n1[2] + n2[2]]

@@ -119,6 +119,15 @@ class Helicoid:
         return at(mp.findroot(meshing, self.alpha))
 
 
+def _hob_disc(design):
+    """Data of the hob's grinding wheel where it has one of its own."""
+    return {k.removeprefix("hob_"): mp.mpf(v) for k, v in design.items() if k.startswith(("hob_grind", "hob_profile_"))}
+
+
+def _disc(ground):
+    return ground.get("grinding_wheel_radius_mm"), ground.get("profile_arc_radius_mm")
+
+
 @dataclass
 class WormDrive:
     """Worm, hob and mounting; angles in rad, lengths in mm. Errors: dA, dh, dv, da."""
@@ -150,14 +159,18 @@ class WormDrive:
         r_1 = m_n * threads / (2 * mp.sin(lead))
         r_h = mp.mpf(d["hob_pitch_radius_mm"]) if "hob_pitch_radius_mm" in d else r_1
         lead_h = mp.asin(m_n * threads / (2 * r_h)) if r_h != r_1 else lead
+        lead_h = d["hob_lead_angle_deg"] * degree if "hob_lead_angle_deg" in d else lead_h
+        alpha_h = d["hob_pressure_angle_deg"] * degree if "hob_pressure_angle_deg" in d else alpha
         S = mp.pi * m_n / 2 - 2 * mp.mpf(d.get("pitch_line_shift_mm", 0)) * mp.tan(alpha)
-        ground = [mp.mpf(d[k]) if k in d else None for k in ("grinding_wheel_radius_mm", "profile_arc_radius_mm")]
+        ground = {k: mp.mpf(d[k]) for k in ("grinding_wheel_radius_mm", "profile_arc_radius_mm") if k in d}
         kind = d["worm_profile"]
-        A = r_1 + m_n * teeth / (2 * mp.sin(sigma + lead))
+        A = mp.mpf(d.get("center_distance_mm", r_1 + m_n * teeth / (2 * mp.sin(sigma + lead))))
         return cls(
-            Helicoid(kind, s, r_1, lead, alpha, S, *ground),
-            Helicoid(d.get("hob_profile", kind), s, r_h, lead_h, alpha, S, *ground),
-            threads, threads, teeth, A, sigma, A + r_h - r_1, sigma + lead - lead_h,
+            Helicoid(kind, s, r_1, lead, alpha, S, *_disc(ground)),
+            Helicoid(d.get("hob_profile", kind), s, r_h, lead_h, alpha_h, S, *_disc(ground | _hob_disc(d))),
+            threads, threads, teeth, A, sigma,
+            mp.mpf(d.get("cutting_center_distance_mm", A + r_h - r_1)),
+            d["cutting_shaft_angle_deg"] * degree if "cutting_shaft_angle_deg" in d else sigma + lead - lead_h,
             errors.get("center_distance_mm", mp.mpf(0)),
             errors.get("horizontal_deg", mp.mpf(0)) * degree,
             errors.get("vertical_deg", mp.mpf(0)) * degree,

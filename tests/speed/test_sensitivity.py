@@ -1,66 +1,117 @@
-"""Sensitivities against differences in 50-digit arithmetic, rules of the design followed."""
+"""Sensitivities against differences of the independent formulations in 50-digit arithmetic."""
 
 import mpmath
 import numpy as np
 import pytest
 
-from derive import drives, newton
-from derive.schedule import schedule
-from meshwright import Drive, UsageError
-from meshwright.design import given_vector
+from meshwright import Drive, design
 from meshwright.sensitivity import sensitivity
+from tests.independent.twins import twin
 
-STEP = mpmath.mpf(10) ** -18
+#: Share of the pitch at which the packaged designs are looked at.
+PLACE = 0.11
 
-CASES = {"recess-action-full": 7.0, "spherical-table-2-3": 0.01}
+#: Sizes given that otherwise follow: by rules, by design systems, or as defaults.
+GIVEN = {
+    "face-worm-conical-convex": (
+        {"head_cutter_radius_mm": 24.398},
+        {"blade_angle_deg": -9.5, "head_cutter_tilt_change_deg": 3.0},
+        {"pitch_point_rule": "cones"},
+        {"pitch_point_rule": "cones", "head_cutter_radius_mm": 24.398, "blade_angle_deg": -9.5},
+    ),
+    "plain-zk": ({"hob_lead_angle_deg": 10.9}, {"center_distance_mm": 103.9, "hob_pressure_angle_deg": 20.1}),
+    "spherical-table-4-4-convex": ({"wheel_half_space_mm": 3.1}, {"edge_offset_mm": 4.2}),
+}
 
+#: Equal spheres touch along a line, and misaligned not in a point of their own: there is nothing to differentiate.
+LINES = ("spherical-table-2-1",)
 
-def _completed(drive, given):
-    """Parameters by symbol from what is given, as the rules say, in the current precision."""
-    values = dict(zip((p.symbol for p in drive.parameters), given, strict=True))
-    for p in drive.parameters:
-        if p.default is not None and mpmath.isnan(values[p.symbol]):
-            values[p.symbol] = mpmath.mpf(float(p.default))
-    for rule in drive.rules:
-        if mpmath.isnan(values[rule.target]):
-            known = {s: values[s] for s in rule.value.free_symbols if s in values}
-            open_ = any(mpmath.isnan(v) for v in known.values())
-            values[rule.target] = mpmath.nan if open_ else mpmath.mpf(rule.value.evalf(60, subs=known))
-    return values
-
-
-def _solution(plan, given, angle, start):
-    """Unknowns and contact point of a design near ``start``, to 50 digits."""
-    inputs = _completed(plan.drive, given)
-    inputs[plan.drive.instant] = mpmath.mpf(angle)
-    inputs.update(zip(plan.unknowns, map(mpmath.mpf, start), strict=True))
-    newton._iterate(plan.tape, plan.residual, plan.jacobian, plan.unknowns, inputs)
-    point = next(o for o in plan.observed if o.name == "point_pinion_f")
-    return [inputs[u] for u in plan.unknowns] + plan.tape.evaluate(point.nodes, inputs, mpmath)
+#: Misalignments of each family, so that nothing vanishes by symmetry.
+ERRORS = {
+    "cylindrical-worm": {"center_distance_mm": 0.01, "vertical_deg": 0.01},
+    "spherical": {"center_distance_mm": 0.1, "horizontal_deg": 0.02, "vertical_deg": 0.01},
+    "face-worm": {"offset_mm": 0.05, "shaft_angle_deg": 0.02},
+}
 
 
-@pytest.mark.parametrize("name", CASES)
+def _values(drive, keys):
+    return {key: mpmath.mpf(drive.design.value(*reversed(key.split(".")))) for key in keys}
+
+
+def _given(drive, key):
+    table, name = key.split(".")
+    return table == "misalignment" or drive.design.tables[table].get(name) is not None
+
+
+def _agree(drive, angle):
+    """Whether the drive has a contact at the angle; if so, its sensitivities are those of 50 digits."""
+    ours = sensitivity(drive, [angle])
+    right = drive.with_(design={"hand": "right"}) if drive.design.mirrored else drive
+    sign = -1.0 if drive.design.mirrored else 1.0
+    contact = right.tca([sign * angle])
+    if contact.status != ("converged",):
+        assert np.isnan(ours.points).all()
+        return False
+    with mpmath.workdps(50):
+        given = _values(drive, [key for key in ours.keys if _given(drive, key)])
+        exact = twin(right, contact)
+        slopes = exact.slopes(given, mpmath.mpf(sign * angle), _values(drive, ours.keys))
+    turned = [sign if n.startswith(("psi_", "phi_", "transmission")) else 1.0 for n in exact.names]
+    slopes *= [*turned, 1.0, sign, 1.0]
+    found = np.column_stack([*(ours.unknowns[name][0] for name in exact.names), ours.points[0]])
+    off = np.abs(found - slopes)
+    assert (off.max(axis=1) / np.maximum(1.0, np.abs(slopes).max(axis=1))).max() < 1e-10
+    assert off[:, exact.names.index("transmission_error")].max() < 1e-13
+    assert ours.error[0] == pytest.approx(ours.unknowns["transmission_error"][0], abs=0.0)
+    return True
+
+
+@pytest.mark.parametrize("name", design.packaged_names())
 def test_every_parameter_agrees_with_differences_in_50_digits(name):
-    drive, angle = Drive.load(name), CASES[name]
+    drive = Drive.load(name)
+    angle = PLACE * drive.pitch()
+    misaligned = drive.with_(misalignment=ERRORS[drive.design.family])
+    assert [_agree(d, angle) for d in (drive, misaligned)] == [name not in LINES] * 2
+
+
+@pytest.mark.parametrize("name, given", [(name, g) for name, cases in GIVEN.items() for g in cases])
+def test_what_is_given_instead_of_derived_stays_where_it_is(name, given):
+    drive = Drive.load(name).with_(design=given)
+    assert _agree(drive, PLACE * drive.pitch())
+    result = sensitivity(drive, [0.0])
+    for key in given.keys() - {"pitch_point_rule"}:
+        places = [p["table"] == "design" and p["key"] == key for p in drive.design.description["parameters"]]
+        own = result.of(f"design.{key}")
+        assert result.design[places.index(True)] == pytest.approx(np.eye(len(result.keys))[own], abs=0.0)
+
+
+@pytest.mark.parametrize("name", ["plain-zi", "recess-action-full", "zk-zn-60"])
+def test_a_left_hand_drive_is_the_mirror_image(name):
+    drive = Drive.load(name).with_(design={"hand": "left"}, misalignment=ERRORS["cylindrical-worm"])
+    assert _agree(drive, PLACE * drive.pitch())
+
+
+def test_a_left_hand_drive_agrees_with_differences_of_its_own_analysis():
+    drive, angle, step = Drive.load("plain-zi").with_(design={"hand": "left"}), 0.3, 1e-4
     result = sensitivity(drive, [angle])
-    description = drive.design.description
-    plan = schedule(drives.catalogue()[description["name"]]())
-    columns = {f"{p['table']}.{p['key']}": k for k, p in enumerate(description["parameters"])}
-    start = drive.trace(np.array([angle]))[0][0]
-    assert len(result.keys) >= 8
-    for key in result.keys:
-        with mpmath.workdps(50):
-            ends = []
-            for sign in (1, -1):
-                given = [mpmath.mpf(float(g)) for g in given_vector(drive.design)]
-                given[columns[key]] = mpmath.mpf(float(drive.design.parameters[columns[key]])) + sign * STEP
-                ends.append(_solution(plan, given, angle, start))
-            slopes = [float((a - b) / (2 * STEP)) for a, b in zip(*ends, strict=True)]
-        ours = [*(u[0, result.of(key)] for u in result.unknowns.values()), *result.points[0, result.of(key)]]
-        scale = max(1.0, *map(abs, slopes))
-        assert ours == pytest.approx(slopes, abs=1e-8 * scale), key
+    for key in ("vertical_deg", "center_distance_mm"):
+        ends = [drive.with_(misalignment={key: h * step}).tca([angle]) for h in (-2, -1, 1, 2)]
+        unit = np.radians(step) if key.endswith("_deg") else step
+        column = result.of(f"misalignment.{key}")
+        for name in ("error", "points"):
+            values = [getattr(end, name)[0] for end in ends]
+            slope = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * unit)
+            assert getattr(result, name)[0, column] == pytest.approx(slope, rel=1e-5, abs=1e-7)
 
 
-def test_a_drive_whose_parameters_are_solved_says_that_it_has_none():
-    with pytest.raises(UsageError, match="system of equations"):
-        sensitivity(Drive.load("face-worm-cylindrical-convex"), [0.0])
+def test_placement_of_the_head_cutter_follows_the_keys():
+    """Columns of the completed design against differences of completed designs."""
+    drive = Drive.load("face-worm-conical-convex")
+    result = sensitivity(drive, [0.0])
+    step = 1e-4
+    for key in ("axial_module_mm", "offset_mm", "gear_inner_radius_mm"):
+        value = drive.design.value(key)
+        ends = [drive.with_(design={key: value + h * step}).design.parameters for h in (-2, -1, 1, 2)]
+        slope = (ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * step)
+        ours = result.design[:, result.of(f"design.{key}")]
+        assert ours == pytest.approx(slope, rel=1e-6, abs=1e-6)

@@ -1,0 +1,107 @@
+"""The shared library as CasADi functions by ``casadi.external``: values, derivatives, and IPOPT on top of them."""
+
+import casadi
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright._library import SHIPPED
+from meshwright.design import given_vector
+from meshwright.sensitivity import sensitivity
+
+DESIGNS = ("recess-action-full", "plain-zk", "spherical-table-4-4-convex", "face-worm-conical-convex")
+PHI = 0.3
+
+
+def _external(drive, name):
+    return casadi.external(f"{drive.design.description['name']}_{name}", str(SHIPPED / "libmeshwright.so"))
+
+
+def _places(drive, keys):
+    entries = [f"{p['table']}.{p['key']}" for p in drive.design.description["parameters"]]
+    return [entries.index(key) for key in keys]
+
+
+def _contact(drive, keys):
+    """CasADi function (values of the keys, angle, start) → unknowns: the design completed, then its contact."""
+    v, phi, given = casadi.MX.sym("v", len(keys)), casadi.MX.sym("phi"), casadi.MX(given_vector(drive.design))
+    start = casadi.MX.sym("start", len(drive.design.description["unknowns"]))
+    given[_places(drive, keys)] = v
+    p = _external(drive, "complete")(given)
+    return casadi.Function("contact", [v, phi, start], [_external(drive, "contact")(p, phi, start)])
+
+
+def _given_keys(drive):
+    result = sensitivity(drive, [PHI])
+    open_ = np.isnan(given_vector(drive.design))[_places(drive, result.keys)]
+    return result, [key for key, left_open in zip(result.keys, open_, strict=True) if not left_open]
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_completed_designs_and_contacts_are_those_of_the_library(name):
+    drive = Drive.load(name).with_(misalignment={"center_distance_mm": 0.02} if "worm" not in name else {})
+    p = np.array(_external(drive, "complete")(given_vector(drive.design))).ravel()
+    assert np.array_equal(p, drive.design.parameters, equal_nan=True)
+    x = np.array(_external(drive, "contact")(p, PHI, drive.trace([PHI])[0][0] + 1e-4)).ravel()
+    assert x == pytest.approx(drive.trace([PHI])[0][0], abs=1e-11)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_jacobians_are_exact(name):
+    """By the design's keys the sensitivities, by the angle central differences of the trace."""
+    drive = Drive.load(name)
+    result, keys = _given_keys(drive)
+    contact = _contact(drive, keys)
+    v, phi = casadi.MX.sym("v", len(keys)), casadi.MX.sym("phi")
+    x = contact(v, phi, drive.trace([PHI])[0][0])
+    slopes = casadi.Function("slopes", [v, phi], [casadi.jacobian(x, v), casadi.jacobian(x, phi)])
+    by_key, by_angle = map(np.array, slopes(drive.design.parameters[_places(drive, keys)], PHI))
+    columns = [result.of(key) for key in keys]
+    expected = np.stack([values[0, columns] for values in result.unknowns.values()])
+    assert np.abs(by_key - expected).max() < 1e-9 * np.abs(expected).max()
+    step = 1e-3
+    ends = drive.trace(PHI + step * np.arange(-2, 3))[0]
+    difference = (ends[0] - 8 * ends[1] + 8 * ends[3] - ends[4]) / (12 * step)
+    assert by_angle.ravel() == pytest.approx(difference, rel=1e-7, abs=1e-9)
+
+
+def test_a_design_that_cannot_be_completed_is_an_error_of_the_call():
+    drive = Drive.load("face-worm-conical-convex")
+    given = given_vector(drive.design)
+    given[_places(drive, ["design.offset_mm"])] = 1.0
+    with pytest.raises(RuntimeError, match="face_worm_complete"):
+        _external(drive, "complete")(given)
+
+
+@pytest.mark.parametrize(
+    ("name", "hidden"),
+    [
+        ("plain-zk", {"misalignment.vertical_deg": 0.02, "misalignment.center_distance_mm": 0.03}),
+        ("face-worm-conical-convex", {"misalignment.axial_mm": 0.04, "design.plunge_mm_per_rad2": 0.0034}),
+    ],
+)
+def test_ipopt_finds_what_a_measured_transmission_error_tells_of_the_drive(name, hidden):
+    """Least squares over half a pitch, IPOPT driven by the external functions and their Jacobians alone."""
+    drive = Drive.load(name)
+    angles = PHI + np.linspace(-0.25, 0.25, 5) * drive.pitch()
+    changed = drive
+    for key, value in hidden.items():
+        table, entry = key.split(".")
+        changed = changed.with_(**{table: {entry: value}})
+    measured = changed.tca(angles).error
+    places, error = _places(drive, hidden), drive.design.description["error"]
+    nominal, wanted = drive.design.parameters[places], changed.design.parameters[places]
+    scale = np.abs(wanted - nominal)
+    z, contact = casadi.MX.sym("z", len(hidden)), _contact(drive, list(hidden))
+    starts = drive.trace(angles)[0]
+    values = nominal + scale * z
+    found = casadi.vertcat(*(contact(values, *at)[error] for at in zip(angles, starts, strict=True)))
+    problem = {"x": z, "f": casadi.sumsqr((found - measured) / np.abs(measured).max())}
+    options = {
+        "ipopt": {"hessian_approximation": "limited-memory", "print_level": 0, "tol": 1e-12, "sb": "yes"},
+        "print_time": False,
+    }
+    solver = casadi.nlpsol("fit", "ipopt", problem, options)
+    solution = solver(x0=[0.1] * len(hidden), lbx=-2.0, ubx=2.0)
+    assert solver.stats()["success"]
+    assert nominal + scale * np.array(solution["x"]).ravel() == pytest.approx(wanted, rel=1e-6)
