@@ -30,6 +30,10 @@ CASES = [
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
     ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),
+    ({"design.worm_threads": 10**330}, ("worm_threads", "too large", "smaller")),
+    ({"misalignment": 3.0}, ("misalignment", "3.0", "table", "[misalignment]")),
+    ({"name": 3}, ("name", "3", "text", "quotes")),
+    ({"drive": ["cylindrical-worm"]}, ("drive", "cylindrical-worm", "no such family", "use one of")),
     ({"drive": "cylindrical-wurm"}, ("drive", "cylindrical-wurm", "cylindrical-worm")),
 ]  # fmt: skip
 
@@ -63,8 +67,18 @@ def test_missing_keys_are_named():
         ["tca", "recess-action-full", "--set", "design.normal_module_mm"],
         ["tca", "recess-action-full", "--set", "design.normal_module_mm=0"],
         ["tca", "recess-action-full", "--phi-deg", "500", "--json", "/no/such/folder/out.json"],
+        ["tca", "recess-action-full", "--phi-deg", "500", "--json", "/"],
+        ["tca", "recess-action-full", "--phi-deg", "500", "--json", ""],
+        ["tca", "recess-action-full", "--phi-deg", "0:1e400:1"],
+        ["limits", "zk-zn-90", "--section-y-mm", "1e9"],
+        ["limits", "spherical-table-2-3", "--section-y-mm", "5"],
+        ["surface", "recess-action-full", "--member", "wheel", "--grid", "99999x99999"],
+        ["sweep", "recess-action-full", "--vary", "misalignment.vertical_deg=0:nan", "--samples", "2", "--out", "/x"],
+        ["sweep", "plain-zn", "--vary", "misalignment.vertical_deg=0:1", "--samples", "2", "--out", "/dev/null"],
+        ["sweep", "recess-action-full", "--samples", "2", "--out", "/x", "--vary", "misalignment.vertical_deg=0:1",
+         "--vary", "misalignment.vertical_deg=0:2"],
     ],
-)
+)  # fmt: skip
 def test_the_command_line_answers_bad_input_with_status_two_and_no_traceback(arguments, capsys):
     assert main(arguments) == 2
     captured = capsys.readouterr()

@@ -4,6 +4,7 @@ Exit status: 0 done, 1 a result is missing or did not converge (the rest is writ
 """
 
 import argparse
+import os
 import re
 import sys
 
@@ -39,14 +40,37 @@ def joined(arguments):
 def main(arguments=None):
     """Run one command; returns the exit status."""
     options = parser().parse_args(joined(sys.argv[1:] if arguments is None else arguments))
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")  # a terminal without a letter of ours shows "?"
     try:
-        return options.run(options)
+        _refuse_empty(options)
+        status = options.run(options)
+        sys.stdout.flush()
+        return status
     except (DesignError, UsageError, LibraryError) as error:
         print(f"meshwright: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         sys.stderr.close()
         return 1
+    except OSError as error:
+        place = error.filename or "standard output"
+        print(f"meshwright: {place}: {error.strerror}; name a place that can be written", file=sys.stderr)
+        if not error.filename:
+            _forget(sys.stdout)
+        return 2
+
+
+def _refuse_empty(options):
+    for name, value in vars(options).items():
+        if value == "":
+            raise UsageError(f"{name}: an empty word; give it a value or leave it out")
+
+
+def _forget(stream):
+    """Send what a stream still holds nowhere, so that closing it does not fail again."""
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), stream.fileno())
 
 
 if __name__ == "__main__":

@@ -110,9 +110,11 @@ def _shown(parameter, number):
 
 def check(tables):
     """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
-    family = tables.get("drive")
     known = metadata.families()
-    if family not in known:
+    if "drive" not in tables:
+        raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
+    family = tables["drive"]
+    if not isinstance(family, str) or family not in known:
         raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
     checked = _validated(family, tables)
     description = _variant(family, checked)
@@ -160,6 +162,10 @@ def _first_error(family, problem):
             return DesignError(key, value, "must be a whole number", "write it without a decimal point")
         case "float_type":
             return DesignError(key, value, "must be a number", "write a number without quotes")
+        case "model_type" | "model_attributes_type":
+            return DesignError(key, value, "must be a table", f"write its keys below [{key}]")
+        case "string_type":
+            return DesignError(key, value, "must be text", "write it in quotes")
         case _:
             return DesignError(key, value, problem["msg"], "correct the value")
 
@@ -207,8 +213,17 @@ def _vector(description, checked):
         if p["table"] == "flank":
             vector[k] = p["choices"][checked["flank"]]
         elif (value := checked[p["table"]].get(p["key"])) is not None:
-            vector[k] = p["choices"][value] if p["choices"] else value * p["factor"]
+            vector[k] = p["choices"][value] if p["choices"] else _inner(p, value)
     return vector
+
+
+def _inner(parameter, value):
+    """A number in inner units."""
+    try:
+        return float(value) * parameter["factor"]
+    except OverflowError:
+        place = f"{parameter['table']}.{parameter['key']}"
+        raise DesignError(place, "…", "too large for a number of the machine", "give a smaller number") from None
 
 
 def given_vector(design):

@@ -93,6 +93,8 @@ class Mesh:
         own = np.array([angle - k * self.drive.pitch() for k in numbers])
         errors = self.errors(own)
         levers = np.abs(self.window.path.levers(self.mirror * own))
+        if not np.any(np.isfinite(errors)):
+            return ()
         behind = np.maximum(np.nanmax(self.sense * errors) - self.sense * errors, 0.0)
         found = zip(numbers, own.tolist(), errors.tolist(), (behind * levers).tolist(), strict=True)
         return tuple(sorted((Pair(*entry) for entry in found), key=lambda p: p.separation))

@@ -112,6 +112,9 @@ def check(plan):
         _column(drive, v.key)
         if v.kind == "normal" and v.second < 0 or v.kind == "uniform" and v.second < v.first:
             raise DesignError(v.key, v.second, "the spread is negative", "give low:high or normal:mean:deviation")
+    keys = [v.key for v in plan.variations]
+    if twice := [key for key in keys if keys.count(key) > 1]:
+        raise DesignError(twice[0], None, "varied twice", "vary each key once")
     return drive
 
 

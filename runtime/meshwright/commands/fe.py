@@ -21,8 +21,12 @@ def add_arguments(parser):
     loading.add_arguments(parser)
     parser.add_argument("--phi-deg", metavar="A:B:STEP|v1,v2,…", default="0", help="pinion angles, degrees; default 0")
     parser.add_argument("--folder", metavar="DIR", help="where the runs are kept; default: NAME-fe")
-    parser.add_argument("--time-limit-s", type=float, default=1800.0, metavar="S", help="of one run; default 1800")
-    parser.add_argument("--threads", type=int, default=1, metavar="N", help="of the solver; a second one gains little")
+    parser.add_argument(
+        "--time-limit-s", type=common.positive, default=1800.0, metavar="S", help="of one run; default 1800"
+    )
+    parser.add_argument(
+        "--threads", type=common.count, default=1, metavar="N", help="of the solver; a second one gains little"
+    )
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.fe/1)")
 
 

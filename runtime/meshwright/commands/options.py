@@ -32,10 +32,13 @@ def setting(text):
     if not equals or not place:
         raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")
     try:
-        return place.strip(), tomllib.loads(f"value = {value}")["value"]
+        return place.strip(), tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
     except tomllib.TOMLDecodeError:
         return place.strip(), value.strip()
 
+
+#: More angles than this are taken for a mistake.
+MOST_ANGLES = 10_000_000
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
@@ -43,30 +46,51 @@ _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 def angles(text):
     """Radians from ``A:B:STEP`` (both ends included) or ``v1,v2,…`` in degrees."""
     if re.fullmatch(rf"{_NUMBER}:{_NUMBER}:{_NUMBER}", text):
-        begin, end, step = map(float, text.split(":"))
-        if step == 0 or (end - begin) / step < 0:
-            raise UsageError(
-                f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign"
-            )
-        count = int(np.floor((end - begin) / step + 1e-9)) + 1
-        if count > 10_000_000:
-            raise UsageError(f"--phi-deg {text}: {count} angles; choose a larger step")
-        return np.radians(begin + step * np.arange(count))
+        return np.radians(_spaced(text))
     if re.fullmatch(rf"{_NUMBER}(,{_NUMBER})*", text):
-        return np.radians([float(v) for v in text.split(",")])
+        return np.radians(_finite(text, text.split(",")))
     raise UsageError(f"--phi-deg {text}: not A:B:STEP and not v1,v2,…; for example --phi-deg=-400:400:50")
+
+
+def _spaced(text):
+    begin, end, step = _finite(text, text.split(":"))
+    if step == 0 or (end - begin) / step < 0:
+        raise UsageError(f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign")
+    steps = np.floor((end - begin) / step + 1e-9)
+    if steps >= MOST_ANGLES:
+        raise UsageError(f"--phi-deg {text}: {steps:g} angles; choose a larger step")
+    return begin + step * np.arange(int(steps) + 1)
+
+
+def _finite(text, words):
+    values = [float(word) for word in words]
+    if not np.all(np.isfinite(values)):
+        raise UsageError(f"--phi-deg {text}: an angle is not finite; give angles in degrees")
+    return values
 
 
 def number(text):
     """A finite number, for an option."""
-    if not re.fullmatch(_NUMBER, text):
-        raise argparse.ArgumentTypeError(f"{text}: not a number")
-    return float(text)
+    if not re.fullmatch(_NUMBER, text) or not np.isfinite(value := float(text)):
+        raise argparse.ArgumentTypeError(f"{text}: not a finite number")
+    return value
 
 
-def numbers(text):
-    """Finite numbers ``v1,v2,…``, for an option."""
-    return tuple(number(part) for part in text.split(","))
+def positive(text):
+    """A finite number above zero, for an option."""
+    if not (value := number(text)) > 0.0:
+        raise argparse.ArgumentTypeError(f"{text}: must be above zero")
+    return value
+
+
+def numbers(text, kind=number):
+    """Numbers ``v1,v2,…``, for an option."""
+    return tuple(kind(part) for part in text.split(","))
+
+
+def radii(text):
+    """Radii ``r1,r2,…``, for an option."""
+    return numbers(text, positive)
 
 
 def count(text):

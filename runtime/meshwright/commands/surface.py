@@ -15,6 +15,9 @@ from meshwright.grids import grid
 from meshwright.sections import section
 from meshwright.step import step
 
+#: Larger grids are taken for a mistake.
+MOST_POINTS = 4_000_000
+
 
 def add_arguments(parser):
     common.add_design(parser)
@@ -77,7 +80,10 @@ def _shape(text):
     match = re.fullmatch(r"(\d+)x(\d+)", text)
     if not match:
         raise UsageError(f"--grid {text}: not NxM; for example --grid 21x41")
-    return int(match[1]), int(match[2])
+    across, along = int(match[1]), int(match[2])
+    if across * along > MOST_POINTS:
+        raise UsageError(f"--grid {text}: {across * along} points; {MOST_POINTS} at most")
+    return across, along
 
 
 def _write_step(place, drive, member, shape, region):

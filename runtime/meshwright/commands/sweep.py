@@ -3,6 +3,7 @@
 Rows go to slices in a folder; an interrupted sweep goes on where it stopped. Exit status 1 if a point did not converge.
 """
 
+import math
 import re
 import sys
 
@@ -61,9 +62,12 @@ def _variation(text):
     kind, values = ("normal", words.removeprefix("normal:")) if words.startswith("normal:") else ("uniform", words)
     match = re.fullmatch(r"([^:]+):([^:]+)", values)
     try:
-        return sweep.Variation(key.strip(), kind, *map(float, match.groups()))
+        numbers = tuple(map(float, match.groups()))
     except (AttributeError, ValueError):
         raise UsageError(f"--vary {text}: not TABLE.KEY={_FORMS}") from None
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"--vary {text}: a bound is not finite; give finite numbers")
+    return sweep.Variation(key.strip(), kind, *numbers)
 
 
 class _progress:

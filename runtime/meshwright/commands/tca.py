@@ -23,8 +23,9 @@ def add_arguments(parser):
         "--contour", type=int, metavar="N", help="add the contact patch by separation in N directions, 3 or more (JSON)"
     )
     parser.add_argument(
-        "--all-contacts", action="store_true", help="search for further contacts of the same tooth pair at each angle"
-    )
+        "--all-contacts", action="store_true",
+        help="search for further contacts of the same tooth pair at each angle (worm drives; CSV gives their number)",
+    )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE", help="write as CSV")
 
@@ -102,6 +103,8 @@ def _flat(point):
             flat |= {f"{key}.{inner}": v for inner, v in _flat(value).items()}
         elif key in ("contour", "contact_line_mm"):
             continue
+        elif key == "other_contacts":
+            flat[key] = len(value)
         elif key == "flags":
             flat[key] = " ".join(value)
         elif isinstance(value, list):

@@ -21,7 +21,10 @@ __all__ = ["FAMILIES", "Limits", "Request", "contacts_of", "limits_of"]
 
 def limits_of(drive, request=None):
     """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad."""
-    return _of_family(drive, FAMILIES, "limits")(drive, request or Request())
+    request, family = request or Request(), drive.design.family
+    if family != "cylindrical-worm" and (request.section_y is not None or request.radii):
+        raise UsageError(f"drive = {family!r}: sections and radii are those of a cylindrical worm; leave them out")
+    return _of_family(drive, FAMILIES, "limits")(drive, request)
 
 
 def contacts_of(drive, angle):

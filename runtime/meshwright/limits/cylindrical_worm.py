@@ -48,8 +48,7 @@ def _of_right_hand(drive, request):
 
 def _mirrored(found):
     names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
-    turned = {name: tuple(entry.mirrored() for entry in getattr(found, name)) for name in names}
-    return Limits(**{**found.__dict__, **turned})
+    return replace(found, **{name: tuple(entry.mirrored() for entry in getattr(found, name)) for name in names})
 
 
 def _is_right_angle(drive):
@@ -135,6 +134,8 @@ def _section_profile(drive, hob, request):
         psi = float(drive.function("section")(t, request.section_y)["psi_fixed_hob"]) if t is not None else np.nan
         if np.isfinite(psi):
             found.append(_contact(drive, t, psi))
+    if not found:
+        raise UsageError(f"section y = {request.section_y:g}: the plane misses the profile; use a value nearer to 0")
     return tuple(found)
 
 

@@ -49,7 +49,7 @@ def _limit(drive, member, surface, q):
     # the worm's generating point lies on the head-cutter's cone, at the same u and θ to the blade's small parabola
     on_gear = point if member == "reference_wheel" else drive.flank("wheel")([q[:2]]).points[0]
     named = dict(zip(surface.parameters, q.tolist(), strict=True))
-    return SurfaceLimit(member, point, named, _inside(drive, on_gear))
+    return SurfaceLimit(member, point, named, _inside(drive, on_gear), {"edge_position_mm": float(q[0])})
 
 
 def _inside(drive, point):
@@ -64,4 +64,5 @@ def _cone_apex(drive):
     u = at_middle / (at_middle - beyond)
     root, tip = _profile(drive)
     named = {"u_gear": float(u), "theta_gear": 0.0}
-    return SurfaceLimit("wheel", wheel([[u, 0.0]]).points[0], named, bool(root < u < tip))
+    place = {"edge_position_mm": float(u)}
+    return SurfaceLimit("wheel", wheel([[u, 0.0]]).points[0], named, bool(root < u < tip), place)

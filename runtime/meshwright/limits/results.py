@@ -166,7 +166,7 @@ class Thickness:
 
 @dataclass(frozen=True)
 class Limits:
-    """Everything that bounds a drive; see the classes above. ``axes_exist`` is None where axes do not apply.
+    """Everything that bounds a drive; see the classes above. Only helicoids may have meshing ``axes``.
 
     ``head_cutter`` is the :class:`~meshwright.head_cutter.Judgement` of a drive whose gear a head-cutter copies.
     """
@@ -176,7 +176,7 @@ class Limits:
     first_type: tuple[ContactPoint, ...] = ()
     second_type: tuple[ContactPoint, ...] = ()
     axes: tuple[Axis, ...] = ()
-    axes_exist: bool | None = None
+    axes_exist: bool = False
     section_profile: tuple[ContactPoint, ...] = ()
     branch_points: tuple[BranchPoint, ...] = ()
     tip_thickness: tuple[Thickness, ...] = ()
