@@ -11,6 +11,7 @@ from functools import reduce
 import sympy as sp
 
 from derive import vectors as v
+from derive.origin import joined
 
 _OTHERS = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
@@ -29,6 +30,7 @@ class Rotation:
 
     axis: str
     angle: sp.Expr
+    rests_on = ("conventions/rotations", "conventions/sums", "derivation/rotation")
 
     def direction(self, a):
         return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
@@ -51,6 +53,7 @@ class Translation:
     """Translation by ``offset``."""
 
     offset: tuple
+    rests_on = ("derivation/translation",)
 
     def direction(self, a):
         return a
@@ -78,6 +81,7 @@ class Swing:
     axis: str
     angle: sp.Expr
     centre: tuple
+    rests_on = ("derivation/swing", "derivation/rotation")
 
     def direction(self, a):
         return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
@@ -109,6 +113,7 @@ class Placement:
     """A constant orthonormal frame: columns of the rotation (given, not checked here) and no motion of its own."""
 
     columns: tuple
+    rests_on = ("derivation/placement",)
 
     def direction(self, a):
         return reduce(v.add, (v.scale(c, column) for c, column in zip(a, self.columns, strict=True)))
@@ -160,6 +165,11 @@ class Motion:
     """A product of elementary motions, leftmost acting last."""
 
     factors: tuple = ()
+
+    @property
+    def rests_on(self):
+        """Statements of the record behind the elementary motions."""
+        return joined(*(factor.rests_on for factor in self.factors))
 
     def __matmul__(self, other):
         return Motion(_normal_form((*self.factors, *other.factors)))

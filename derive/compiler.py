@@ -8,13 +8,15 @@ schedule  ``derive.schedule``          → one tape with derivatives, binding ti
 emit      ``derive.emit``              → C99, CasADi, JSON
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
-a paper. The stages after that are common to all drives.
+a paper. The stages after that are common to all drives. Statements are proved once for all of them; which ones a
+drive rests on is looked up when its operations are known.
 """
 
 import hashlib
 import json
 from pathlib import Path
 
+from derive import conditions
 from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.schedule import schedule
@@ -28,20 +30,22 @@ def compile_drive(drive, record, log):
 
     ``record`` holds the objects of the audit record against which it is checked, by their hash.
     """
-    with log("prove", drive.name):
-        origin = provenance(record, drive.family, drive.variant)
     with log("schedule", drive.name):
         plan = schedule(drive)
+    with log("prove", drive.name):
+        origin = provenance(record, plan)
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
         files = {
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
-            f"c/{drive.name}.json": json.dumps(description, indent=1, ensure_ascii=False) + "\n",
         }
         files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
         # last: it adds the changes of the inputs to the tape
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, metadata.GENERATOR)
+        evaluated = [*conditions.functions(plan), *sensitivity.functions(plan)]
+        description["side_conditions"] = conditions.side_conditions(plan, evaluated)
+        files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
         return files
 
 

@@ -1,4 +1,4 @@
-"""Schedule of a design system: its residual, Jacobian, watch and results as functions of parameters alone.
+"""Schedule of what completes a design: rules, and design systems as functions of parameters alone.
 
 Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.newton`.
 """
@@ -27,6 +27,14 @@ class SystemTape:
     @property
     def unknowns(self):
         return [u.symbol for u in self.system.unknowns]
+
+
+def on_parameters(drive, expressions):
+    """Expressions of a drive's parameter vector alone, on a tape of their own: (lowering, nodes)."""
+    lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+    for p in drive.parameters:
+        lower(p.symbol)
+    return lower, [lower(e) for e in expressions]
 
 
 def lower_system(system: DesignSystem, parameters):

@@ -16,6 +16,7 @@ class Definitions:
     def __init__(self):
         self._values = {}
         self._derivatives = {}
+        self._origins = {}
 
     def __getitem__(self, symbol):
         return self._values[symbol]
@@ -26,8 +27,15 @@ class Definitions:
     def items(self):
         return self._values.items()
 
-    def let(self, name, value, meaning="", unit="", frame=""):
-        """Name a value; numbers and single symbols need no name and are returned as they are."""
+    def origin(self, symbol):
+        """The :class:`~derive.origin.Origin` given with a name, or None."""
+        return self._origins.get(symbol)
+
+    def let(self, name, value, meaning="", unit="", frame="", origin=None):
+        """Name a value; numbers and single symbols need no name and are returned as they are.
+
+        ``origin`` says which statement of the record tells where the value exists.
+        """
         value = sp.sympify(value)
         if value.is_Number or value.is_Symbol:
             return value
@@ -35,12 +43,13 @@ class Definitions:
         known = self._values.setdefault(symbol, value)
         if known != value:
             raise ValueError(f"the name {name!r} is already used for another expression")
+        self._origins.setdefault(symbol, origin)
         return symbol
 
-    def let_vector(self, name, value, meaning="", unit="", frame=""):
+    def let_vector(self, name, value, meaning="", unit="", frame="", origin=None):
         """Name the three components of a vector ``name_x``, ``name_y``, ``name_z``."""
         return tuple(
-            self.let(f"{name}_{axis}", component, meaning, unit, frame)
+            self.let(f"{name}_{axis}", component, meaning, unit, frame, origin)
             for axis, component in zip("xyz", value, strict=True)
         )
 
@@ -75,5 +84,5 @@ class Definitions:
         key = symbol, variable
         if key not in self._derivatives:
             value = self.derivative(self._values[symbol], variable)
-            self._derivatives[key] = self.let(f"{symbol}_{variable}", value)
+            self._derivatives[key] = self.let(f"{symbol}_{variable}", value, origin=self.origin(symbol))
         return self._derivatives[key]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derive import vectors as v
+from derive.origin import EXPLICIT, Origin
 from derive.symbols import Quantity
 
 
@@ -27,7 +28,7 @@ def envelope(surface, motion, variable):
         parameters=parameters,
         normal=v.scale(-1, surface.normal),
         conditions=(*surface.conditions, meshing),
-    )
+    ).on("derivation/invariance", "derivation/envelope", *(("derivation/pole",) if surface.pole else ()))
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def merge_sum(surface, kept, removed, name, meaning):
     total = Quantity(name, removed.unit, meaning, removed.frame)
     value = total - kept
     parameters = tuple(total if p == removed else p for p in surface.parameters)
-    return substitute(replace(surface, parameters=parameters), {removed: value}), total
+    return substitute(replace(surface, parameters=parameters), {removed: value}).on("derivation/merge-sum"), total
 
 
 def substitute(surface, replacement):
@@ -79,10 +80,11 @@ def explicit(surface):
         if any(surface.definitions.depends(s, parameter) for s in _defined(surface, condition)):
             continue
         solution = -condition.xreplace({parameter: sp.Integer(0)}) / slope
-        named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit)
+        origin = Origin(EXPLICIT, f"slope of the equation of meshing in {parameter}")
+        named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit, origin=origin)
         remaining = tuple(p for p in surface.parameters if p != parameter)
         done = replace(surface, parameters=remaining, conditions=tuple(others))
-        return substitute(done, {parameter: named}), Solved(named, solution, slope)
+        return substitute(done, {parameter: named}).on(EXPLICIT), Solved(named, solution, slope)
     raise ValueError("the equation of meshing is linear in none of its parameters")
 
 
@@ -93,9 +95,13 @@ def explicit_angle(surface, angle, sign):
     """
     *others, condition = surface.conditions
     a, b = _direction(condition, angle)
-    named = surface.definitions.let(angle.name, sp.atan2(-sign * a, sign * b), angle.meaning, angle.unit)
+    origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
+    turn = sp.atan2(-sign * a, sign * b)
+    named = surface.definitions.let(angle.name, turn, angle.meaning, angle.unit, origin=origin)
     remaining = tuple(p for p in surface.parameters if p != angle)
-    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
+    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
+        "derivation/explicit-angle"
+    )
 
 
 def in_turn(condition, angle):

@@ -21,12 +21,16 @@ class Result:
 
 @dataclass(frozen=True)
 class Function:
-    """``results`` as a function of ``arguments`` (symbols) and the design."""
+    """``results`` as a function of ``arguments`` (symbols) and the design.
+
+    ``rests_on`` are statements of the audit record.
+    """
 
     name: str
     meaning: str
     arguments: tuple
     results: tuple[Result, ...]
+    rests_on: tuple[str, ...] = ()
 
 
 def both_turns(a, b, c):

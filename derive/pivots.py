@@ -7,6 +7,7 @@ least fill (Markowitz). The runtime checks the step and falls back on complete p
 """
 
 from derive import newton
+from derive.origin import ELIMINATION, Origin
 
 #: A pivot must reach this share of the largest scaled entry left in its row.
 STABLE_SHARE = 0.1
@@ -78,7 +79,8 @@ def _solve(tape, matrix, right, order):
     one = tape.constant(1)
     inverse = {}
     for step, (i, j) in enumerate(order):
-        inverse[i] = tape.div(one, a[i][j])
+        with tape.within(Origin(ELIMINATION, f"pivot {step + 1} of the Newton step")):
+            inverse[i] = tape.div(one, a[i][j])
         for k, _ in order[step + 1 :]:
             if tape.const_value(a[k][j]) == 0:
                 continue

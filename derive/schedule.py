@@ -11,10 +11,11 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive import linearise, pivots
+from derive import conditions, linearise, pivots
 from derive.completion import SystemTape, lower_system
 from derive.drive import Body, Drive, System
 from derive.limits import singular_function
+from derive.origin import STEP_SIZE, UNIT, Origin
 from derive.tape import Lowering, Stage, Tape
 
 
@@ -77,7 +78,8 @@ class Schedule:
     start_guess: list[int] = field(default_factory=list)
     start_scales: list[int] = field(default_factory=list)
     start_solution: list[int] = field(default_factory=list)
-    guards: list[int] = field(default_factory=list)
+    guards: list[conditions.DesignGuard] = field(default_factory=list)
+    tests: dict = field(default_factory=dict)
     observed: list[Output] = field(default_factory=list)
     bodies: dict = field(default_factory=dict)
     flanks: list[Flank] = field(default_factory=list)
@@ -105,13 +107,13 @@ def schedule(drive):
     plan = Schedule(drive, tape, Lowering(tape, inputs, drive.definitions))
 
     plan.systems = [lower_system(system, drive.parameters) for system in drive.systems]
-    plan.guards = [plan.lower(g.positive) for g in drive.guards]
     plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
     plan.jacobian = linearise.jacobian(tape, plan.linear)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
     plan.step, changes = pivots.newton_step(plan)
-    plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]
+    with tape.within(STEP_SIZE):
+        plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]
     _observe(plan)
     for body in drive.bodies:
         limits = [Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins]
@@ -123,6 +125,8 @@ def schedule(drive):
         plan.regions.append(Flank(region.member, *surface, region.name))
     plan.functions = [_function(plan, function) for function in drive.functions]
     _assign_state(plan)
+    plan.guards = conditions.design_guards(plan)
+    plan.tests = conditions.tests(plan)
     return plan
 
 
@@ -158,8 +162,9 @@ def _unit(plan, nodes):
     square = None
     for i in nodes:
         square = t.mul(i, i) if square is None else t.add(square, t.mul(i, i))
-    length = t.sqrt(square)
-    return [t.div(i, length) for i in nodes], length
+    with t.within(UNIT):
+        length = t.sqrt(square)
+        return [t.div(i, length) for i in nodes], length
 
 
 def _observe(plan):
@@ -191,7 +196,9 @@ def _observe_body(plan, body: Body):
     put = plan.observed.append
     for symbol, parameter in zip(body.surface.parameters, parameters, strict=True):
         tangent = [tape.derivative(i, parameter) for i in point]
-        turning = [tape.div(tape.derivative(i, parameter), length) for i in raw]
+        changes = [tape.derivative(i, parameter) for i in raw]
+        with tape.within(UNIT):
+            turning = [tape.div(change, length) for change in changes]
         put(Output(f"tangent_{symbol}", tuple(tangent), f"mm/({symbol.unit})", "f"))
         put(Output(f"turning_{symbol}", tuple(turning), f"1/({symbol.unit})", "f"))
     for k, condition in enumerate(body.surface.conditions):
@@ -213,7 +220,9 @@ def _count(outputs):
 
 
 def _relative(plan, body, node):
-    return plan.tape.div(node, _fixed(plan, node, body.reference))
+    at_reference = _fixed(plan, node, body.reference)
+    with plan.tape.within(Origin("derivation/relative", f"the same at the reference point of the {body.name}")):
+        return plan.tape.div(node, at_reference)
 
 
 def _regular(plan, body):

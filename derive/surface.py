@@ -11,6 +11,7 @@ import sympy as sp
 from derive import vectors as v
 from derive.chain import Motion, Rz, screw
 from derive.definitions import Definitions
+from derive.origin import joined
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Surface:
     positive length, and the tangents, of any length, span its plane. An envelope keeps the tangents of its
     generating surface, which touch it; they are then not its derivatives. ``pole`` is any other point of the
     normal's line, section frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed
-    there.
+    there. ``steps`` are the statements of the record on which its derivation so far rests.
     """
 
     definitions: Definitions
@@ -34,6 +35,16 @@ class Surface:
     motion: Motion = Motion()
     conditions: tuple = ()
     pole: tuple | None = None
+    steps: tuple[str, ...] = ()
+
+    def on(self, *statements):
+        """The same surface, resting on these statements of the record as well."""
+        return replace(self, steps=joined(self.steps, statements))
+
+    @property
+    def rests_on(self):
+        """Statements of the record behind the surface in its body frame."""
+        return joined(self.steps, self.motion.rests_on)
 
     def placed(self, *motions):
         """The surface moved by the product of these motions (leftmost acting last)."""
@@ -64,7 +75,7 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
         v.scale(1 / sp.sympify(arm), motion.local_velocity(sweep, section)),
     )
     normal = v.scale(outward, v.cross(*tangents))
-    return Surface(definitions, (along, sweep), section, tangents, normal, motion)
+    return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",))
 
 
 def revolved(definitions, profile, *, along, turn, outward):
@@ -74,9 +85,10 @@ def revolved(definitions, profile, *, along, turn, outward):
     """
     tangents = (definitions.derivative_vector(profile, along), v.vector(*v.J))
     normal = v.scale(outward, v.cross(*tangents))
-    return Surface(definitions, (along, turn), profile, tangents, normal, Rz(turn))
+    return Surface(definitions, (along, turn), profile, tangents, normal, Rz(turn), steps=("derivation/revolved",))
 
 
 def helicoid(definitions, section, *, along, sweep, parameter, outward):
     """The helicoid of a curve in screw motion: r = Rz(ψ) P(t) + p ψ k."""
-    return swept(definitions, section, screw(sweep, parameter), along=along, sweep=sweep, outward=outward)
+    flank = swept(definitions, section, screw(sweep, parameter), along=along, sweep=sweep, outward=outward)
+    return flank.on("helicoids/helicoid", "helicoids/normal")

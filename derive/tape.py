@@ -6,11 +6,15 @@ first needed, so that the same drive gives the same text on every machine.
 """
 
 import math
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
 
 import sympy as sp
+
+from derive.definitions import Definitions
+from derive.origin import ARCCOSINE, PARTIAL, TANGENT
 
 
 class Stage(IntEnum):
@@ -38,15 +42,27 @@ OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin"
 
 
 class Tape:
-    """A growing straight-line program. Values are referred to by index."""
+    """A growing straight-line program. Values are referred to by index.
+
+    ``origins`` holds the :class:`~derive.origin.Origin` of every operation that is not defined everywhere.
+    """
 
     def __init__(self):
         self.nodes = []
+        self.origins = {}
+        self._within = None
         self.stages = []
         self._index = {}
         self._derivatives = {}
 
     # -- building ---------------------------------------------------------------------------------------------
+
+    @contextmanager
+    def within(self, origin):
+        """New partial operations are of this :class:`~derive.origin.Origin`; None: of none but their own kind."""
+        before, self._within = self._within, origin
+        yield
+        self._within = before
 
     def _new(self, op, args=(), value=None, stage=None):
         if op in _COMMUTATIVE and args[0] > args[1]:
@@ -56,6 +72,8 @@ class Tape:
             self._index[node] = len(self.nodes)
             self.nodes.append(node)
             self.stages.append(max((self.stages[a] for a in args), default=stage or Stage.CONSTANT))
+            if op in PARTIAL:
+                self.origins[self._index[node]] = self._within or PARTIAL[op]
         return self._index[node]
 
     def constant(self, value):
@@ -238,6 +256,10 @@ class Tape:
         d = [derivatives[a] for a in node.args]
         if all(self.const_value(k) == 0 for k in d):
             return self.constant(0)
+        with self.within(self.origins.get(i)):
+            return self._chain(i, node, d)
+
+    def _chain(self, i, node, d):
         a, b = node.args if len(node.args) == 2 else (node.args[0], None)
         match node.op:
             case "add":
@@ -269,7 +291,8 @@ class Tape:
             node = self.nodes[k]
             if k not in done:
                 args = [done.get(a, a) for a in node.args]
-                done[k] = getattr(self, node.op)(*args) if args else k
+                with self.within(self.origins.get(k)):
+                    done[k] = getattr(self, node.op)(*args) if args else k
         return done[i]
 
     # -- reading ----------------------------------------------------------------------------------------------
@@ -335,8 +358,16 @@ class Lowering:
     def __init__(self, tape, inputs, definitions=None):
         self.tape = tape
         self.inputs = inputs
-        self.definitions = definitions if definitions is not None else {}
+        self.definitions = definitions if definitions is not None else Definitions()
         self._done = {}
+
+    def names(self):
+        """Node → name of the definition whose value it is, for those that have been needed."""
+        found = {}
+        for expression, node in self._done.items():
+            if expression.is_Symbol and expression in self.definitions:
+                found.setdefault(node, str(expression))
+        return found
 
     def __call__(self, expression):
         """Node of an expression; its symbols are inputs or definitions."""
@@ -353,7 +384,8 @@ class Lowering:
             if e in self.inputs:
                 return t.input(e, self.inputs[e])
             if e in self.definitions:
-                return self(self.definitions[e])
+                with t.within(self.definitions.origin(e)):
+                    return self(self.definitions[e])
             raise KeyError(f"{e} is neither an input nor defined")
         if e.is_NumberSymbol or e.is_Float:
             return t.constant(float(e))
@@ -410,7 +442,8 @@ class Lowering:
         raise TypeError(f"power {exponent} has no operation on the tape")
 
     def _tan(self, a):
-        return self.tape.div(self.tape.sin(a), self.tape.cos(a))
+        with self.tape.within(TANGENT):
+            return self.tape.div(self.tape.sin(a), self.tape.cos(a))
 
     def _atan(self, a):
         return self.tape.atan2(a, self.tape.constant(1))
@@ -418,7 +451,8 @@ class Lowering:
     def _complement(self, a):
         """√(1 − a²) without loss near |a| = 1."""
         t, one = self.tape, self.tape.constant(1)
-        return t.sqrt(t.mul(t.sub(one, a), t.add(one, a)))
+        with t.within(ARCCOSINE):
+            return t.sqrt(t.mul(t.sub(one, a), t.add(one, a)))
 
     def _asin(self, a):
         return self.tape.atan2(a, self._complement(a))

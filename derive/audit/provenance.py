@@ -1,30 +1,18 @@
-"""Which equations of the record each generated function rests on.
+"""Which statements of the record each generated function rests on, as the derivation itself says.
 
-The table names verdicts by family; the prove stage refuses a name that the record does not hold or has not proved.
+Every step of :mod:`derive` names its statements where it is carried out; they travel with surfaces, motions,
+definitions and the operations of the tape. The prove stage refuses one that the record does not hold or has not proved.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TypedDict
 
 from derive.audit.check import root_of
-
-#: Rotations and constant frames are in every function.
-COMMON = ("conventions/rotations", "conventions/frames", "conventions/sums")
-
-#: Worm flanks by ISO 10828 letter.
-PROFILES = {
-    "ZN": ("helicoids/zn-width", "helicoids/zn-straight"),
-    "ZA": ("helicoids/za-normal",),
-    "ZI": ("helicoids/zi-normal",),
-    "ZK": ("helicoids/zk-normal", "zk-zn/eq-4"),
-    "ZC": ("helicoids/zc-normal", "helicoids/zc-limit"),
-}
-HELICOID = ("helicoids/helicoid", "helicoids/normal")
-HOBBED = tuple(f"cylindrical_worm/{key}" for key in ("meshing", "normal", "sum-angle", "explicit", "linear"))
-SWEPT = tuple(f"spherical_gears/{key}" for key in ("half-angle", "normal", "meshing", "explicit", "tangent"))
-ENVELOPED = ("face-worm/eq-10", "face_worm/blade-normal")
+from derive.conditions import functions, partial_operations
+from derive.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
+from derive.schedule import Schedule
 
 
 class Provenance(TypedDict):
@@ -35,59 +23,46 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(objects: Mapping[str, dict], family: str, variant: dict[str, str]) -> Provenance:
+def provenance(objects: Mapping[str, dict], plan: Schedule) -> Provenance:
     """Root hash and equation ids of a drive, by function name without the drive's prefix.
 
     ``objects`` are those of the record by their hash, just proved or read from where it was written.
     """
-    functions = {name: list(dict.fromkeys(COMMON + keys)) for name, keys in _functions(family, variant).items()}
-    used = sorted({key for keys in functions.values() for key in keys})
-    _require_proved(objects, used)
-    return {"root_hash": root_of(objects), "equations": used, "equations_of": functions}
+    steps = dict(_steps(plan))
+    for f in functions(plan):
+        operations = (f.tape.origins[i].statement for i in partial_operations(f))
+        steps[f.name] = joined(steps.get(f.name, ()), operations)
+    used = sorted({key for keys in steps.values() for key in keys})
+    _require_proved(objects, plan.drive.name, used)
+    return {
+        "root_hash": root_of(objects),
+        "equations": used,
+        "equations_of": {name: list(keys) for name, keys in steps.items() if keys},
+    }
 
 
-def _functions(family: str, variant: dict[str, str]) -> dict[str, tuple[str, ...]]:
-    match family:
-        case "cylindrical-worm":
-            worm = HELICOID + PROFILES[variant["worm_profile"]]
-            wheel = HELICOID + PROFILES[variant["hob_profile"]] + HOBBED
-            mesh = (*worm, *wheel, "conventions/wheel-axis", "cylindrical_worm/contact")
-            return {
-                "flank_pinion": worm,
-                "flank_wheel": wheel,
-                "eval": mesh,
-                "step": mesh,
-                "observe": (*mesh, "cylindrical_worm/undercut"),
-            }
-        case "spherical":
-            mesh = (*SWEPT, "cylindrical_worm/contact")
-            return {
-                "flank_pinion": SWEPT,
-                "flank_wheel": SWEPT,
-                "eval": mesh,
-                "step": mesh,
-                "observe": (*mesh, "spherical_gears/undercut", "spherical_gears/moment"),
-            }
-        case "face-worm":
-            gear = ("face_worm/cone-normal",)
-            mesh = (*ENVELOPED, *gear, "cylindrical_worm/contact")
-            fillet = ("face_worm/fillet-join", "face_worm/fillet-tangent")
-            return {
-                "flank_pinion": ENVELOPED,
-                "flank_wheel": gear,
-                "fillet_wheel": fillet,
-                "eval": mesh,
-                "step": mesh,
-                "observe": mesh,
-            }
-    raise KeyError(f"no table of equations for the family {family!r}; add one here")
+def _steps(plan: Schedule) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Function name and the steps behind it, beside those of its single operations."""
+    drive = plan.drive
+    on_surface = (UNIT.statement, SINGULAR)
+    for body in drive.bodies:
+        yield f"flank_{body.name}", joined(body.surface.rests_on, on_surface)
+    for region in drive.regions:
+        yield f"{region.name}_{region.member}", joined(region.surface.rests_on, on_surface)
+    mesh = joined(*(body.placed.rests_on for body in drive.bodies), (CONTACT, ANGLES))
+    yield "eval", mesh
+    yield "step", joined(mesh, (ELIMINATION, STEP_SIZE.statement))
+    yield "observe", joined(mesh, on_surface)
+    yield from ((function.name, function.rests_on) for function in drive.functions)
 
 
-def _require_proved(objects: Mapping[str, dict], names: list[str]) -> None:
+def _require_proved(objects: Mapping[str, dict], drive: str, names: list[str]) -> None:
     verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
     for name in names:
-        if name not in verdicts or not _holds(objects, verdicts[name]):
-            raise ValueError(f"{name} is not a proved statement of the record")
+        if name not in verdicts:
+            raise ValueError(f"{drive} rests on {name}, which the record does not hold")
+        if not _holds(objects, verdicts[name]):
+            raise ValueError(f"{drive} rests on {name}, which is not a proved statement of the record")
 
 
 def _holds(objects: Mapping[str, dict], verdict: dict) -> bool:

@@ -234,7 +234,9 @@ def cylindrical_worm(worm_profile, hob_profile):
     wheel = envelope(hob.flank, cutting(phi_h), phi_h)
     psi_h = hob.flank.parameters[1]
     wheel, psi = merge_sum(wheel, psi_h, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
-    wheel, _ = explicit(wheel)
+    wheel = explicit(wheel)[0].on(
+        "conventions/wheel-axis", *(f"cylindrical_worm/{k}" for k in ("meshing", "normal", "sum-angle", "explicit", "linear"))
+    )
     phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen")
 
     t_w, psi_w = worm.flank.parameters

@@ -5,7 +5,11 @@ import sympy as sp
 from derive import rack_and_pinion as rp
 from derive import vectors as v
 from derive.functions import Function, Result
+from derive.origin import joined
 from derive.symbols import Quantity
+
+#: The rack's equation of meshing is the one in space.
+MESHING = "rack-and-pinion/rack-form"
 
 
 def generation_functions(worm, hob, rack, wheel, psi, recovered):
@@ -38,6 +42,7 @@ def _profile(name, tool):
             Result("growth", (growth,)),
             Result("axial", (axial,), "mm", name),
         ),
+        flank.steps,
     )
 
 
@@ -70,6 +75,7 @@ def _generation(rack, wheel, t, psi, recovered):
             Result("point_wheel", wheel.body_point(), "mm", "wheel"),
             Result("first_type", (rp.first_type(rack, placed.body_point(), (t, psi)),)),
         ),
+        joined(wheel.rests_on, (MESHING,)),
     )
 
 
@@ -80,6 +86,7 @@ def _section(rack, t):
         "rack angle at which the profile point lies in the section y = C, on the wheel's side",
         (t, offset),
         (Result("psi_fixed_hob", (rp.section_angle(rack, offset),), "rad", "gen"),),
+        rack.flank.steps,
     )
 
 
@@ -90,6 +97,7 @@ def _worm_point(rack, t):
         "the two rack angles at which a given point of the hob flank touches the wheel; right angles only",
         (t, turn),
         (Result("psi_fixed_hob", rp.contacts_of_worm_point(rack, turn), "rad", "gen"),),
+        joined(rack.flank.rests_on, (MESHING, "derivation/both-turns")),
     )
 
 
@@ -99,6 +107,7 @@ def _second_type(rack, t):
         "the two rack angles of the limit points of the second type; right angles only",
         (t,),
         (Result("psi_fixed_hob", rp.second_type_angles(rack), "rad", "gen"),),
+        joined(rack.flank.rests_on, ("rack-and-pinion/eq-5", "derivation/both-turns")),
     )
 
 
@@ -116,4 +125,5 @@ def _axes(rack):
                 for result in (Result(f"point_{k}", point, "mm", "gen"), Result(f"direction_{k}", direction, "", "gen"))
             ),
         ),
+        tuple(f"cylindrical_worm/{key}" for key in ("twist", "axis", "axis-quadratic")),
     )

@@ -18,6 +18,7 @@ from derive.definitions import Definitions
 from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
 from derive.drives import face_worm_keys as k
 from derive.envelope import envelope, nearest_turn
+from derive.origin import Origin
 from derive.surface import Surface
 from derive.symbols import Guard, Quantity, Rule, Unknown
 from derive.tools.conical_hob import conical_hob
@@ -72,7 +73,7 @@ def hob_cut(definitions):
         cone_angle=cone, profile_angle=alpha, flank=s,
     )  # fmt: skip
     cutting = Rz(-ratio * psi) @ translation(L, E_m, 0) @ crossing @ Rz(psi)
-    return HobCut(envelope(hob, cutting, psi), u, theta, psi)
+    return HobCut(envelope(hob, cutting, psi).on("face_worm/harmonic"), u, theta, psi)
 
 
 def _pitch_cones():
@@ -160,7 +161,9 @@ def _cutter_rules(reference, definitions):
     """
     inner, pitch, outer = (k.symbols(p) for p in (k.inner_point, k.pitch_point, k.outer_point))
     centre, normal = v.circle_centre(inner, pitch, outer)
-    centre = definitions.let_vector("circle_centre", centre, "centre of the circle through A1, P, A2", "mm", "wheel")
+    centre = definitions.let_vector(
+        "circle_centre", centre, "centre of the circle through A1, P, A2", "mm", "wheel", Origin("derivation/circle")
+    )
     normal = definitions.let_vector("circle_plane", normal, "normal of its plane, any length", "", "wheel")
     upward = v.scale(normal[2] / sp.Abs(normal[2]), v.unit(normal))
     z_c = definitions.let_vector("circle_axis", upward, "axis of the circle", "", "wheel")
@@ -219,7 +222,7 @@ def face_worm():
     theta_w = Quantity("theta_worm", "rad", "around the axis of the worm's head-cutter", "tool")
     psi = Quantity("psi_worm", "rad", "angle of the worm in cutting", "gen")
     blade = cutter.edge(u_w, theta_w, parabola=k.blade_parabola.symbol).placed(installed)
-    worm = envelope(blade, _cradle(psi), psi)
+    worm = envelope(blade, _cradle(psi), psi).on("face-worm/eq-10")
 
     lam = Quantity("lambda_gear", "rad", "around the blade's rounding, from the bottom of the space", "tool")
     fillet = cutter.fillet(lam, theta_g).placed(installed)

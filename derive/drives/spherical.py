@@ -62,7 +62,8 @@ def _rolled(cutter, gear, angle):
     phi = Quantity(angle, "rad", f"turn of the {gear.name} in generation", "gen")
     rolling = Rz(phi) @ translation(x=gear.pitch_radius, y=-gear.pitch_radius * phi)
     surface, solved = explicit(envelope(cutter, rolling, phi))
-    return surface, solved.symbol
+    proved = (f"spherical_gears/{key}" for key in ("meshing", "explicit", "tangent", "undercut"))
+    return surface.on(*proved), solved.symbol
 
 
 def spherical(pinion_form, wheel_form):

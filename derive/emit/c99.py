@@ -6,12 +6,13 @@ gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math
 
 from dataclasses import dataclass
 
+from derive.completion import on_parameters
 from derive.drive import PATH
 from derive.emit import approximation
 from derive.emit.order import latency_order
 from derive.emit.render import render
 from derive.schedule import Schedule
-from derive.tape import Lowering, Stage, Tape
+from derive.tape import Stage
 
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
@@ -148,9 +149,9 @@ def header(plan: Schedule, description: dict, model_source: str):
         X=prefix,
         description=description,
         model_source=model_source,
-        rules=list(_rules(drive, prefix)),
+        rules=list(_rules(plan)),
         sizes=_from_parameters(drive, prefix, [value for _, value, _ in drive.sizes]),
-        guards=design.body(plan.guards)[0],
+        guards=design.body([g.node for g in plan.guards])[0],
         setup=design.body(slots[: plan.design_slots])[0],
         set_phi=instant.body(slots[plan.design_slots :])[0],
         residual=residual,
@@ -166,17 +167,18 @@ def header(plan: Schedule, description: dict, model_source: str):
         flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
         regions=[_flank(plan, region, leaves.state) for region in plan.regions],
         systems=[_system(system, drive) for system in plan.systems],
-        functions=[_flank(plan, function, leaves.state) for function in plan.functions],
+        functions=[_flank(plan, f, leaves.state, plan.tests.get((f.name, 0))) for f in plan.functions],
         literal=number,
         approximation=approximation,
         estrin=estrin,
     )
 
 
-def _flank(plan, flank, state):
+def _flank(plan, flank, state, tests=None):
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
     printer = Printer(plan.tape, plan.drive.name, state | own)
-    return {"flank": flank, "body": printer.body([i for o in flank.outputs for i in o.nodes])[0]}
+    groups = [o.nodes for o in flank.outputs]
+    return {"flank": flank, "body": _tested(printer, groups, tests or {})}
 
 
 def _system(plan, drive):
@@ -199,18 +201,39 @@ def _system(plan, drive):
     }
 
 
-def _rules(drive, prefix):
+def _rules(plan):
     """Each default and rule of the drive: parameter index, statements, value, name."""
+    drive = plan.drive
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    for rule in drive.completion:
-        body = _from_parameters(drive, prefix, [rule.value])
+    for k, rule in enumerate(drive.completion):
+        printer, nodes = _printer(drive, drive.name, [rule.value])
+        body = _tested(printer, [nodes], plan.tests.get(("derive", k), {}))
         target = rule.target
         yield {"index": index[target], "statements": body.statements, "value": body.results[0], "name": target.name}
 
 
+def _tested(printer, groups, tests):
+    """The body of a function; where a node of ``tests`` (group of results → nodes) is zero, they are not numbers."""
+    outputs = [i for group in groups for i in group]
+    wanted = [tests.get(tuple(group), ()) for group in groups for _ in group]
+    nodes = [i for each in wanted for i in each]
+    body, _ = printer.body([*outputs, *nodes])
+    operand = dict(zip(nodes, body.results[len(outputs) :], strict=True))
+
+    def result(value, each):
+        holds = " && ".join(f"({operand[i]} > 0.0 || {operand[i]} < 0.0)" for i in each)
+        return f"{holds} ? {value} : NAN" if each else value
+
+    return Body(body.statements, tuple(map(result, body.results[: len(outputs)], wanted)), body.operations)
+
+
 def _from_parameters(drive, prefix, expressions):
-    """Expressions of the parameter vector alone, on a tape of their own."""
-    tape = Tape()
-    lower = Lowering(tape, {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+    printer, nodes = _printer(drive, prefix, expressions)
+    return printer.body(nodes)[0]
+
+
+def _printer(drive, prefix, expressions):
+    """A printer of expressions of the parameter vector alone, and their nodes."""
+    lower, nodes = on_parameters(drive, expressions)
     leaves = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
-    return Printer(tape, prefix, leaves).body([lower(e) for e in expressions])[0]
+    return Printer(lower.tape, prefix, leaves), nodes

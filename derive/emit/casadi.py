@@ -33,7 +33,7 @@ def function(plan):
         "start_solution": vector(plan.start_solution),
         "start_guess": vector(plan.start_guess),
         "scale": vector(plan.scales),
-        "guards": vector(plan.guards),
+        "guards": vector([g.node for g in plan.guards]),
         "rules": casadi.vertcat(*_rules(drive, inputs)),
     }
     return casadi.Function(drive.name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))

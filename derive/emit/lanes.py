@@ -32,7 +32,7 @@ def header(plan: Schedule, generator: str):
         X=plan.drive.name,
         generator=generator,
         design_slots=plan.design_slots,
-        guards=body(leaves.design, plan.guards),
+        guards=body(leaves.design, [g.node for g in plan.guards]),
         setup=body(leaves.design, slots[: plan.design_slots]),
         set_phi=body(leaves.instant, slots[plan.design_slots :]),
         step=body(leaves.iterate, [*plan.step, *plan.step_size]),

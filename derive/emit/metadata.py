@@ -46,7 +46,7 @@ def describe(plan, provenance):
         "sizes": [_size(*entry) for entry in drive.sizes],
         "systems": [_system(drive, system) for system in drive.systems],
         "rules": _rules(drive),
-        "guards": [{"message": g.message, "keys": list(g.keys)} for g in drive.guards],
+        "guards": [{"message": g.message, "keys": list(g.keys)} for g in plan.guards],
         "outputs": [
             {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
         ],
@@ -72,7 +72,8 @@ def describe(plan, provenance):
 def specification_hash(plan):
     """SHA-256 of the tape, its inputs and what is read from it: equal for equal generated arithmetic."""
     nodes = _nodes(plan.tape)
-    reads = [plan.residual, plan.jacobian, plan.step, plan.start_residual, plan.start_solution, plan.guards]
+    reads = [plan.residual, plan.jacobian, plan.step, plan.start_residual, plan.start_solution]
+    reads += [[g.node for g in plan.guards]]
     reads += [[o.name, list(o.nodes)] for o in plan.observed]
     reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
     reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.regions]

@@ -7,6 +7,7 @@ systems and of the contact this gives exact sensitivities of their solutions (im
 
 import sympy as sp
 
+from derive.conditions import Evaluated
 from derive.drive import PATH
 from derive.emit.c99 import Printer
 from derive.emit.render import render
@@ -37,15 +38,8 @@ def _seeds(tape, lower, symbols, stage):
 
 def header(plan, generator):
     """The text of the drive's sensitivity header."""
-    drive, tape, lower = plan.drive, plan.tape, plan.lower
-    parameters = [p.symbol for p in drive.parameters]
-    by_p, by_x = _seeds(tape, lower, parameters, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
-    by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
-    leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
-    leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
-    tangent = _Tangents(tape, by_p | by_phi | by_x)
-    point = next(o for o in plan.observed if o.name == _POINT)
-    nodes = [*plan.residual, *point.nodes]
+    drive = plan.drive
+    leaves, nodes = _contact(plan)
     return render(
         "sensitivity.h.jinja",
         drive=drive,
@@ -54,8 +48,35 @@ def header(plan, generator):
         defaults=[k for k, p in enumerate(drive.parameters) if p.default is not None],
         rules=list(_rules(drive)),
         systems=[_system(system, drive) for system in plan.systems],
-        tangent=Printer(tape, drive.name, leaves).body([tangent(i) for i in nodes])[0],
+        tangent=Printer(plan.tape, drive.name, leaves).body(nodes)[0],
     )
+
+
+def functions(plan):
+    """The generated functions, for the list of side conditions."""
+    for k, rule in enumerate(plan.drive.rules):
+        lower, leaves, _, value = _rule(plan.drive, rule)
+        yield Evaluated("derive_tangent", lower.tape, lower, ((value,),), frozenset(leaves), "tangent", k)
+    for system in plan.systems:
+        leaves, residual, values = _tangents_of_system(system, plan.drive)
+        for name, nodes in (("tangent", residual), ("fill_tangent", values)):
+            name = f"{system.system.name}_{name}"
+            yield Evaluated(name, system.tape, system.lower, (tuple(nodes),), frozenset(leaves), "tangent")
+    leaves, nodes = _contact(plan)
+    yield Evaluated("tangent", plan.tape, plan.lower, (tuple(nodes),), frozenset(leaves), "tangent")
+
+
+def _contact(plan):
+    """C operands of the inputs, and the tangents of residual and contact point."""
+    drive, tape, lower = plan.drive, plan.tape, plan.lower
+    parameters = [p.symbol for p in drive.parameters]
+    by_p, by_x = _seeds(tape, lower, parameters, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
+    by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
+    leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
+    leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
+    tangent = _Tangents(tape, by_p | by_phi | by_x)
+    point = next(o for o in plan.observed if o.name == _POINT)
+    return leaves, [tangent(i) for i in (*plan.residual, *point.nodes)]
 
 
 def _leaves(lower, name, symbols, seeds):
@@ -69,34 +90,47 @@ def _rules(drive):
     symbols = [p.symbol for p in drive.parameters]
     index = {symbol: k for k, symbol in enumerate(symbols)}
     for rule in drive.rules:
-        tape = Tape()
-        lower = Lowering(tape, dict.fromkeys(symbols, Stage.DESIGN), drive.definitions)
-        seeds = _seeds(tape, lower, symbols, Stage.DESIGN)
-        node = lower(rule.value)
-        value = _Tangents(tape, seeds)(node)
+        lower, leaves, node, value = _rule(drive, rule)
         yield {
             "index": index[rule.target],
             "name": rule.target.name,
-            "needs": sorted(index[s] for s in tape.inputs_of([node])),
-            "body": Printer(tape, drive.name, _leaves(lower, "p", symbols, seeds)).body([value])[0],
+            "needs": sorted(index[s] for s in lower.tape.inputs_of([node])),
+            "body": Printer(lower.tape, drive.name, leaves).body([value])[0],
         }
+
+
+def _rule(drive, rule):
+    """A rule on a tape of its own: lowering, C operands of the inputs, its value and its tangent."""
+    symbols, tape = [p.symbol for p in drive.parameters], Tape()
+    lower = Lowering(tape, dict.fromkeys(symbols, Stage.DESIGN), drive.definitions)
+    seeds = _seeds(tape, lower, symbols, Stage.DESIGN)
+    node = lower(rule.value)
+    return lower, _leaves(lower, "p", symbols, seeds), node, _Tangents(tape, seeds)(node)
 
 
 def _system(plan, drive):
     """Tangents of a design system: of its residual and of the values that it fills in, along dq and dy."""
+    symbols = [p.symbol for p in drive.parameters]
+    leaves, residual, values = _tangents_of_system(plan, drive)
+    printer = Printer(plan.tape, drive.name, leaves)
+    return {
+        "name": plan.system.name,
+        "unknowns": plan.unknowns,
+        "residual": printer.body(residual)[0],
+        "values": printer.body(values)[0],
+        "fills": [symbols.index(target) for target in plan.system.fills],
+    }
+
+
+def _tangents_of_system(plan, drive):
+    """C operands of a design system's inputs, and the tangents of its residual and of its values."""
     tape, lower = plan.tape, plan.lower
     symbols = [p.symbol for p in drive.parameters]
     by_q, by_y = _seeds(tape, lower, symbols, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
     leaves = _leaves(lower, "q", symbols, by_q) | _leaves(lower, "y", plan.unknowns, by_y)
-    printer = Printer(tape, drive.name, leaves | {lower(PATH): f"q[{len(symbols)}]"})
+    leaves[lower(PATH)] = f"q[{len(symbols)}]"
     tangent = _Tangents(tape, by_q | by_y)
-    return {
-        "name": plan.system.name,
-        "unknowns": plan.unknowns,
-        "residual": printer.body([tangent(i) for i in plan.residual])[0],
-        "values": printer.body([tangent(i) for i in plan.values])[0],
-        "fills": [symbols.index(target) for target in plan.system.fills],
-    }
+    return leaves, [tangent(i) for i in plan.residual], [tangent(i) for i in plan.values]
 
 
 def table_of_models(systems):

@@ -19,7 +19,7 @@ def axial_blade(body, definitions):
         definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s
     )
     return WormTool(
-        flank,
+        flank.on("helicoids/za-normal"),
         pitch_point=r,
         tip_margin=reach(body, t),
         scale=body.module,

@@ -7,6 +7,7 @@ import sympy as sp
 from derive import vectors as v
 from derive.chain import Rx, screw, swing
 from derive.envelope import envelope
+from derive.origin import joined
 from derive.surface import Surface
 from derive.symbols import Quantity
 from derive.tools.worm_body import WormTool, reach, regression
@@ -22,7 +23,10 @@ def grinding_wheel(body, definitions, point, tangent, profile, parameter, outwar
     centre = (body.pitch_radius + body.grinding_wheel_radius, 0, 0)
     motion = Rx(body.lead_angle) @ swing("z", -theta, centre) @ profile
     normal = v.scale(outward, v.cross(tangent, v.J))
-    return Surface(definitions, (parameter, theta), point, (tangent, v.J), normal, motion, pole=pole)
+    return Surface(
+        definitions, (parameter, theta), point, (tangent, v.J), normal, motion, pole=pole,
+        steps=("derivation/revolved",),
+    )  # fmt: skip
 
 
 def ground_flank(wheel, body, solve):
@@ -40,6 +44,7 @@ def ground_flank(wheel, body, solve):
         normal=let(f"n_{body.name}", inner.direction(flank.normal), "normal", "", body.name),
         motion=sweep,
         pole=None,
+        steps=joined(flank.steps, inner.rests_on, ("helicoids/helicoid",)),
     )
 
 

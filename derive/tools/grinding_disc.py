@@ -15,4 +15,5 @@ def grinding_disc(body, definitions):
     edge = (r - u * sp.cos(alpha), sp.Integer(0), s * (body.groove_width / 2 - u * sp.sin(alpha)))
     tangent = tuple(sp.diff(c, u) for c in edge)
     wheel = grinding_wheel(body, definitions, edge, tangent, Motion(), u, outward=-s)
-    return ground_tool(body, ground_flank(wheel, body, lambda surface: explicit(surface)[0]))
+    flank = ground_flank(wheel, body, lambda surface: explicit(surface)[0])
+    return ground_tool(body, flank.on("helicoids/zk-normal", "zk-zn/eq-4"))

@@ -42,7 +42,8 @@ class HeadCutter:
             sp.Integer(0),
             u * sp.cos(self.blade_angle) + bulge * z,
         )
-        return revolved(self.definitions, profile, along=u, turn=theta, outward=-self.flank)
+        proved = "face_worm/blade-normal" if parabola else "face_worm/cone-normal"
+        return revolved(self.definitions, profile, along=u, turn=theta, outward=-self.flank).on(proved)
 
     @property
     def junction(self):
@@ -64,4 +65,5 @@ class HeadCutter:
             sp.Integer(0),
             self.fillet_radius * (1 - sp.cos(lam)) - self.depth,
         )
-        return revolved(self.definitions, profile, along=lam, turn=theta, outward=-self.flank)
+        torus = revolved(self.definitions, profile, along=lam, turn=theta, outward=-self.flank)
+        return torus.on("face_worm/fillet-join", "face_worm/fillet-tangent")

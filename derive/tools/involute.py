@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derive.origin import Origin
 from derive.surface import helicoid
 from derive.symbols import Quantity
 from derive.tools.worm_body import WormTool, reach, regression
@@ -22,8 +23,10 @@ def involute(body, definitions):
     def profile_angle(radius):
         return sp.atan2(sp.sqrt((radius - base) * (radius + base)), base)
 
-    here = definitions.let(f"a_t_{name}", profile_angle(t), "transverse profile angle", "rad", name)
-    there = definitions.let(f"a_t_pitch_{name}", profile_angle(r), "the same on the pitch cylinder", "rad", name)
+    regular = Origin("helicoids/zi-normal")
+
+    here = definitions.let(f"a_t_{name}", profile_angle(t), "transverse profile angle", "rad", name, regular)
+    there = definitions.let(f"a_t_pitch_{name}", profile_angle(r), "the same on the pitch cylinder", "rad", name, regular)
     rise = body.screw_parameter * (_involute_function(here) - _involute_function(there))
     height = s * (body.groove_width / (2 * sp.cos(lead)) + rise)
     section = definitions.let_vector(f"P_{name}", (t, sp.Integer(0), height), "axial section", "mm", name)
@@ -31,7 +34,7 @@ def involute(body, definitions):
         definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s
     )
     return WormTool(
-        flank,
+        flank.on("helicoids/zi-normal"),
         pitch_point=r,
         tip_margin=reach(body, t),
         scale=body.module,

@@ -84,7 +84,7 @@ def _tool(body, definitions, sweep, motion, arm, tip_drop, arc_radius=None):
     def surface(section, parameter, outward):
         return swept(
             definitions, section, motion, along=parameter, sweep=sweep, outward=outward, arm=arm(section[0])
-        )
+        ).on("spherical_gears/normal")
 
     half_length = body.edge_offset / sp.cos(body.pressure_angle)
     return RackTool(

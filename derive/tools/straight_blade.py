@@ -3,6 +3,7 @@
 import sympy as sp
 
 from derive.chain import Rx
+from derive.origin import Origin
 from derive.surface import helicoid
 from derive.symbols import Quantity
 from derive.tools.worm_body import WormTool
@@ -21,13 +22,14 @@ def straight_blade(body, definitions):
         "distance of the virtual apex from the axis",
         "mm",
         body.name,
+        Origin("helicoids/zn-width"),
     )
     blade = (apex + t * sp.cos(alpha), sp.Integer(0), s * t * sp.sin(alpha))
     section = definitions.let_vector(f"P_{body.name}", Rx(body.lead_angle).point(blade), "blade edge", "mm", body.name)
     flank = helicoid(definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s)
     pitch_point = body.groove_width / (2 * sp.sin(alpha))
     return WormTool(
-        flank,
+        flank.on("helicoids/zn-width", "helicoids/zn-straight"),
         pitch_point=pitch_point,
         tip_margin=pitch_point + body.tip_addendum / sp.cos(alpha) - t,
         scale=body.module,
