@@ -20,7 +20,7 @@ from derive.tape import Lowering, Stage, Tape
 #: What answers where a condition fails, by the name under which side conditions refer to it.
 GUARDS = {
     "setup": "setup returns the number of the guard; mw_solve and mw_trace answer bad_input",
-    "parameter": "the parameter is then not a finite number: setup has a guard for it, a limit of the blank does not apply",
+    "parameter": "the parameter is not a finite number: setup has a guard for it, a limit of the blank does not apply",
     "step size": "the size of the step is not finite: mw_newton_fused gives up and mw_newton judges the residual",
     "residual": "residual or Jacobian is not finite: mw_newton ends as left_flank or singular",
     "start": "start values only: the contact is refined and judged from whatever they are",
@@ -90,7 +90,8 @@ def functions(plan):
     yield on_tape("step", [*plan.step, *plan.step_size], "step size")
     yield on_tape("guess", plan.start_guess, "start")
     yield on_tape("start_scale", plan.start_scales, "start")
-    yield on_tape("start_eval", [*plan.start_residual, *(e for r in plan.start_jacobian for e in r)], "start")
+    start_matrix = [e for row in plan.start_jacobian for e in row]
+    yield on_tape("start_eval", [*plan.start_residual, *start_matrix], "start")
     yield on_tape("start_solution", plan.start_solution, "start")
     yield on_tape("scale", plan.scales, "residual")
     yield results("observe", plan.observed)
@@ -120,7 +121,8 @@ def _of_system(plan):
 def partial_operations(evaluated):
     """Nodes of a function that are not defined everywhere; quotients by a constant are."""
     tape = evaluated.tape
-    return [i for i in tape.needed(evaluated.outputs, evaluated.known) if i in tape.origins and not _by_constant(tape, i)]
+    needed = tape.needed(evaluated.outputs, evaluated.known)
+    return [i for i in needed if i in tape.origins and not _by_constant(tape, i)]
 
 
 def _by_constant(tape, i):

@@ -221,6 +221,10 @@ def helicoids(worm_profile, hob_profile, definitions):
     return TOOLS[worm_profile](worm, definitions), TOOLS[hob_profile](hob, definitions)
 
 
+#: Statements of the audit record about the wheel of any hob.
+HOBBED = tuple(f"cylindrical_worm/{key}" for key in ("meshing", "normal", "sum-angle", "explicit", "linear"))
+
+
 def cylindrical_worm(worm_profile, hob_profile):
     """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC")."""
     definitions = Definitions()
@@ -234,9 +238,7 @@ def cylindrical_worm(worm_profile, hob_profile):
     wheel = envelope(hob.flank, cutting(phi_h), phi_h)
     psi_h = hob.flank.parameters[1]
     wheel, psi = merge_sum(wheel, psi_h, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
-    wheel = explicit(wheel)[0].on(
-        "conventions/wheel-axis", *(f"cylindrical_worm/{k}" for k in ("meshing", "normal", "sum-angle", "explicit", "linear"))
-    )
+    wheel = explicit(wheel)[0].on("conventions/wheel-axis", *HOBBED)
     phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen")
 
     t_w, psi_w = worm.flank.parameters

@@ -23,10 +23,12 @@ def involute(body, definitions):
     def profile_angle(radius):
         return sp.atan2(sp.sqrt((radius - base) * (radius + base)), base)
 
-    regular = Origin("helicoids/zi-normal")
+    origin = Origin("helicoids/zi-normal")
 
-    here = definitions.let(f"a_t_{name}", profile_angle(t), "transverse profile angle", "rad", name, regular)
-    there = definitions.let(f"a_t_pitch_{name}", profile_angle(r), "the same on the pitch cylinder", "rad", name, regular)
+    here = definitions.let(f"a_t_{name}", profile_angle(t), "transverse profile angle", "rad", name, origin)
+    there = definitions.let(
+        f"a_t_pitch_{name}", profile_angle(r), "the same on the pitch cylinder", "rad", name, origin
+    )
     rise = body.screw_parameter * (_involute_function(here) - _involute_function(there))
     height = s * (body.groove_width / (2 * sp.cos(lead)) + rise)
     section = definitions.let_vector(f"P_{name}", (t, sp.Integer(0), height), "axial section", "mm", name)

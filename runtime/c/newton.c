@@ -45,7 +45,8 @@ static double scaled_step(int n, const double *step, const double *scale)
     double most = 0.0;
     for (int j = 0; j < n; j++) {
         const double size = fabs(step[j]) / scale[j];
-        if (!(size <= most)) most = size;
+        if (!(size <= most)) most = size; /* not-a-number wins */
+        if (most != most) return most;
     }
     return most;
 }

@@ -115,9 +115,12 @@ CLAIMS = (
     identity(
         "rotation",
         "chain: velocity of a rotation",
-        "Power of a normal on a turning point: the derivative by the angle is axis × r, formed in the body's own frame. "
-        "Rotating both vectors does not change it.",
-        [f"dot(R{axis}(a)@n, d(R{axis}(a)@r, a)) = dot(n, cross({unit}, r))" for axis, unit in zip("xyz", "ijk")],
+        "Power of a normal on a turning point: the derivative by the angle is axis × r, formed in the body's own "
+        "frame. Rotating both vectors does not change it.",
+        [
+            f"dot(R{axis}(a)@n, d(R{axis}(a)@r, a)) = dot(n, cross({unit}, r))"
+            for axis, unit in zip("xyz", "ijk", strict=True)
+        ],
         MOTION,
     ),
     identity(
@@ -135,7 +138,8 @@ CLAIMS = (
     identity(
         "swing",
         "chain: rotation about a distant line",
-        "The form with half angles, in which no large lengths cancel, is the rotation about the line through the centre.",
+        "The form with half angles, in which no large lengths cancel, is the rotation about the line through the "
+        "centre.",
         "half_turned + Rz(a)@r = C + Rz(a)@(r - C)",
         MOTION,
     ),
@@ -183,8 +187,8 @@ CLAIMS = (
     identity(
         "pole",
         "envelope: where meshing is formed",
-        "n·(ω × r) is the same at every point of the normal's line, so the equation of meshing may be formed at an arc's "
-        "centre.",
+        "n·(ω × r) is the same at every point of the normal's line, so the equation of meshing may be formed at an "
+        "arc's centre.",
         "dot(n, cross(omega, R + a*n)) = dot(n, cross(omega, R))",
         SURFACE,
     ),
@@ -199,8 +203,8 @@ CLAIMS = (
     identity(
         "envelope",
         "envelope: normal",
-        "Where the equation of meshing holds the velocity lies in the tangent plane, and the generating surface's normal "
-        "is perpendicular to every tangent of the envelope.",
+        "Where the equation of meshing holds the velocity lies in the tangent plane, and the generating surface's "
+        "normal is perpendicular to every tangent of the envelope.",
         ["dot(n, R_u + a*in_plane) = 0", "dot(n, R_v + b*in_plane) = 0"],
         SURFACE,
     ),
