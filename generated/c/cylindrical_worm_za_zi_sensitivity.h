@@ -310,7 +310,7 @@ static inline void cylindrical_worm_za_zi_tangent(const double *p, const double 
     const double t67 = s4 / c4;
     const double t68 = s2 / c2;
     const double t69 = 1.0 / t63;
-    const double t70 = 2.0 * c2;
+    const double t70 = c2 * 2.0;
     const double t71 = s2 * t66;
     const double t72 = 1.0 / c2;
     const double t73 = c6 * t13;

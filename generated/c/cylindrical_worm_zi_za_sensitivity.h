@@ -504,7 +504,7 @@ static inline void cylindrical_worm_zi_za_tangent(const double *p, const double 
     const double t261 = t153 * t254;
     const double t262 = t148 * t256;
     const double t263 = t115 * t257;
-    const double t264 = 2.0 * c2;
+    const double t264 = c2 * 2.0;
     const double t265 = t34 + t259;
     const double t266 = t199 + t198;
     const double t267 = t260 + t261;

@@ -312,7 +312,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t69 = 1.0 / t63;
     const double t70 = s2 / c2;
     const double t71 = 1.0 / c4;
-    const double t72 = 2.0 * c2;
+    const double t72 = c2 * 2.0;
     const double t73 = s2 * t68;
     const double t74 = s4 * dp[7];
     const double t75 = c4 * dp[7];
