@@ -25,7 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("verify", help="recompute every hash and re-check every certificate")
     commands.add_parser("explain", help="walk back to the sources").add_argument(
-        "name", metavar="EQ", help="an equation id or the name of a generated function"
+        "name", metavar="EQ", help="an equation id, the name of a generated function, or a drive"
     )
     commands.add_parser("html", help="write the pages anew").add_argument(
         "--output", type=Path, help="folder; default: generated/audit"

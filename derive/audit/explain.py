@@ -7,6 +7,7 @@ import json
 import re
 from pathlib import Path
 
+from derive.conditions import GUARDS
 from derive.prove.tree import Tree
 
 PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "@": 2, "^": 3}
@@ -17,8 +18,8 @@ class Unknown(Exception):
 
 
 def explain(generated: Path, name: str) -> list[str]:
-    """Lines of text for an equation id (`cylindrical_worm.meshing`, `recess-action/eq-7`) or a function of a generated
-    header.
+    """Lines of text for an equation id (`cylindrical_worm.meshing`, `recess-action/eq-7`), a function of a generated
+    header, or a drive: its side conditions and what guards them.
     """
     objects = _objects(generated / "audit")
     verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
@@ -32,9 +33,44 @@ def explain(generated: Path, name: str) -> list[str]:
         for each in keys:
             verdict = verdicts[each]
             lines.append(f"{each:<36} {verdict['status']:<24} {verdict['plain']}")
-        return lines
-    close = difflib.get_close_matches(key, [*verdicts, *functions], 5, 0.4)
+        return lines + _side_conditions(generated, path, name)
+    drives = sorted(path.stem for path in (generated / "c").glob("*.json"))
+    if name in drives:
+        return [name, *_side_conditions(generated, f"{name}.json")]
+    close = difflib.get_close_matches(key, [*verdicts, *functions, *drives], 5, 0.4)
     raise Unknown(f"no equation or generated function {name!r}" + (f"; close: {', '.join(close)}" if close else ""))
+
+
+def _side_conditions(generated: Path, header: str, function: str = "") -> list[str]:
+    """What the divisions, roots and arcs of a function, or of the whole drive, need and what answers otherwise."""
+    description = json.loads((generated / "c" / Path(header).name).with_suffix(".json").read_text(encoding="utf-8"))
+    own = function.removeprefix(description["prefix"] + "_")
+    lines = ["", "side conditions"]
+    for entry in description["side_conditions"]:
+        uses = {name: use for name, use in entry["functions"].items() if not function or name == own}
+        if uses:
+            lines.append(f"  {entry['operation']:<10} {entry['condition']}   [{', '.join(entry['equations'])}]")
+        for name, use in uses.items():
+            for guard in use["guards"]:
+                lines.append(f"    {name} ({use['count']}×): {_guard(description, guard)}")
+    return lines if len(lines) > 2 else []
+
+
+def _guard(description: dict, guard: str) -> str:
+    kind, _, number = guard.partition(" ") if guard.startswith("setup ") else (guard, "", "")
+    told = f" {number}, {description['guards'][int(number) - 1]['message']}" if number else ""
+    return f"{kind}{told}: {GUARDS[kind]}"
+
+
+def _carried(generated: Path, equation: str) -> list[str]:
+    """The side conditions of the generated code that a statement carries."""
+    found: dict[str, set[str]] = {}
+    for path in sorted((generated / "c").glob("*.json")):
+        for entry in json.loads(path.read_text(encoding="utf-8"))["side_conditions"]:
+            if equation in entry["equations"][:1]:
+                found.setdefault(f"{entry['operation']:<10} {entry['condition']}", set()).add(path.stem)
+    lines = [f"  {text}   ({len(drives)} drive{'s' * (len(drives) > 1)})" for text, drives in found.items()]
+    return ["", "side conditions of the generated code that it carries", *lines] if lines else []
 
 
 def _objects(folder: Path) -> dict[str, dict]:
@@ -88,7 +124,7 @@ def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[s
     ]
     if users:
         lines += ["", "generated functions that rest on it", *(f"  {user}" for user in users)]
-    return lines
+    return lines + _carried(generated, verdict["id"])
 
 
 def _part(objects: dict[str, dict], part: dict) -> list[str]:

@@ -13,10 +13,12 @@ import jinja2
 from markupsafe import Markup
 
 from derive.audit.claims import Document
+from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.published import comparisons
 from derive.audit.render import LaTeX, MathML, difference
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
+from derive.conditions import GUARDS
 from derive.prove.certificate import decimal
 from derive.prove.points import arctangent
 from derive.prove.polynomial import Terms
@@ -77,9 +79,15 @@ class Entry:
 
 
 def pages(
-    ledger: Ledger, chapters: list[Chapter], functions: Mapping[str, Mapping[str, list[str]]] | None = None
+    ledger: Ledger,
+    chapters: list[Chapter],
+    functions: Mapping[str, Mapping[str, list[str]]],
+    conditions: Mapping[str, list[Row]],
 ) -> dict[str, str]:
-    """File name -> text of every page. `functions` maps generated headers to their functions and equation ids."""
+    """File name -> text of every page.
+
+    `functions` maps generated headers to their functions and equation ids, `conditions` families to side conditions.
+    """
     shown = [
         (chapter.document, [_entry(chapter.document, verdict) for verdict in ledger.verdicts[chapter.document.key]])
         for chapter in chapters
@@ -106,9 +114,12 @@ def pages(
             not_verified=NOT_VERIFIED,
             published=comparisons(),
             corrections=corrections,
-            functions=functions or {},
+            functions=functions,
             ledger=ledger,
             kinds=Counter(item["object"] for item in ledger.objects.values()),
+        ),
+        "side-conditions.html": _render(
+            "side-conditions.html.jinja", **common, guards=GUARDS, conditions=conditions
         ),
         "audit.tex": _render("audit.tex.jinja", **common, shown=shown, tex=_tex),
     }

@@ -8,6 +8,7 @@ from functools import cache
 
 from derive.audit import store
 from derive.audit.documents import face_worm, rack_and_pinion, recess_action, spherical, zk_zn
+from derive.audit.guarded import by_family
 from derive.audit.identities import conventions, cylindrical_worm, derivation, helicoids
 from derive.audit.identities import face_worm as face_worm_drives
 from derive.audit.identities import spherical as spherical_gears
@@ -31,9 +32,8 @@ def ledger() -> Ledger:
 def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
     """Relative path -> text of everything under audit/. `generated` are the files that the seal names."""
     functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
-    texts = store.record_files(record) | pages(
-        record, chapters(), {path: table for path, table in functions.items() if table}
-    )
+    used = {path: table for path, table in functions.items() if table}
+    texts = store.record_files(record) | pages(record, chapters(), used, by_family(generated))
     texts["artifacts.json"] = store.seal(record, generated)
     return {f"audit/{name}": text for name, text in texts.items()}
 

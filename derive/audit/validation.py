@@ -45,6 +45,12 @@ VERIFIED = (
         "points.",
     ),
     (
+        "Side conditions reach the code",
+        "Every division, root and arc of the generated functions has its condition, the statement that carries it and "
+        "a guard (page Side conditions). The compiler proves on the program itself that a value that does not exist "
+        "ends in what the runtime tests, or as a result that is no number; where it would not, it writes a test.",
+    ),
+    (
         "Nothing was changed afterwards",
         "The headers carry the root hash of this record, and the record their sha256. Changing one character of a "
         "header, an equation, a certificate or a cofactor is caught; each is a test.",
@@ -76,7 +82,7 @@ NOT_VERIFIED = (
     (
         "Existence and uniqueness of roots",
         "An identity f = I·g says nothing about roots gained or lost where I = 0; such factors are listed as steps "
-        "with their condition. Domains of arcs and roots are guarded in the generated code.",
+        "with their condition.",
     ),
     (
         "Floating point",

@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,8 @@ import pytest
 from derive.audit import __main__ as command
 from derive.audit import check, ledger, record
 from derive.audit.provenance import provenance
+from derive.drives import catalogue
+from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"
@@ -107,7 +110,37 @@ def test_verify_reports_success_and_rejection(tmp_path, capsys):
 
 
 def test_a_function_may_only_rest_on_what_is_proved():
-    with pytest.raises(KeyError, match="family"):
-        provenance(record.ledger().objects, "bevel", {})
-    with pytest.raises(ValueError, match="not a proved statement"):
-        provenance({}, "face-worm", {})
+    plan = schedule(catalogue()["spherical_spur_spur"]())
+    with pytest.raises(ValueError, match="conventions/rotations, which the record does not hold"):
+        provenance({}, plan)
+
+
+def test_a_new_tool_brings_its_own_provenance():
+    """The statement that a surface names appears in every function that reads it; one that is not proved is an error
+    that names it.
+    """
+    objects = record.ledger().objects
+    plan = schedule(catalogue()["spherical_spur_spur"]())
+
+    def with_wheel_on(statement):
+        wheel = replace(plan.drive.wheel, surface=plan.drive.wheel.surface.on(statement))
+        return provenance(objects, replace(plan, drive=replace(plan.drive, wheel=wheel)))["equations_of"]
+
+    used = with_wheel_on("helicoids/zc-limit")
+    assert all("helicoids/zc-limit" in used[name] for name in ("flank_wheel", "eval", "step", "observe"))
+    assert "helicoids/zc-limit" not in used["flank_pinion"]
+    with pytest.raises(ValueError, match="spherical_spur_spur rests on derivation/wish, which the record does not"):
+        with_wheel_on("derivation/wish")
+    with pytest.raises(ValueError, match="rack-and-pinion/twice, which is not a proved statement"):
+        with_wheel_on("rack-and-pinion/twice")
+
+
+def test_explain_shows_side_conditions_of_function_statement_and_drive(capsys):
+    assert command.main(["explain", "cylindrical_worm_zn_zn_step"]) == 0
+    text = capsys.readouterr().out
+    assert "pivot 1 of the Newton step ≠ 0" in text or "pivot 2 of the Newton step ≠ 0" in text
+    assert "sin(Sigma_gen) must not be 0" in text and "[derivation/explicit" in text
+    assert command.main(["explain", "derivation/explicit"]) == 0
+    assert "cos(theta_pinion) ≠ 0" in capsys.readouterr().out
+    assert command.main(["explain", "face_worm"]) == 0
+    assert "derive (" in capsys.readouterr().out
