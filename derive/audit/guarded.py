@@ -37,4 +37,4 @@ def _add(rows: dict[tuple, Row], drive: str, entry: dict) -> None:
     row.drives.add(drive)
     for name, use in entry["functions"].items():
         row.functions[name] = None
-        row.guards |= dict.fromkeys(guard.split()[0] if guard.startswith("setup ") else guard for guard in use["guards"])
+        row.guards |= {"setup" if guard.startswith("setup ") else guard: None for guard in use["guards"]}
