@@ -16,7 +16,7 @@ from derive.audit.claims import Document
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.published import comparisons
-from derive.audit.render import LaTeX, MathML, difference
+from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
 from derive.conditions import GUARDS
 from derive.prove.certificate import decimal
@@ -54,6 +54,7 @@ class Part:
     latex: str
     outcome: str
     definitions: tuple[Markup, ...]
+    latex_definitions: tuple[str, ...]
     evidence: str
     conditions: tuple[str, ...]
     instance: dict | None
@@ -180,10 +181,12 @@ def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
     left, right = statement.lhs, statement.rhs
     if previous is not None and previous.statement is not None:
         left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
+    latex = LaTeX(mathml.names)
     definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())
     return Part(
-        Markup(mathml.equation(left, right)), LaTeX().equation(left, right), str(part.outcome), definitions,
-        _evidence(mathml, part), _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
+        Markup(mathml.equation(left, right)), latex.equation(left, right), str(part.outcome), definitions,
+        tuple(latex.equation(name, tree) for name, tree in statement.used.items()), _evidence(mathml, part),
+        _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
     )  # fmt: skip
 
 
@@ -199,6 +202,7 @@ def _figure_part(mathml: MathML, part: Judged) -> Part:
         Markup(shown),
         rf"{LaTeX().write(tree)} = {figure.value:.7g}",
         str(part.outcome),
+        (),
         (),
         f"numeric, certificate {part.certificate[:12]}",
         (),
@@ -282,12 +286,21 @@ def _instance(mathml: MathML, instance: Instance | None) -> dict | None:
     }
 
 
-_TEX = str.maketrans({
-    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "_": r"\_", "#": r"\#", "^": r"\^{}", "{": r"\{", "}": r"\}", ""
-        "$": r"\$", "~": r"\~{}",
-})  # fmt: skip
+_TEX = str.maketrans(
+    {
+        "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "_": r"\_", "#": r"\#", "^": r"\^{}", "{": r"\{", "}": r"\}",
+        "$": r"\$", "~": r"\~{}", "<": r"\ensuremath{<}", ">": r"\ensuremath{>}", "|": r"\ensuremath{|}",
+        "−": r"\ensuremath{-}", "·": r"\ensuremath{\cdot}", "×": r"\ensuremath{\times}", "∂": r"\ensuremath{\partial}",
+        "′": r"\ensuremath{'}", "≠": r"\ensuremath{\neq}", "≥": r"\ensuremath{\geq}", "≤": r"\ensuremath{\leq}",
+        "±": r"\ensuremath{\pm}", "∓": r"\ensuremath{\mp}", "√": r"\ensuremath{\surd}", "→": r"\ensuremath{\to}",
+        "°": r"\ensuremath{^\circ}", "²": r"\ensuremath{^2}", "¹": r"\ensuremath{^1}", "₀": r"\ensuremath{_0}",
+        "⁽": r"\ensuremath{^(}", "⁾": r"\ensuremath{^)}", "Δ": r"\ensuremath{\Delta}", "µ": r"\ensuremath{\mu}",
+        "–": "--", "§": r"\S{}", "\ufffd": r"\fbox{?}",
+    }
+    | {letter: rf"\ensuremath{{{command}}}" for letter, command in LATEX_GREEK.items() if len(letter) == 1}
+)  # fmt: skip
 
 
 def _tex(text: str) -> str:
-    """Plain text for LaTeX."""
+    """Plain text for LaTeX, whatever the engine."""
     return text.translate(_TEX)

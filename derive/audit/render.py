@@ -318,9 +318,9 @@ class MathML(Format):
 
 class LaTeX(Format):
     def name(self, name: str) -> str:
-        base, index, prime = _split(name)
-        text = LATEX_GREEK.get(base, base if len(base) == 1 else rf"\mathrm{{{base}}}")
-        body = f"{text}_{{{index}}}" if index else text
+        base, index, prime = _parts(self.names[name]) if name in self.names else _split(name)
+        text = LATEX_GREEK.get(base, _letters(base) if len(base) == 1 else rf"\mathrm{{{_letters(base)}}}")
+        body = f"{text}_{{{_letters(index)}}}" if index else text
         return body + (r"^{\prime}" if prime else "")
 
     def number(self, text: str) -> str:
@@ -369,13 +369,23 @@ class LaTeX(Format):
         return f"{self.write(left)} = {self.write(right)}"
 
 
+def _letters(text: str) -> str:
+    """Each letter in LaTeX's own words."""
+    return "".join(
+        f"{LATEX_GREEK[letter]} " if letter in LATEX_GREEK else LATEX_SIGNS.get(letter, letter) for letter in text
+    ).strip()
+
+
 LATEX_GREEK = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ":
     r"\lambda", "μ": r"\mu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ":
     r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "Δγh":
     r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
 }  # fmt: skip
-LATEX_SIGNS = {"−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ", "′": "'"}
+LATEX_SIGNS = {
+    "±": r"\pm ", "∓": r"\mp ", "−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ",
+    "′": "'", "⁽": "^{(", "¹": "1", "²": "2", "⁾": ")}",
+}  # fmt: skip
 
 
 def difference(tree: Tree, other: Tree) -> Tree:
