@@ -4617,8 +4617,8 @@ static inline void cylindrical_worm_za_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4752,8 +4752,8 @@ static inline void cylindrical_worm_za_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zc_second_type(const double *s, const double *q, double *o)
 {
     (void)s;

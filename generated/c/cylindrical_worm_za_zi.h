@@ -3354,8 +3354,8 @@ static inline void cylindrical_worm_za_zi_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/tangent, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/tangent, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zi_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -2978,8 +2978,8 @@ static inline void cylindrical_worm_za_zk_flank_pinion(const double *s, const do
  *    18 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zk_flank_wheel(const double *s, const double *q, double *o)
@@ -3381,8 +3381,8 @@ static inline void cylindrical_worm_za_zk_profile_worm(const double *s, const do
  *     7 axial, mm, frame hob
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_za_zk_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3532,8 +3532,8 @@ static inline void cylindrical_worm_za_zk_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_za_zk_generation(const double *s, const double *q, double *o)
@@ -3816,8 +3816,8 @@ static inline void cylindrical_worm_za_zk_generation(const double *s, const doub
  *     0 psi_fixed_hob, rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_za_zk_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3886,8 +3886,8 @@ static inline void cylindrical_worm_za_zk_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_za_zk_worm_point(const double *s, const double *q, double *o)
 {
@@ -3984,8 +3984,8 @@ static inline void cylindrical_worm_za_zk_worm_point(const double *s, const doub
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_za_zk_second_type(const double *s, const double *q, double *o)
 {

@@ -996,8 +996,8 @@ static inline void cylindrical_worm_za_zn_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_za_zn_NX] at x[cylindrical_worm_za_zn_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_za_zn_NX*cylindrical_worm_za_zn_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_za_zn_eval(const double *s, const double *x, double *R, double *J)
 {
@@ -1367,8 +1367,8 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_za_zn_step(const double *s, double *x)
@@ -1968,8 +1968,8 @@ static inline void cylindrical_worm_za_zn_scale(const double *s, double *x)
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zn_observe(const double *s, const double *x, double *o)
@@ -2593,8 +2593,8 @@ static inline void cylindrical_worm_za_zn_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zn_flank_wheel(const double *s, const double *q, double *o)
@@ -2989,8 +2989,8 @@ static inline void cylindrical_worm_za_zn_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_za_zn_generation(const double *s, const double *q, double *o)
@@ -3231,8 +3231,8 @@ static inline void cylindrical_worm_za_zn_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-
- *   form, derivation/both-turns, derivation/root, derivation/arc. */
+ *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zn_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -402,8 +402,8 @@ static inline void cylindrical_worm_zc_za_size(const double *p, double *d)
 }
 
 /* Design stage: p[cylindrical_worm_zc_za_NP] complete; s[cylindrical_worm_zc_za_NS]. Returns 0, or 1 + the index of the guard that does not hold. */
-/* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/step-size, derivation/explicit-
- *   angle, derivation/relative, derivation/root. */
+/* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/step-size,
+ *   derivation/explicit-angle, derivation/relative, derivation/root. */
 static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
 {
     int failed = 0;
@@ -4388,8 +4388,8 @@ static inline void cylindrical_worm_zc_za_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zc_za_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

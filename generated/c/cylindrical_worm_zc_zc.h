@@ -399,8 +399,8 @@ static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
 }
 
 /* Design stage: p[cylindrical_worm_zc_zc_NP] complete; s[cylindrical_worm_zc_zc_NS]. Returns 0, or 1 + the index of the guard that does not hold. */
-/* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/step-size, derivation/explicit-
- *   angle, derivation/relative, derivation/root. */
+/* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/step-size,
+ *   derivation/explicit-angle, derivation/relative, derivation/root. */
 static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
 {
     int failed = 0;
@@ -6061,8 +6061,8 @@ static inline void cylindrical_worm_zc_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -6196,8 +6196,8 @@ static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zc_zc_second_type(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -997,10 +997,11 @@ static inline void cylindrical_worm_zk_za_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zk_za_NX] at x[cylindrical_worm_zk_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_za_NX*cylindrical_worm_zk_za_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles. */
 static inline void cylindrical_worm_zk_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1520,11 +1521,11 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zk_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -2390,11 +2391,11 @@ static inline void cylindrical_worm_zk_za_scale(const double *s, double *x)
  *    54 margin_wheel_spurious_sheet
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -3022,8 +3023,8 @@ static inline void cylindrical_worm_zk_za_observe(const double *s, const double 
  *    15 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_za_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3444,8 +3445,8 @@ static inline void cylindrical_worm_zk_za_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zk_za_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3824,8 +3825,8 @@ static inline void cylindrical_worm_zk_za_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zk_za_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

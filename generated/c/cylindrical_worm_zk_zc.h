@@ -1160,8 +1160,8 @@ static inline void cylindrical_worm_zk_zc_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zk_zc_NX] at x[cylindrical_worm_zk_zc_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_zc_NX*cylindrical_worm_zk_zc_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
  *   helicoids/zc-limit, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles. */
@@ -1886,8 +1886,8 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
  *   helicoids/zc-limit, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles, derivation/elimination, derivation/step-size. */
@@ -3234,8 +3234,8 @@ static inline void cylindrical_worm_zk_zc_scale(const double *s, double *x)
  *    55 margin_wheel_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/pole, derivation/explicit-angle, helicoids/zc-normal,
  *   helicoids/zc-limit, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
@@ -4083,8 +4083,8 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
  *    15 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_zc_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4722,8 +4722,8 @@ static inline void cylindrical_worm_zk_zc_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zk_zc_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5522,8 +5522,8 @@ static inline void cylindrical_worm_zk_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zk_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5657,8 +5657,8 @@ static inline void cylindrical_worm_zk_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zk_zc_second_type(const double *s, const double *q, double *o)
 {
     (void)s;

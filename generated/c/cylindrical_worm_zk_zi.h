@@ -1074,11 +1074,11 @@ static inline void cylindrical_worm_zk_zi_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zk_zi_NX] at x[cylindrical_worm_zk_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_zi_NX*cylindrical_worm_zk_zi_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/tangent. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles, derivation/tangent. */
 static inline void cylindrical_worm_zk_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1657,11 +1657,11 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size, derivation/tangent. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_zk_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2638,11 +2638,11 @@ static inline void cylindrical_worm_zk_zi_scale(const double *s, double *x)
  *    55 margin_wheel_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal, derivation/merge-
- *   sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zi-normal,
+ *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_zk_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -3330,8 +3330,8 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
  *    15 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_zi_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3814,8 +3814,8 @@ static inline void cylindrical_worm_zk_zi_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zk_zi_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4269,8 +4269,8 @@ static inline void cylindrical_worm_zk_zi_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/tangent, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/tangent, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zk_zi_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

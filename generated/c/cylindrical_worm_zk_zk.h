@@ -1037,8 +1037,8 @@ static inline void cylindrical_worm_zk_zk_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zk_zk_NX] at x[cylindrical_worm_zk_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zk_zk_NX*cylindrical_worm_zk_zk_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x, double *R, double *J)
@@ -1682,8 +1682,8 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
@@ -2840,8 +2840,8 @@ static inline void cylindrical_worm_zk_zk_scale(const double *s, double *x)
  *    55 margin_wheel_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/contact, derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_zk_observe(const double *s, const double *x, double *o)
@@ -3608,8 +3608,8 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
  *    15 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_zk_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3805,8 +3805,8 @@ static inline void cylindrical_worm_zk_zk_flank_pinion(const double *s, const do
  *    18 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_zk_flank_wheel(const double *s, const double *q, double *o)
@@ -4165,8 +4165,8 @@ static inline void cylindrical_worm_zk_zk_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zk_zk_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4286,8 +4286,8 @@ static inline void cylindrical_worm_zk_zk_profile_worm(const double *s, const do
  *     7 axial, mm, frame hob
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zk_zk_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4435,8 +4435,8 @@ static inline void cylindrical_worm_zk_zk_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zk_zk_generation(const double *s, const double *q, double *o)
@@ -4719,8 +4719,8 @@ static inline void cylindrical_worm_zk_zk_generation(const double *s, const doub
  *     0 psi_fixed_hob, rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zk_zk_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4789,8 +4789,8 @@ static inline void cylindrical_worm_zk_zk_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_zk_zk_worm_point(const double *s, const double *q, double *o)
 {
@@ -4887,8 +4887,8 @@ static inline void cylindrical_worm_zk_zk_worm_point(const double *s, const doub
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_zk_zk_second_type(const double *s, const double *q, double *o)
 {

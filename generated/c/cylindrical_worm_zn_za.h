@@ -966,8 +966,8 @@ static inline void cylindrical_worm_zn_za_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zn_za_NX] at x[cylindrical_worm_zn_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_za_NX*cylindrical_worm_zn_za_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zn_za_eval(const double *s, const double *x, double *R, double *J)
 {
@@ -1306,8 +1306,8 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zn_za_step(const double *s, double *x)
@@ -1857,8 +1857,8 @@ static inline void cylindrical_worm_zn_za_scale(const double *s, double *x)
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_za_observe(const double *s, const double *x, double *o)
@@ -3037,8 +3037,8 @@ static inline void cylindrical_worm_zn_za_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_za_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -1035,8 +1035,8 @@ static inline void cylindrical_worm_zn_zi_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zn_zi_NX] at x[cylindrical_worm_zn_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zi_NX*cylindrical_worm_zn_zi_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/tangent. */
 static inline void cylindrical_worm_zn_zi_eval(const double *s, const double *x, double *R, double *J)
@@ -1435,8 +1435,8 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_zn_zi_step(const double *s, double *x)
@@ -2097,8 +2097,8 @@ static inline void cylindrical_worm_zn_zi_scale(const double *s, double *x)
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
  *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_zn_zi_observe(const double *s, const double *x, double *o)
@@ -3474,8 +3474,8 @@ static inline void cylindrical_worm_zn_zi_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
- *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form, derivation/both-
- *   turns, derivation/tangent, derivation/root, derivation/arc. */
+ *   conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-form,
+ *   derivation/both-turns, derivation/tangent, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zi_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -1015,8 +1015,8 @@ static inline void cylindrical_worm_zn_zk_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zn_zk_NX] at x[cylindrical_worm_zn_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zk_NX*cylindrical_worm_zn_zk_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
  *   derivation/angles. */
 static inline void cylindrical_worm_zn_zk_eval(const double *s, const double *x, double *R, double *J)
@@ -1476,8 +1476,8 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
  *   derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zn_zk_step(const double *s, double *x)
@@ -2317,8 +2317,8 @@ static inline void cylindrical_worm_zn_zk_scale(const double *s, double *x)
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
  *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zk_observe(const double *s, const double *x, double *o)
@@ -3090,8 +3090,8 @@ static inline void cylindrical_worm_zn_zk_flank_pinion(const double *s, const do
  *    18 margin_regression
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zk_flank_wheel(const double *s, const double *q, double *o)
@@ -3508,8 +3508,8 @@ static inline void cylindrical_worm_zn_zk_profile_worm(const double *s, const do
  *     7 axial, mm, frame hob
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zk_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3659,8 +3659,8 @@ static inline void cylindrical_worm_zn_zk_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
  *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zn_zk_generation(const double *s, const double *q, double *o)
@@ -3943,8 +3943,8 @@ static inline void cylindrical_worm_zn_zk_generation(const double *s, const doub
  *     0 psi_fixed_hob, rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zn_zk_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4013,8 +4013,8 @@ static inline void cylindrical_worm_zn_zk_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/rack-form, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_zn_zk_worm_point(const double *s, const double *q, double *o)
 {
@@ -4111,8 +4111,8 @@ static inline void cylindrical_worm_zn_zk_worm_point(const double *s, const doub
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
- *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal, zk-
- *   zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, rack-and-pinion/eq-5, derivation/both-turns, derivation/root,
  *   derivation/arc. */
 static inline void cylindrical_worm_zn_zk_second_type(const double *s, const double *q, double *o)
 {

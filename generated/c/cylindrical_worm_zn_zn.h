@@ -2696,8 +2696,8 @@ static inline void cylindrical_worm_zn_zn_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zn_flank_wheel(const double *s, const double *q, double *o)
@@ -3107,8 +3107,8 @@ static inline void cylindrical_worm_zn_zn_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-
- *   axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zn_zn_generation(const double *s, const double *q, double *o)
@@ -3349,8 +3349,8 @@ static inline void cylindrical_worm_zn_zn_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/rack-
- *   form, derivation/both-turns, derivation/root, derivation/arc. */
+ *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -3720,8 +3720,8 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/placement,
- *   face_worm/cone-normal, cylindrical_worm/contact, derivation/angles, derivation/elimination, derivation/step-
- *   size. */
+ *   face_worm/cone-normal, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double face_worm_step(const double *s, double *x)
 {
     double s0, c0;
