@@ -9,7 +9,7 @@ OBJECTS := $(VENV)/objects
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate audit bench build check examples run lint test solver test-fe
+.PHONY: setup generate audit bench build check examples run lint test solver cmake test-fe
 
 setup: $(READY)
 
@@ -24,6 +24,10 @@ solver:
 	@command -v ccx >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
 		&& apt-get update -qq && apt-get install -y -qq calculix-ccx; } >/dev/null 2>&1 \
 		|| echo "ccx not found and not installable here: the finite-element tests are not run"
+
+# CMake, from its Python package where the system has none.
+cmake: setup
+	@command -v cmake >/dev/null || test -x $(VENV)/bin/cmake || $(PY) -m pip install --quiet cmake
 
 # Regenerate generated/ from the drives.
 generate: setup
@@ -65,7 +69,7 @@ run: setup
 lint: setup
 	$(PY) -m ruff check derive runtime tests
 
-test: build check solver
+test: build check solver cmake
 	$(PY) -m pytest -m 'not slow'
 
 # The longer finite-element validation.
@@ -76,6 +80,6 @@ test-fe: build solver
 bench: build
 	$(PY) -m tests.benchmarks.bench
 
-# Build and run the examples: C, C++, ctypes, WebAssembly, Cortex-M7, ARM64.
-examples: build
-	$(PY) -m pytest tests/embedding -m ''
+# Build and run the examples: C, C++, ctypes, CMake, pkg-config, wheel, CasADi, WebAssembly, Cortex-M7, ARM64.
+examples: build cmake
+	$(PY) -m pytest tests/embedding

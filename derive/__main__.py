@@ -14,7 +14,7 @@ from pathlib import Path
 
 from derive import compiler, drives
 from derive.audit import check
-from derive.emit import external, lanes, sensitivity
+from derive.emit import tables
 from derive.files import replace_text
 
 
@@ -66,12 +66,7 @@ def _everything(known):
     with log("prove", "audit record"):
         ledger = record.ledger()
     files = _of_drives(known, known, ledger.objects)
-    files["c/models.h"] = compiler.table_of_models(known)
-    files["c/lane_models.h"] = lanes.table_of_models(known)
-    described = {name: json.loads(files[f"c/{name}.json"]) for name in known}
-    systems = {name: [system["name"] for system in d["systems"]] for name, d in described.items()}
-    files["c/sensitivity_models.h"] = sensitivity.table_of_models(systems)
-    files["c/casadi_models.h"] = external.table((name, d["shapes"]) for name, d in described.items())
+    files |= tables.tables({name: json.loads(files[f"c/{name}.json"]) for name in known})
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     files["manifest.json"] = compiler.manifest(files)

@@ -53,14 +53,3 @@ def manifest(files):
     """The list of all generated files with their hashes."""
     hashes = {path: hashlib.sha256(text.encode()).hexdigest() for path, text in sorted(files.items())}
     return json.dumps({"schema": "meshwright.manifest/1", "files": hashes}, indent=1) + "\n"
-
-
-def table_of_models(names):
-    """C source that lists the model of every drive, for the shared library."""
-    includes = "".join(f'#include "{name}.h"\n' for name in names)
-    rows = "".join(f"    &{name}_model,\n" for name in names)
-    return (
-        "/* Every generated drive, for runtime/c. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
-        f"{includes}\n"
-        f"static const mw_model *const mw_models[] = {{\n{rows}    NULL\n}};\n"
-    )

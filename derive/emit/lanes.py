@@ -37,14 +37,3 @@ def header(plan: Schedule, generator: str):
         set_phi=body(leaves.instant, slots[plan.design_slots :]),
         step=body(leaves.iterate, [*plan.step, *plan.step_size]),
     )
-
-
-def table_of_models(names):
-    """C source that lists the lane kernels of every drive, for one width: see ``runtime/c/lane_kernels.h``."""
-    includes = "".join(f'#include "{name}_lanes.h"\n' for name in names)
-    rows = "".join(f"    MW_LANE_MODEL({name}),\n" for name in names)
-    return (
-        "/* The lane kernels of every drive. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
-        f"{includes}\n"
-        f"static const mw_lane_model mw_lane_models[] = {{\n{rows}}};\n"
-    )

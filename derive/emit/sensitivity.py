@@ -131,27 +131,3 @@ def _tangents_of_system(plan, drive):
     leaves[lower(PATH)] = f"q[{len(symbols)}]"
     tangent = _Tangents(tape, by_q | by_y)
     return leaves, [tangent(i) for i in plan.residual], [tangent(i) for i in plan.values]
-
-
-def table_of_models(systems):
-    """C source that lists the sensitivity functions of every drive, for the shared library.
-
-    ``systems``: names of the design systems of each drive by the drive's name.
-    """
-    includes = "".join(f'#include "{name}_sensitivity.h"\n' for name in systems)
-    tables = "".join(_table_of_systems(name, own) for name, own in systems.items() if own)
-    rows = "".join(
-        f'    {{ "{name}", {name}_derive_tangent, {f"{name}_system_tangents" if own else "NULL"}, {name}_tangent }},\n'
-        for name, own in systems.items()
-    )
-    return (
-        "/* The sensitivity functions of every drive. Generated; do not edit.  SPDX-License-Identifier: MIT-0 */\n"
-        f"{includes}\n"
-        f"{tables}"
-        f"static const mw_tangents mw_tangent_models[] = {{\n{rows}}};\n"
-    )
-
-
-def _table_of_systems(name, systems):
-    rows = "".join(f"    {{ {name}_{system}_tangent, {name}_{system}_fill_tangent }},\n" for system in systems)
-    return f"static const mw_system_tangents {name}_system_tangents[] = {{\n{rows}}};\n"

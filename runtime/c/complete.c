@@ -8,7 +8,7 @@ enum { PATH_STEPS = 32, MAX_HALVINGS = 8 };
 int mw_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
 {
     double scale[MW_MAX_UNKNOWNS], last[MW_MAX_UNKNOWNS], slope[MW_MAX_UNKNOWNS] = { 0.0 };
-    double *path = q + m->np, at = 0.0, step = 1.0 / PATH_STEPS;
+    double *path = q + m->np, at = 0.0, step = 1.0 / (double)PATH_STEPS;
     *path = 0.0;
     system->guess(q, y);
     system->scale(q, scale);

@@ -29,6 +29,11 @@ def compilers():
     return found
 
 
+def tool(name):
+    """A program of the system or of this Python's environment; None if there is none."""
+    return shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
+
+
 def run(*command, **options):
     """Run a command; its output is the error's text if it fails."""
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, **options)
@@ -64,10 +69,9 @@ def _relocated(output):
     return {line.split()[-1] for line in lines if ".data.rel.ro" in line}
 
 
-def freestanding(target, drive, output):
-    """The example solver for a target without a C library."""
+def freestanding(target, drive, output, source=FREESTANDING / "solve.c", *options):
+    """The example solver, or another source of ``solve``, for a target without a C library."""
     defines = (f"-DDRIVE={drive}", f'-DHEADER="{drive}.h"')
-    source = FREESTANDING / "solve.c"
     includes = (f"-I{GENERATED}", f"-I{FREESTANDING}")
-    run(*CLANG, "cc", *TARGETS[target], "-nostdlib", "-O2", *EXACT, *defines, *includes, source, "-o", output)
+    run(*CLANG, "cc", *TARGETS[target], "-nostdlib", "-O2", *EXACT, *defines, *includes, *options, source, "-o", output)
     return output

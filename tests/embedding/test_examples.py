@@ -1,5 +1,6 @@
 """The examples do what they say, by themselves and against the library."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -43,31 +44,78 @@ def test_the_library_from_cpp(tmp_path):
     assert "11 of 11 points solved" in c.run(program)
 
 
-@pytest.mark.slow
-def test_an_installed_library_is_found_by_cmake_and_pkg_config(tmp_path):
-    if not shutil.which("cmake"):
-        pytest.skip("cmake is not installed")
-    prefix = tmp_path / "prefix"
-    c.run("cmake", "-S", c.RUNTIME, "-B", tmp_path / "library", f"-DCMAKE_INSTALL_PREFIX={prefix}")
-    c.run("cmake", "--build", tmp_path / "library", "-j2")
-    c.run("cmake", "--install", tmp_path / "library")
-    c.run("cmake", "-S", EXAMPLES, "-B", tmp_path / "example", f"-DCMAKE_PREFIX_PATH={prefix}")
-    c.run("cmake", "--build", tmp_path / "example")
-    assert "11 of 11 points solved" in c.run(tmp_path / "example" / "trace")
-    if shutil.which("pkg-config"):
-        folder = next(prefix.rglob("meshwright.pc")).parent
-        flags = c.run("pkg-config", "--cflags", "--libs", "meshwright", env={"PKG_CONFIG_PATH": str(folder)}).split()
-        c.run("g++", EXAMPLES / "trace.cpp", "-o", tmp_path / "trace", *flags)
-        assert "11 of 11 points solved" in c.run(tmp_path / "trace")
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """Prefix of a library with one drive, configured, built and installed by CMake."""
+    folder = tmp_path_factory.mktemp("installed")
+    options = (f"-DCMAKE_INSTALL_PREFIX={folder / 'prefix'}", "-DMESHWRIGHT_DRIVES=cylindrical_worm_zn_zn")
+    c.run(c.tool("cmake"), "-S", c.RUNTIME, "-B", folder / "library", *options)
+    c.run(c.tool("cmake"), "--build", folder / "library", "-j2")
+    c.run(c.tool("cmake"), "--install", folder / "library")
+    return folder / "prefix"
 
 
-@pytest.mark.slow
+def test_an_installed_library_is_found_by_cmake(tmp_path, installed):
+    c.run(c.tool("cmake"), "-S", EXAMPLES, "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={installed}")
+    c.run(c.tool("cmake"), "--build", tmp_path)
+    assert "11 of 11 points solved" in c.run(tmp_path / "trace")
+
+
+def test_an_installed_library_is_found_by_pkg_config(tmp_path, installed):
+    if not c.tool("pkg-config"):
+        pytest.skip("pkg-config is not installed")
+    folder = next(installed.rglob("meshwright.pc")).parent
+    found = c.run(c.tool("pkg-config"), "--cflags", "--libs", "meshwright", env={"PKG_CONFIG_PATH": str(folder)})
+    command = sorted(c.compilers().items())[-1][1][1]
+    c.run(*command, "-std=c++11", EXAMPLES / "trace.cpp", "-o", tmp_path / "trace", *found.split())
+    assert "11 of 11 points solved" in c.run(tmp_path / "trace")
+
+
+def test_a_library_with_chosen_drives_holds_no_other(tmp_path, installed):
+    source = tmp_path / "count.c"
+    main = 'int main(void) { return mw_model_count() * 10 + !mw_find("face_worm"); }'
+    source.write_text(f'#include "meshwright.h"\n{main}\n')
+    command = sorted(c.compilers().items())[-1][1][0]
+    archive = next(installed.rglob("libmeshwright.a"))
+    c.run(*command, f"-I{installed / 'include' / 'meshwright'}", source, archive, "-lm", "-o", tmp_path / "count")
+    assert subprocess.run([tmp_path / "count"]).returncode == 11
+
+
+def test_a_drive_that_does_not_exist_is_named_by_cmake(tmp_path):
+    command = [c.tool("cmake"), "-S", c.RUNTIME, "-B", tmp_path, "-DMESHWRIGHT_DRIVES=face_worms"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "there is no drive face_worms" in done.stderr
+
+
 def test_the_wheel_holds_library_metadata_and_headers(tmp_path):
+    """Built and unpacked, it runs by itself, outside the checkout."""
     c.run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", tmp_path, c.ROOT)
-    c.run(sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv")
-    python = tmp_path / "venv" / "bin" / "python"
     (wheel,) = tmp_path.glob("*.whl")
-    c.run(python, "-m", "pip", "install", "--quiet", "numpy", "cffi", "pydantic", "rich", wheel)
-    command = [str(python), "-m", "meshwright.cli", "tca", "recess-action-full", "--phi-deg", "400"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "-py3-none-" in wheel.name
+    c.run(sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", tmp_path / "site", wheel)
+    code = "import sys, meshwright.cli as m; print(m.__file__); sys.exit(m.main(sys.argv[1:]))"
+    command = [sys.executable, "-c", code, "tca", "recess-action-full", "--phi-deg", "400"]
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(str(tmp_path / "site"))
     assert "converged" in done.stdout
+
+
+def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
+    """By the package, exit status 2, and by a program that loads the library itself."""
+    shutil.copytree(SHIPPED / "include", tmp_path / "include")
+    source, library = tmp_path / "old.c", tmp_path / "libmeshwright.so"
+    source.write_text("int mw_abi(void);\nint mw_abi(void) { return 7; }\n")
+    c.run(*sorted(c.compilers().items())[-1][1][0], "-shared", "-fPIC", source, "-o", library)
+    code = (
+        "import pathlib, sys; from meshwright import _library; from meshwright.cli import main\n"
+        "_library.SHIPPED = pathlib.Path(sys.argv[1]); sys.exit(main(sys.argv[2:]))"
+    )
+    arguments = ["tca", "recess-action-full", "--phi-deg", "0"]
+    done = subprocess.run([sys.executable, "-c", code, tmp_path, *arguments], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert f"{library} has ABI 7, this package needs ABI 1: run `make build` again" in done.stderr
+    done = subprocess.run([sys.executable, EXAMPLES / "library.py", library], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "has ABI 7, this program needs ABI 1" in done.stderr

@@ -1,0 +1,84 @@
+"""One library for every processor of a kind: wide instructions only where the processor has been asked, ARM64 too."""
+
+import platform
+import re
+import shutil
+
+import numpy as np
+import pytest
+
+from tests.embedding import compile as c
+from tests.embedding.machines import arm64
+from tests.embedding.test_headers import FAMILIES, problem_of
+
+OBJECTS = c.ROOT / ".venv" / "objects"
+
+#: Units whose code is called only after ``__builtin_cpu_supports``.
+WIDE = {"lanes_avx2.o": "ymm", "lanes_avx512.o": "zmm"}
+
+_VECTOR = re.compile(r"\t(v[a-z0-9]+)\s.*%[xyz]mm")
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64" or not shutil.which("objdump"), reason="x86-64 with binutils")
+def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has():
+    objects = sorted(OBJECTS.glob("*.o"))
+    assert {path.name for path in objects} >= {*WIDE, "lanes_native.o", "library.o", "sensitivity.o"}
+    for path in objects:
+        code = c.run("objdump", "-d", "--no-show-raw-insn", path)
+        if path.name in WIDE:
+            assert f"%{WIDE[path.name]}" in code
+        else:
+            assert not _VECTOR.search(code), path.name
+
+
+def test_the_library_builds_for_arm64(tmp_path):
+    """All of it, with one drive: the wide units are empty there."""
+    library = tmp_path / "libmeshwright.so"
+    target = ("-target", "aarch64-linux-gnu", "-std=c99", "-O1", "-shared", "-fPIC")
+    options = (*c.STRICT, *c.EXACT, "-DMW_DRIVES", "-DMW_DRIVE_face_worm", f"-I{c.GENERATED}", f"-I{c.RUNTIME}")
+    c.run(*c.CLANG, "cc", *target, *options, *sorted(c.RUNTIME.glob("*.c")), "-o", library, "-lm")
+    content = library.read_bytes()
+    assert content[:4] == b"\x7fELF"
+    assert int.from_bytes(content[18:20], "little") == 183  # EM_AARCH64
+    assert b"mw_trace_designs" in content
+    assert b"mw_lanes_avx2" not in content
+
+
+LANES = r"""
+#define MW_LANES_SIMD
+#define MW_LANES 2
+#include "DRIVE_lanes.h"
+/* Both lanes from the same start: Newton as in the scalar example, by the vector unit. */
+int solve(const double *p, double phi, double *s, double *x)
+{
+    double q[2 * DRIVE_NP], y[2 * DRIVE_NX], size[2] = { 1.0, 1.0 };
+    const double angle[2] = { phi, phi };
+    int steps = 0;
+    for (int k = 0; k < DRIVE_NP; k++) q[2 * k] = q[2 * k + 1] = p[k];
+    for (int k = 0; k < DRIVE_NX; k++) y[2 * k] = y[2 * k + 1] = x[k];
+    MW_LANE_NAME(DRIVE_setup_lanes)(q, s, size);
+    MW_LANE_NAME(DRIVE_set_phi_lanes)(s, angle);
+    do {
+        MW_LANE_NAME(DRIVE_step_lanes)(s, y, size);
+        if (size[0] != size[1]) return -2;
+    } while (++steps < 30 && !(size[0] < 1e-13));
+    for (int k = 0; k < DRIVE_NX; k++) {
+        if (y[2 * k] != y[2 * k + 1]) return -3;
+        x[k] = y[2 * k];
+    }
+    return steps;
+}
+"""
+
+
+@pytest.mark.parametrize("drive", FAMILIES)
+def test_lanes_on_an_arm64_processor_give_the_bits_of_its_scalar_kernel(tmp_path, drive):
+    pytest.importorskip("unicorn")
+    problem, _ = problem_of(drive)
+    source = tmp_path / "lanes.c"
+    source.write_text(LANES.replace("DRIVE", drive))
+    wide = type(problem)(problem.p, problem.phi, problem.x, 2 * problem.state)
+    steps, x = arm64(c.freestanding("arm64", drive, tmp_path / "lanes", source, "-fopenmp-simd"), wide)
+    scalar_steps, scalar = arm64(c.freestanding("arm64", drive, tmp_path / "scalar"), problem)
+    assert steps == scalar_steps
+    assert np.array_equal(x, scalar)
