@@ -222,7 +222,9 @@ def helicoids(worm_profile, hob_profile, definitions):
 
 
 #: Statements of the audit record about the wheel of any hob.
-HOBBED = tuple(f"cylindrical_worm/{key}" for key in ("meshing", "normal", "sum-angle", "explicit", "linear"))
+HOBBED = tuple(
+    f"cylindrical_worm/{key}" for key in ("meshing", "normal", "sum-angle", "explicit", "linear", "both-systems")
+)
 
 
 def cylindrical_worm(worm_profile, hob_profile):

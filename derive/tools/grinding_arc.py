@@ -22,5 +22,5 @@ def grinding_arc(body, definitions):
     # along which the arc's centre recedes, hence the sign.
     flank = ground_flank(wheel, body, lambda surface: explicit_angle(surface, xi, sign=-1))
     radicand = ("the arc's centre lies inside the groove", rho - body.groove_width / 2 * sp.cos(alpha))
-    flank = flank.on("helicoids/zc-normal", "helicoids/zc-limit")
+    flank = flank.on("helicoids/zc-normal", "helicoids/zc-meshing", "helicoids/zc-limit")
     return ground_tool(body, flank, required=("profile_arc_radius",), radicands=(radicand,))

@@ -29,7 +29,7 @@ def straight_blade(body, definitions):
     flank = helicoid(definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s)
     pitch_point = body.groove_width / (2 * sp.sin(alpha))
     return WormTool(
-        flank.on("helicoids/zn-width", "helicoids/zn-straight"),
+        flank.on("helicoids/zn-width", "helicoids/zn-straight", "helicoids/zn-normal"),
         pitch_point=pitch_point,
         tip_margin=pitch_point + body.tip_addendum / sp.cos(alpha) - t,
         scale=body.module,

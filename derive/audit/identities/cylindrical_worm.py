@@ -49,6 +49,20 @@ n_wheel = Rz(phi2)@(Rx(Sigma)@n)
 f = dot(n, cross(k, r) + m*cross(k2, r - A*i))
 D = -m*k2 - k + tau*k
 W = cross(-m*k2, -A*i) + tau*p*k
+section = cross(d(P, t), vec(-Py, Px, p))
+height = ((p*n.z/m - n.y*cos(Sigma)*(r.x - A) + n.z*sin(Sigma)*(r.x - A))/n.x + cos(Sigma)*r.y)/sin(Sigma)
+""",
+    jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
+)
+
+WORM = scope(
+    "cylindrical_worm.columns",
+    """
+k = vec(0, 0, 1)
+P = vec(Px, Py, Pz)
+flank = Rz(psi)@P + vec(0, 0, p*psi)
+placed = Rz(phi1)@flank
+n = Rz(phi1)@cross(d(flank, t), d(flank, psi))
 """,
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
 )
@@ -132,6 +146,47 @@ CLAIMS = (
         "cross(n2, cross(t1, t2)) = t1*dot(n2, t2) - t2*dot(n2, t1)",
         ANY,
         conditions=["t1 × t2 ≠ 0"],
+    ),
+    identity(
+        "both-systems",
+        "the papers' system and ours",
+        "The papers solve six equations with meshing f = 0 among them; we put the height of the hob point into the "
+        "other five. f is its slope times (height - explicit height), and the wheel's point and normal in (t, ψ, φ) "
+        "are ours in (t, Ψ = ψ + φ, height): each system has the other's solutions, for every profile.",
+        [
+            "f = m*n.x*sin(Sigma)*(r.z - height)",
+            "wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@P + vec(0, 0, p*psi) - A*i))",
+            "n_wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@section))",
+        ],
+        HOBBING,
+        conditions=["n_x ≠ 0", "sin Σ ≠ 0", "m ≠ 0"],
+    ),
+    identity(
+        "both-normals",
+        "the papers' system and ours",
+        "The papers' common normal, n2 a multiple of t1 × t2, gives our two equations; and of three equations between "
+        "components of unit normals the first two give the third but for its sign.",
+        [
+            "dot(share*cross(t1, t2), t1) = 0",
+            "dot(share*cross(t1, t2), t2) = 0",
+            "dot(t1, t1) - dot(n2, n2) = (a1 - c1)*(a1 + c1) + (a2 - c2)*(a2 + c2) + (a3 - c3)*(a3 + c3)",
+        ],
+        ANY,
+        conditions=["share ≠ 0; which side of the surfaces is told by the flank, not by the equations"],
+    ),
+    identity(
+        "columns",
+        "Jacobian",
+        "Columns of the Jacobian of a helicoid in mesh, for every profile: along the profile, along the screw, and "
+        "with the worm's own turn, of its point and of its normal.",
+        [
+            "d(placed, t) = Rz(phi1 + psi)@d(P, t)",
+            "d(placed, psi) = cross(k, placed) + p*k",
+            "d(placed, phi1) = cross(k, placed)",
+            "d(n, psi) = cross(k, n)",
+            "d(n, phi1) = cross(k, n)",
+        ],
+        WORM,
     ),
     identity(
         "undercut",

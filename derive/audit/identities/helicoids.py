@@ -48,6 +48,7 @@ rt = sqrt(r**2 - (S*sin(lam)/2)**2) - S/(2*tan(alpha))
 P = vec(rt + t*cos(alpha), -s*t*sin(alpha)*sin(lam), s*t*sin(alpha)*cos(lam))
 pitch = S/(2*sin(alpha))
 in_section = Rx(-lam)@P
+n = cross(d(P, t), vec(-P.y, P.x, p))
 """,
     signs=["s"],
 )
@@ -174,6 +175,22 @@ CLAIMS = (
         "The arc's unit normal is perpendicular to the grinding wheel in both directions.",
         ["dot(n, d(P, theta)) = 0", "dot(n, d(P, xi)) = 0", "dot(n, n) = 1"],
         ARC,
+    ),
+    identity(
+        "zc-meshing",
+        "ZC",
+        "At fixed θ the equation of meshing of the grinding wheel is a cos ξ + b sin ξ with no constant, so the "
+        "contact point is explicit: the two directions that solve it are opposite.",
+        "d(d(dot(n, cross(k, P) + r*tan(lam)*k), xi), xi) = -dot(n, cross(k, P) + r*tan(lam)*k)",
+        ARC,
+        conditions=["(a, b) ≠ (0, 0)"],
+    ),
+    identity(
+        "zn-normal",
+        "ZN",
+        "The straight edge's normal is perpendicular to the edge and to the screw motion.",
+        ["dot(n, d(P, t)) = 0", "dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0"],
+        STRAIGHT,
     ),
     identity(
         "zc-limit",
