@@ -12,6 +12,7 @@ Then, for every drive:
              normal meets the tangent along the motion, and there alone, and the recorded slopes are the derivatives of
              that equation
   assembly   the first three residuals are the vector between the two points in the fixed frame, turned or not
+  agreement  a flank has the point, the singular function and the limits that the observation of a contact has there
 
 A wrong program passes with a probability of about degree / 2^61. Needs check.py beside it and nothing else.
 """
@@ -146,6 +147,7 @@ class Header:
     parameters: int
     frames: tuple[tuple[str, ...], ...]
     sizes: dict[str, int]
+    unknowns: dict[str, tuple[int, ...]]
 
 
 def read_header(text: str) -> Header:
@@ -164,7 +166,11 @@ def read_header(text: str) -> Header:
         name: function.size_of("q" if name.startswith(("flank_", "fillet_")) else "x")
         for name, function in found.items()
     }
-    return Header(found, max(function.size_of("p") for function in found.values()), read_frames(text), sizes)
+    unknowns = {
+        body: tuple(map(int, places.split(",")))
+        for body, places in re.findall(rf"int {prefix}_(\w+)_unknowns\[\] = {{ ([\d, ]+) }}", text)
+    }
+    return Header(found, max(function.size_of("p") for function in found.values()), read_frames(text), sizes, unknowns)
 
 
 def read_frames(text: str) -> tuple[tuple[str, ...], ...]:
@@ -371,6 +377,22 @@ def check_assembly(header: Header, rng: Random) -> None:
     )
 
 
+def check_agreement(header: Header, body: str, rng: Random) -> None:
+    """Flank and observation at one input: what both give in the body's frame is the same."""
+    seen = machine(header, "observe", rng)
+    own = {f"q[{k}]": seen.inputs[f"x[{place}]"] for k, place in enumerate(header.unknowns[body])}
+    flank = Machine(seen.inputs | own, header.functions[f"flank_{body}"], seen.earlier, seen.circle)
+    for key, (at, size) in flank.function.outputs.items():
+        first, _, rest = key.partition("_")
+        if first in ("point", "regular", "margin"):
+            there, _ = seen.function.outputs[f"{first}_{body}" + (f"_{rest}" if rest else "")]
+            for k in range(size):
+                require(
+                    flank.value(f"o[{at + k}]").value == seen.value(f"o[{there + k}]").value,
+                    f"flank_{body}: {key} is not that of the observation",
+                )
+
+
 def check_flank(header: Header, name: str, rng: Random) -> None:
     run = machine(header, name, rng, arcs=True)
     outputs = run.function.outputs
@@ -428,9 +450,11 @@ def check_header(path: Path) -> int:
         attempt(check_assembly, header)
         for name in flanks:
             attempt(check_flank, header, name)
+        for body in header.unknowns:
+            attempt(check_agreement, header, body)
     except (Rejected, LookupError, ValueError) as error:
         raise Rejected(f"{path.name}: {error}") from error
-    return 2 + len(flanks)
+    return 2 + len(flanks) + len(header.unknowns)
 
 
 def verify(folder: Path) -> tuple[int, int]:
@@ -447,7 +471,7 @@ def main(arguments: list[str]) -> int:
     except Rejected as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
-    print(f"{checks} checks of {headers} generated headers hold: J = dR/dx, tangents, normals, assembly")
+    print(f"{checks} checks of {headers} generated headers hold: J = dR/dx, tangents, normals, assembly, agreement")
     return 0
 
 

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 306, set_phi 2, R 127, R and J 300, step 391, observe 426.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -915,7 +916,7 @@ static inline void cylindrical_worm_za_za_set_phi(double *s, double phi)
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance, derivation/envelope,
  *   derivation/merge-sum, derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
- *   cylindrical_worm/contact, derivation/angles. */
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_za_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1256,7 +1257,8 @@ if (J == NULL) return;
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance, derivation/envelope,
  *   derivation/merge-sum, derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
- *   cylindrical_worm/contact, derivation/angles, derivation/elimination, derivation/step-size. */
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_za_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -1793,7 +1795,8 @@ static inline void cylindrical_worm_za_za_scale(const double *s, double *x)
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance, derivation/envelope,
  *   derivation/merge-sum, derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing,
  *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
- *   cylindrical_worm/contact, derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2379,8 +2382,8 @@ static inline void cylindrical_worm_za_za_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2723,8 +2726,8 @@ static inline void cylindrical_worm_za_za_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_za_za_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 438, set_phi 2, R 209, R and J 502, step 592, observe 642.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -46,6 +47,7 @@
  *   helicoids/normal
  *   helicoids/za-normal
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
  *   rack-and-pinion/eq-5
  *   rack-and-pinion/rack-form
@@ -1086,9 +1088,9 @@ static inline void cylindrical_worm_za_zc_set_phi(double *s, double phi)
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing, helicoids/zc-normal,
- *   helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_za_zc_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1630,10 +1632,10 @@ if (J == NULL) return;
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing, helicoids/zc-normal,
- *   helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
- *   derivation/step-size. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_za_zc_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -2646,10 +2648,10 @@ static inline void cylindrical_worm_za_zc_scale(const double *s, double *x)
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing, helicoids/zc-normal,
- *   helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zc_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -3452,9 +3454,10 @@ static inline void cylindrical_worm_za_zc_flank_pinion(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zc_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3937,7 +3940,8 @@ static inline void cylindrical_worm_za_zc_profile_worm(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_za_zc_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4155,10 +4159,10 @@ static inline void cylindrical_worm_za_zc_profile_range_hob(const double *s, con
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, rack-and-pinion/rack-form, derivation/root,
- *   derivation/quotient. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_za_zc_generation(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4525,8 +4529,8 @@ static inline void cylindrical_worm_za_zc_generation(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arccosine,
- *   derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_za_zc_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4617,8 +4621,8 @@ static inline void cylindrical_worm_za_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
- *   derivation/both-turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4752,7 +4756,7 @@ static inline void cylindrical_worm_za_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
  *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_za_zc_second_type(const double *s, const double *q, double *o)
 {

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 362, set_phi 2, R 145, R and J 359, step 450, observe 485.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -993,7 +994,8 @@ static inline void cylindrical_worm_za_zi_set_phi(double *s, double phi)
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/tangent. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/tangent. */
 static inline void cylindrical_worm_za_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1393,8 +1395,8 @@ if (J == NULL) return;
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
- *   derivation/step-size, derivation/tangent. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_za_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2042,8 +2044,8 @@ static inline void cylindrical_worm_za_zi_scale(const double *s, double *x)
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
- *   cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_za_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -2690,8 +2692,9 @@ static inline void cylindrical_worm_za_zi_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent,
+ *   derivation/root. */
 static inline void cylindrical_worm_za_zi_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3112,8 +3115,9 @@ static inline void cylindrical_worm_za_zi_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_za_zi_generation(const double *s, const double *q, double *o)
 {
     (void)s;

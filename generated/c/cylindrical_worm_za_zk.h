@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 349, set_phi 2, R 178, R and J 421, step 513, observe 562.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -965,8 +966,8 @@ static inline void cylindrical_worm_za_zk_set_phi(double *s, double phi)
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-zn/eq-4,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_za_zk_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1428,8 +1429,9 @@ if (J == NULL) return;
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-zn/eq-4,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/elimination, derivation/step-size. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_za_zk_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -2255,8 +2257,9 @@ static inline void cylindrical_worm_za_zk_scale(const double *s, double *x)
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved, derivation/invariance,
  *   derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal, zk-zn/eq-4,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_za_zk_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -2980,8 +2983,9 @@ static inline void cylindrical_worm_za_zk_flank_pinion(const double *s, const do
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void cylindrical_worm_za_zk_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3534,8 +3538,9 @@ static inline void cylindrical_worm_za_zk_profile_range_hob(const double *s, con
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, rack-and-pinion/rack-form, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_za_zk_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 425, set_phi 2, R 226, R and J 566, step 666, observe 641.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -46,6 +47,7 @@
  *   helicoids/normal
  *   helicoids/za-normal
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
  *   rack-and-pinion/eq-5
  *   rack-and-pinion/rack-form
@@ -1097,10 +1099,10 @@ static inline void cylindrical_worm_zc_za_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zc_za_NX] at x[cylindrical_worm_zc_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_za_NX*cylindrical_worm_zc_za_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zc_za_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[0] * 0.5;
@@ -1705,11 +1707,11 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
- *   derivation/step-size. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zc_za_step(const double *s, double *x)
 {
     const double t0 = x[0] * 0.5;
@@ -2733,11 +2735,11 @@ static inline void cylindrical_worm_zc_za_scale(const double *s, double *x)
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/za-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_za_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[0] * 0.5;
@@ -3450,8 +3452,8 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/unit, cylindrical_worm/undercut,
- *   derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_za_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3717,8 +3719,8 @@ static inline void cylindrical_worm_zc_za_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3942,7 +3944,8 @@ static inline void cylindrical_worm_zc_za_flank_wheel(const double *s, const dou
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zc_za_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4204,8 +4207,8 @@ static inline void cylindrical_worm_zc_za_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zc_za_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 546, set_phi 2, R 308, R and J 768, step 868, observe 857.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -43,6 +44,7 @@
  *   derivation/unit
  *   helicoids/helicoid
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
  *   rack-and-pinion/eq-5
  *   rack-and-pinion/rack-form
@@ -1239,9 +1241,10 @@ static inline void cylindrical_worm_zc_zc_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zc_zc_NX] at x[cylindrical_worm_zc_zc_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_zc_NX*cylindrical_worm_zc_zc_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/merge-sum, derivation/explicit,
- *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -2048,10 +2051,11 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/merge-sum, derivation/explicit,
- *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -3553,10 +3557,11 @@ static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/merge-sum, derivation/explicit,
- *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zc_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -4486,8 +4491,8 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/unit, cylindrical_worm/undercut,
- *   derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4753,9 +4758,10 @@ static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5195,7 +5201,8 @@ static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const dou
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zc_zc_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5383,7 +5390,8 @@ static inline void cylindrical_worm_zc_zc_profile_worm(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zc_zc_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5599,10 +5607,10 @@ static inline void cylindrical_worm_zc_zc_profile_range_hob(const double *s, con
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, rack-and-pinion/rack-form, derivation/root,
- *   derivation/quotient. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zc_zc_generation(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5969,8 +5977,8 @@ static inline void cylindrical_worm_zc_zc_generation(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arccosine,
- *   derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zc_zc_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -6061,8 +6069,8 @@ static inline void cylindrical_worm_zc_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
- *   derivation/both-turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -6196,7 +6204,7 @@ static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
  *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zc_zc_second_type(const double *s, const double *q, double *o)
 {

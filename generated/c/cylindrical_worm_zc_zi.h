@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 474, set_phi 2, R 244, R and J 625, step 725, observe 700.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -45,6 +46,7 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
  *   helicoids/zi-normal
  *   rack-and-pinion/eq-5
@@ -1166,10 +1168,11 @@ static inline void cylindrical_worm_zc_zi_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zc_zi_NX] at x[cylindrical_worm_zc_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_zi_NX*cylindrical_worm_zc_zi_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/tangent. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/tangent. */
 static inline void cylindrical_worm_zc_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1833,11 +1836,11 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
- *   derivation/step-size, derivation/tangent. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_zc_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2972,11 +2975,11 @@ static inline void cylindrical_worm_zc_zi_scale(const double *s, double *x)
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/swept, helicoids/normal,
- *   helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/swept,
+ *   helicoids/normal, helicoids/zi-normal, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
- *   cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_zc_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -3749,8 +3752,8 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/unit, cylindrical_worm/undercut,
- *   derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4017,8 +4020,9 @@ static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent,
+ *   derivation/root. */
 static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4303,7 +4307,8 @@ static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const dou
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zc_zi_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4582,8 +4587,9 @@ static inline void cylindrical_worm_zc_zi_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zc_zi_generation(const double *s, const double *q, double *o)
 {
     (void)s;

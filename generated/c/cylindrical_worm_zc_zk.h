@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 467, set_phi 2, R 277, R and J 686, step 788, observe 777.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -43,6 +44,7 @@
  *   derivation/unit
  *   helicoids/helicoid
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
  *   helicoids/zk-normal
  *   rack-and-pinion/eq-5
@@ -1138,10 +1140,10 @@ static inline void cylindrical_worm_zc_zk_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zc_zk_NX] at x[cylindrical_worm_zc_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zc_zk_NX*cylindrical_worm_zc_zk_NX], row-major dR/dx. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/explicit, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/explicit,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zc_zk_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[0] * 0.5;
@@ -1866,10 +1868,11 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/explicit, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/elimination, derivation/step-size. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/explicit,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_zc_zk_step(const double *s, double *x)
 {
     const double t0 = x[0] * 0.5;
@@ -3182,10 +3185,11 @@ static inline void cylindrical_worm_zc_zk_scale(const double *s, double *x)
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/explicit, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/explicit,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zk_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[0] * 0.5;
@@ -4035,8 +4039,8 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, derivation/unit, cylindrical_worm/undercut,
- *   derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zc_zk_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4303,8 +4307,9 @@ static inline void cylindrical_worm_zc_zk_flank_pinion(const double *s, const do
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void cylindrical_worm_zc_zk_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4662,7 +4667,8 @@ static inline void cylindrical_worm_zc_zk_flank_wheel(const double *s, const dou
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zc_zk_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -5000,8 +5006,9 @@ static inline void cylindrical_worm_zc_zk_profile_range_hob(const double *s, con
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, rack-and-pinion/rack-form, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zc_zk_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 403, set_phi 2, R 160, R and J 385, step 485, observe 516.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -41,6 +42,7 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/zi-normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -1054,10 +1056,10 @@ static inline void cylindrical_worm_zi_zn_set_phi(double *s, double phi)
 /* Residual R[cylindrical_worm_zi_zn_NX] at x[cylindrical_worm_zi_zn_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zi_zn_NX*cylindrical_worm_zi_zn_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/tangent. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/tangent. */
 static inline void cylindrical_worm_zi_zn_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[0] - s[24];
@@ -1481,10 +1483,10 @@ if (J == NULL) return;
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size, derivation/tangent. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_zi_zn_step(const double *s, double *x)
 {
     const double t0 = x[0] - s[24];
@@ -2145,10 +2147,10 @@ static inline void cylindrical_worm_zi_zn_scale(const double *s, double *x)
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
  *   conventions/rotations, conventions/sums, derivation/rotation, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_zi_zn_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[0] - s[24];
@@ -2856,10 +2858,11 @@ static inline void cylindrical_worm_zi_zn_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
- *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void cylindrical_worm_zi_zn_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3179,7 +3182,7 @@ static inline void cylindrical_worm_zi_zn_profile_worm(const double *s, const do
  *     7 axial, mm, frame hob
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zi_zn_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3269,10 +3272,11 @@ static inline void cylindrical_worm_zi_zn_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
- *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zi_zn_generation(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3482,7 +3486,7 @@ static inline void cylindrical_worm_zi_zn_generation(const double *s, const doub
  *     0 psi_fixed_hob, rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zi_zn_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3511,7 +3515,7 @@ static inline void cylindrical_worm_zi_zn_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
  *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zi_zn_worm_point(const double *s, const double *q, double *o)
 {
@@ -3571,8 +3575,8 @@ static inline void cylindrical_worm_zi_zn_worm_point(const double *s, const doub
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/eq-5,
- *   derivation/both-turns, derivation/root, derivation/arc. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   rack-and-pinion/eq-5, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zi_zn_second_type(const double *s, const double *q, double *o)
 {
     (void)s;

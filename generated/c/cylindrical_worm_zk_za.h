@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 358, set_phi 2, R 192, R and J 482, step 582, observe 557.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -1000,8 +1001,8 @@ static inline void cylindrical_worm_zk_za_set_phi(double *s, double phi)
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zk_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1524,8 +1525,9 @@ if (J == NULL) return;
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/elimination, derivation/step-size. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_zk_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -2394,8 +2396,9 @@ static inline void cylindrical_worm_zk_za_scale(const double *s, double *x)
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/za-normal,
  *   derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -3221,8 +3224,8 @@ static inline void cylindrical_worm_zk_za_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zk_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3641,8 +3644,8 @@ static inline void cylindrical_worm_zk_za_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zk_za_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 344, set_phi 2, R 136, R and J 299, step 391, observe 459.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -41,6 +42,7 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/za-normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -965,10 +967,11 @@ static inline void cylindrical_worm_zn_za_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zn_za_NX] at x[cylindrical_worm_zn_za_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_za_NX*cylindrical_worm_zn_za_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/za-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles. */
 static inline void cylindrical_worm_zn_za_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1305,11 +1308,11 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/za-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zn_za_step(const double *s, double *x)
 {
     double s0, c0;
@@ -1856,11 +1859,11 @@ static inline void cylindrical_worm_zn_za_scale(const double *s, double *x)
  *    53 margin_wheel_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/za-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/za-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2388,8 +2391,8 @@ static inline void cylindrical_worm_zn_za_observe(const double *s, const double 
  *    14 margin_root
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_za_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2494,8 +2497,8 @@ static inline void cylindrical_worm_zn_za_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_za_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2718,7 +2721,7 @@ static inline void cylindrical_worm_zn_za_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_za_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2853,8 +2856,8 @@ static inline void cylindrical_worm_zn_za_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zn_za_generation(const double *s, const double *q, double *o)
 {
     (void)s;

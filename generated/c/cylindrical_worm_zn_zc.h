@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 469, set_phi 2, R 218, R and J 501, step 593, observe 675.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -45,7 +46,9 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/zc-limit
+ *   helicoids/zc-meshing
  *   helicoids/zc-normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -1128,11 +1131,12 @@ static inline void cylindrical_worm_zn_zc_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zn_zc_NX] at x[cylindrical_worm_zn_zc_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zc_NX*cylindrical_worm_zn_zc_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
+ *   derivation/swing, helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zn_zc_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1671,11 +1675,12 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
+ *   derivation/swing, helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
  *   derivation/step-size. */
 static inline double cylindrical_worm_zn_zc_step(const double *s, double *x)
 {
@@ -2701,11 +2706,12 @@ static inline void cylindrical_worm_zn_zc_scale(const double *s, double *x)
  *    54 margin_wheel_regression
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle, derivation/swing,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
+ *   derivation/swing, helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zc_observe(const double *s, const double *x, double *o)
 {
@@ -3451,8 +3457,8 @@ static inline void cylindrical_worm_zn_zc_observe(const double *s, const double 
  *    14 margin_root
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zc_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3557,9 +3563,10 @@ static inline void cylindrical_worm_zn_zc_flank_pinion(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zc_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3998,7 +4005,7 @@ static inline void cylindrical_worm_zn_zc_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zc_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4057,7 +4064,8 @@ static inline void cylindrical_worm_zn_zc_profile_worm(const double *s, const do
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arc. */
 static inline void cylindrical_worm_zn_zc_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4275,10 +4283,10 @@ static inline void cylindrical_worm_zn_zc_profile_range_hob(const double *s, con
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, derivation/translation, rack-and-pinion/rack-form, derivation/root,
- *   derivation/quotient. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
 static inline void cylindrical_worm_zn_zc_generation(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4645,8 +4653,8 @@ static inline void cylindrical_worm_zn_zc_generation(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/root, derivation/quotient, derivation/arccosine,
- *   derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
+ *   derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zn_zc_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4737,8 +4745,8 @@ static inline void cylindrical_worm_zn_zc_section(const double *s, const double 
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/rack-form,
- *   derivation/both-turns, derivation/root, derivation/arc. */
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation,
+ *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zc_worm_point(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4872,7 +4880,7 @@ static inline void cylindrical_worm_zn_zc_worm_point(const double *s, const doub
  */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
- *   helicoids/zc-normal, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
  *   derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zc_second_type(const double *s, const double *q, double *o)
 {

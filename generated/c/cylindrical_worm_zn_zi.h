@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 393, set_phi 2, R 154, R and J 358, step 450, observe 518.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -41,6 +42,7 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/zi-normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -1034,11 +1036,11 @@ static inline void cylindrical_worm_zn_zi_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zn_zi_NX] at x[cylindrical_worm_zn_zi_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zi_NX*cylindrical_worm_zn_zi_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/zi-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/tangent. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/tangent. */
 static inline void cylindrical_worm_zn_zi_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] - s[1];
@@ -1434,11 +1436,11 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/zi-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/elimination, derivation/step-size, derivation/tangent. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size, derivation/tangent. */
 static inline double cylindrical_worm_zn_zi_step(const double *s, double *x)
 {
     const double t0 = x[2] - s[1];
@@ -2096,11 +2098,11 @@ static inline void cylindrical_worm_zn_zi_scale(const double *s, double *x)
  *    54 margin_wheel_regression
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, helicoids/zi-normal,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/zi-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles,
- *   derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
 static inline void cylindrical_worm_zn_zi_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] - s[1];
@@ -2688,8 +2690,8 @@ static inline void cylindrical_worm_zn_zi_observe(const double *s, const double 
  *    14 margin_root
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zi_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2795,8 +2797,9 @@ static inline void cylindrical_worm_zn_zi_flank_pinion(const double *s, const do
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent, derivation/root. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/tangent,
+ *   derivation/root. */
 static inline void cylindrical_worm_zn_zi_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3080,7 +3083,7 @@ static inline void cylindrical_worm_zn_zi_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zi_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3232,8 +3235,9 @@ static inline void cylindrical_worm_zn_zi_profile_range_hob(const double *s, con
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/invariance,
  *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
  *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, conventions/rotations, conventions/sums, derivation/rotation,
- *   derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations, conventions/sums,
+ *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/tangent, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zn_zi_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 387, set_phi 2, R 187, R and J 419, step 514, observe 595.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -43,6 +44,7 @@
  *   helicoids/helicoid
  *   helicoids/normal
  *   helicoids/zk-normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -1014,11 +1016,11 @@ static inline void cylindrical_worm_zn_zk_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zn_zk_NX] at x[cylindrical_worm_zn_zk_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zk_NX*cylindrical_worm_zn_zk_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zn_zk_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t0 = x[2] * 0.5;
@@ -1475,11 +1477,12 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/elimination, derivation/step-size. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
+ *   derivation/step-size. */
 static inline double cylindrical_worm_zn_zk_step(const double *s, double *x)
 {
     const double t0 = x[2] * 0.5;
@@ -2316,11 +2319,12 @@ static inline void cylindrical_worm_zn_zk_scale(const double *s, double *x)
  *    54 margin_wheel_regression
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/revolved,
- *   derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing, helicoids/zk-normal,
- *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/contact,
- *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, derivation/swing,
+ *   helicoids/zk-normal, zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zk_observe(const double *s, const double *x, double *o)
 {
     const double t0 = x[2] * 0.5;
@@ -2985,8 +2989,8 @@ static inline void cylindrical_worm_zn_zk_observe(const double *s, const double 
  *    14 margin_root
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zk_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3092,8 +3096,9 @@ static inline void cylindrical_worm_zn_zk_flank_pinion(const double *s, const do
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void cylindrical_worm_zn_zk_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3450,7 +3455,7 @@ static inline void cylindrical_worm_zn_zk_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zk_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3661,8 +3666,9 @@ static inline void cylindrical_worm_zn_zk_profile_range_hob(const double *s, con
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
  *   zk-zn/eq-4, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
- *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear, derivation/translation,
- *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, derivation/translation, rack-and-pinion/rack-form, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zn_zk_generation(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -6,12 +6,13 @@
  * same bits everywhere.
  *
  * Operations: setup 403, set_phi 2, R 151, R and J 330, step 425, observe 497.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
  *   cylindrical_worm/axis
  *   cylindrical_worm/axis-quadratic
+ *   cylindrical_worm/both-systems
  *   cylindrical_worm/contact
  *   cylindrical_worm/explicit
  *   cylindrical_worm/linear
@@ -40,6 +41,7 @@
  *   derivation/unit
  *   helicoids/helicoid
  *   helicoids/normal
+ *   helicoids/zn-normal
  *   helicoids/zn-straight
  *   helicoids/zn-width
  *   rack-and-pinion/eq-5
@@ -1035,10 +1037,11 @@ static inline void cylindrical_worm_zn_zn_set_phi(double *s, double phi)
 
 /* Residual R[cylindrical_worm_zn_zn_NX] at x[cylindrical_worm_zn_zn_NX] and, unless J is NULL, the Jacobian J[cylindrical_worm_zn_zn_NX*cylindrical_worm_zn_zn_NX], row-major dR/dx. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance,
- *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles. */
 static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x, double *R, double *J)
 {
     double s0, c0;
@@ -1406,11 +1409,11 @@ if (J == NULL) return;
 
 /* One fused Newton step x <- x - J^-1 R in a fixed pivot order. Returns the sum of |step|/scale. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance,
- *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/elimination,
- *   derivation/step-size. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
 {
     double s0, c0;
@@ -2022,11 +2025,11 @@ static inline void cylindrical_worm_zn_zn_scale(const double *s, double *x)
  *    53 margin_wheel_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance,
- *   derivation/envelope, derivation/merge-sum, derivation/explicit, conventions/wheel-axis,
- *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
- *   cylindrical_worm/linear, cylindrical_worm/contact, derivation/angles, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles, derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zn_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
@@ -2592,8 +2595,8 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
  *    14 margin_root
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
 static inline void cylindrical_worm_zn_zn_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2696,10 +2699,11 @@ static inline void cylindrical_worm_zn_zn_flank_pinion(const double *s, const do
  *    17 margin_spurious_sheet
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
- *   derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void cylindrical_worm_zn_zn_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -2959,7 +2963,7 @@ static inline void cylindrical_worm_zn_zn_flank_wheel(const double *s, const dou
  *     7 axial, mm, frame worm
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_profile_worm(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3017,7 +3021,7 @@ static inline void cylindrical_worm_zn_zn_profile_worm(const double *s, const do
  *     7 axial, mm, frame hob
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_profile_hob(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3107,10 +3111,11 @@ static inline void cylindrical_worm_zn_zn_profile_range_hob(const double *s, con
  *    11 first_type
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   helicoids/zn-normal, derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
- *   cylindrical_worm/explicit, cylindrical_worm/linear, conventions/rotations, conventions/sums,
- *   derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, rack-and-pinion/rack-form, derivation/root,
+ *   derivation/quotient. */
 static inline void cylindrical_worm_zn_zn_generation(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3320,7 +3325,7 @@ static inline void cylindrical_worm_zn_zn_generation(const double *s, const doub
  *     0 psi_fixed_hob, rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
+ *   helicoids/zn-normal, derivation/root, derivation/quotient, derivation/arccosine, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_section(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3349,7 +3354,7 @@ static inline void cylindrical_worm_zn_zn_section(const double *s, const double 
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
  *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_worm_point(const double *s, const double *q, double *o)
 {
@@ -3409,8 +3414,8 @@ static inline void cylindrical_worm_zn_zn_worm_point(const double *s, const doub
  *     0 psi_fixed_hob[2], rad, frame gen
  */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
- *   derivation/translation, conventions/rotations, conventions/sums, derivation/rotation, rack-and-pinion/eq-5,
- *   derivation/both-turns, derivation/root, derivation/arc. */
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   rack-and-pinion/eq-5, derivation/both-turns, derivation/root, derivation/arc. */
 static inline void cylindrical_worm_zn_zn_second_type(const double *s, const double *q, double *o)
 {
     (void)s;

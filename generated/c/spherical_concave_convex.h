@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 196, set_phi 6, R 149, R and J 391, step 481, observe 508.
- * Equations (hash 8bbd37e75233ebaa1a603e3d980851404e9a98e9031c41e4ef20f246df1aa740):
+ * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
