@@ -6,7 +6,6 @@ file exists is done.
 """
 
 import hashlib
-import itertools
 import json
 import os
 import tempfile
@@ -20,6 +19,7 @@ from meshwright import design as designs
 from meshwright._library import ffi, library
 from meshwright.drive import Drive
 from meshwright.errors import DesignError, UsageError
+from meshwright.files import write_bytes
 from meshwright.results import ARCSEC
 
 #: Points of a slice: enough to keep a core busy, few enough that memory stays small.
@@ -106,10 +106,10 @@ class Rows:
 def check(plan):
     """The nominal drive of a plan; raises an error that names the key if the plan cannot be swept."""
     drive = Drive.from_tables(plan.tables)
-    if drive.design.mirrored:
-        raise UsageError("hand = 'left': a sweep is that of the right-hand mirror image; set hand to right")
-    for v in plan.variations:
+    for k, v in enumerate(plan.variations):
         _column(drive, v.key)
+        if v.key in {other.key for other in plan.variations[:k]}:
+            raise DesignError(v.key, None, "varied twice", "give one range for each key")
         if v.kind == "normal" and v.second < 0 or v.kind == "uniform" and v.second < v.first:
             raise DesignError(v.key, v.second, "the spread is negative", "give low:high or normal:mean:deviation")
     keys = [v.key for v in plan.variations]
@@ -119,9 +119,15 @@ def check(plan):
 
 
 def _column(drive, key):
+    """Index and entry of the parameter that a key ("table.key") of the design file sets."""
     table, _, name = key.partition(".")
-    for k, p in enumerate(drive.design.description["parameters"]):
-        if (p["table"], p["key"]) == (table, name) and not p["integer"] and not p["choices"]:
+    description = drive.design.description
+    if table == "design" and name in description["excluded"]:
+        raise DesignError(key, None, f"a {description['title']} has no such size", "vary another key")
+    if table == "design" and designs.has_rival(drive.design, name):
+        raise DesignError(key, None, "another key of the design determines it", "vary that key instead")
+    for k, p in enumerate(description["parameters"]):
+        if (p["table"], p["key"]) == (table, name) and designs.is_real(p):
             return k, p
     raise DesignError(key, None, "no real parameter of this drive", "`meshwright drives` lists the keys as table.key")
 
@@ -131,7 +137,8 @@ def solve(plan, number):
     drive, values = check(plan), plan.values(number)
     m, count, n = drive.model, len(values), len(plan.angles)
     parameters = _parameters(plan, drive, values)
-    angles = np.array(plan.angles)
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    angles = mirror * np.array(plan.angles)
     start = np.ascontiguousarray(drive.trace(angles[:1])[0])
     lib = library()
     lanes = lib.mw_lanes(0)
@@ -145,9 +152,9 @@ def solve(plan, number):
         m, _p(parameters), count, _p(angles), n, _p(x), _p(status, "int[]"), _p(s), _p(o), _p(points),
         _p(flags, "unsigned int[]"),
     )  # fmt: skip
-    error = np.where(status >= 0, x[..., drive.design.description["error"]], np.nan)
+    error = np.where(status >= 0, mirror * x[..., drive.design.description["error"]], np.nan)
     sample = number * plan.slice_samples + np.arange(count)
-    return Rows(sample, values, status, error, points, flags)
+    return Rows(sample, values, status, error, points * [1.0, mirror, 1.0], flags)
 
 
 def _p(array, kind="double[]"):
@@ -155,18 +162,27 @@ def _p(array, kind="double[]"):
 
 
 def _parameters(plan, drive, values):
-    """Complete parameter vectors; rules are applied anew where a varied key is of the design itself."""
+    """Complete parameter vectors, NaN where there is no such design; its points are then bad input.
+
+    Rules and design systems are applied anew where more than misalignments vary: nothing follows from those.
+    """
     columns = [_column(drive, v.key) for v in plan.variations]
-    follows = any(p["table"] == "design" for _, p in columns)
+    follows = any(p["table"] != "misalignment" for _, p in columns)
     rows = np.tile(designs.given_vector(drive.design) if follows else drive.design.parameters, (len(values), 1))
+    possible = np.ones(len(rows), dtype=bool)
     for (k, p), column in zip(columns, values.T, strict=True):
         rows[:, k] = column * p["factor"]
+        possible &= (rows[:, k] > _end(p["lower"], -np.inf)) & (rows[:, k] < _end(p["upper"], np.inf))
     if follows:
         work, info = np.empty(drive.model.np + 1), ffi.new("mw_info *")
-        for row in rows:
-            if library().mw_complete(drive.model, _p(row), _p(work), info):
-                row[:] = np.nan  # no such design: its guards fail, its points are bad input
+        for k in np.flatnonzero(possible):
+            possible[k] = library().mw_complete(drive.model, _p(rows[k]), _p(work), info) == 0
+    rows[~possible] = np.nan
     return rows
+
+
+def _end(bound, without):
+    return without if bound is None else bound
 
 
 def write_slice(plan, folder, number, form):
@@ -245,6 +261,8 @@ def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lamb
                 advance()
     else:
         _on_dask(plan, folder.resolve(), form, threads, scheduler, advance)
+    for part in folder.glob(".slice-*"):
+        part.unlink(missing_ok=True)  # what a killed process left; every slice is there
     return summary(plan, folder, form)
 
 
@@ -269,9 +287,9 @@ def _claim(plan, folder, form):
         if json.loads(mark.read_text(encoding="utf-8")) != claim:
             raise UsageError(f"{folder}: holds another sweep; name another folder, or remove it")
         return
-    if any(itertools.islice(folder.iterdir(), 1)):
+    if any(not path.name.startswith(".") for path in folder.iterdir()):
         raise UsageError(f"{folder}: is not empty and holds no sweep; name another folder")
-    mark.write_text(json.dumps(claim), encoding="utf-8")
+    write_bytes(mark, json.dumps(claim).encode())
 
 
 def summary(plan, folder, form="parquet"):

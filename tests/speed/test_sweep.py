@@ -1,6 +1,8 @@
 """Sweeps: rows that depend on the plan alone, whatever interrupts it and whoever works on it."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import time
@@ -10,6 +12,7 @@ import pytest
 
 from meshwright import Drive, sweep
 from meshwright import design as designs
+from meshwright._library import library, text
 from meshwright.cli import main
 from meshwright.errors import DesignError, UsageError
 from meshwright.results import ARCSEC
@@ -44,6 +47,81 @@ def test_a_sample_of_a_sweep_is_the_tooth_contact_analysis_of_its_design():
         result = drive.tca(np.array(ANGLES))
         assert np.abs(rows.error[k] - result.error).max() < 1e-12
         assert np.abs(rows.points[k] - result.points).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("face-worm-conical-convex", {}),
+        ("face-worm-cylindrical-concave", {"head_cutter_radius_mm": 24.0}),
+    ],
+)
+def test_the_placement_of_a_head_cutter_follows_the_keys_of_each_sample(name, changes):
+    drive = Drive.load(name).with_(design=changes)
+    variations = (
+        sweep.Variation("design.axial_module_mm", "normal", 1.334, 0.002),
+        sweep.Variation("design.gear_inner_radius_mm", "uniform", 39.5, 40.5),
+        sweep.Variation("misalignment.axial_mm", "uniform", -0.05, 0.05),
+    )
+    plan = sweep.Plan(_tables(drive), variations, ANGLES, 5, seed=1)
+    rows = sweep.solve(plan, 0)
+    for k in range(5):
+        module, radius, axial = map(float, rows.values[k])
+        design = {"axial_module_mm": module, "gear_inner_radius_mm": radius}
+        result = drive.with_(design=design, misalignment={"axial_mm": axial}).tca(np.array(ANGLES))
+        assert set(result.status) == {"converged"}
+        assert np.abs(rows.error[k] - result.error).max() < 1e-12
+        assert np.abs(rows.points[k] - result.points).max() < 1e-9
+
+
+def test_a_placement_that_is_varied_is_given_and_the_rest_follows():
+    drive = Drive.load("face-worm-conical-convex")
+    nominal = drive.design.as_solved()["placement"]["A1_z_mm"]
+    variation = sweep.Variation("placement.A1_z_mm", "uniform", nominal - 1e-4, nominal + 1e-4)
+    rows = sweep.solve(sweep.Plan(_tables(drive), (variation,), ANGLES, 3), 0)
+    for k in range(3):
+        result = drive.with_(placement={"A1_z_mm": float(rows.values[k, 0])}).tca(np.array(ANGLES))
+        assert np.abs(rows.points[k] - result.points).max() < 1e-9
+    assert np.ptp(rows.points[:, 0, 0]) > 1e-6
+
+
+def _tables(drive):
+    """Tables of a drive's design without the keys left open."""
+    return {
+        name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
+        for name, entry in drive.design.tables.items()
+    }
+
+
+def test_a_left_hand_drive_is_swept_as_it_is_analysed():
+    drive = Drive.load("plain-zk").with_(design={"hand": "left"})
+    variation = sweep.Variation("misalignment.vertical_deg", "uniform", -0.02, 0.02)
+    angles = np.array(ANGLES) / 10
+    rows = sweep.solve(sweep.Plan(_tables(drive), (variation,), tuple(angles), 4), 0)
+    for k in range(4):
+        result = drive.with_(misalignment={"vertical_deg": float(rows.values[k, 0])}).tca(angles)
+        assert np.abs(rows.error[k] - result.error).max() < 1e-12
+        assert np.abs(rows.points[k] - result.points).max() < 1e-9
+
+
+def test_a_sample_that_is_no_design_is_bad_input_and_the_others_are_solved():
+    """A negative module is out of its domain; without an offset there is no pitch point."""
+    for name, variation, bad in (
+        ("plain-zn", sweep.Variation("design.normal_module_mm", "uniform", -4.0, 4.0), [0, 1]),
+        ("face-worm-conical-convex", sweep.Variation("design.offset_mm", "uniform", 1.0, 35.0), [0]),
+    ):
+        plan = sweep.Plan(designs.read(name), (variation,), ANGLES[:3], 0, levels=3)
+        status = sweep.solve(plan, 0).status
+        assert {text(library().mw_status_word(int(code))) for code in status[bad].ravel()} == {"bad_input"}
+        assert (status[-1] == 0).all()
+
+
+@pytest.mark.parametrize("key", ["design.worm_pitch_radius_mm", "design.worm_threads"])
+def test_a_key_that_is_not_free_is_refused(key):
+    """Determined by the lead angle that is given; a whole number."""
+    plan = sweep.Plan(designs.read("plain-zn"), (sweep.Variation(key, "uniform", 19.0, 21.0),), ANGLES, 1)
+    with pytest.raises(DesignError, match=key.partition(".")[2]):
+        sweep.check(plan)
 
 
 def test_an_interrupted_sweep_goes_on_without_losing_or_repeating_rows(tmp_path, monkeypatch):
@@ -84,6 +162,10 @@ def test_a_killed_process_leaves_no_part_of_a_slice(tmp_path):
         assert len(sweep.read_slice(path, ["sample"])[0]) % 41 == 0
     again = subprocess.run(command, capture_output=True, text=True, check=True)
     assert json.loads(again.stdout)["points"] == 60000 * 41
+    assert not list(tmp_path.glob("s/.*"))
+    assert again.stderr == ""  # no progress bar outside a terminal
+    samples = np.concatenate([sweep.read_slice(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, 41))
 
 
 def test_a_grid_combines_all_levels_and_csv_holds_the_same_rows(tmp_path):
@@ -122,8 +204,28 @@ def test_bad_ranges_end_in_status_2(tmp_path, capsys):
     assert "low:high" in capsys.readouterr().err
 
 
-def test_an_embedded_dask_cluster_writes_the_same_rows(tmp_path, monkeypatch):
+def test_an_embedded_dask_cluster_writes_the_same_rows(tmp_path):
     pytest.importorskip("distributed")
     sweep.run(_plan(), tmp_path / "a")
     sweep.run(_plan(), tmp_path / "b", threads=1, scheduler="local")
     assert np.array_equal(_rows(tmp_path / "a"), _rows(tmp_path / "b"))
+
+
+def test_a_killed_dask_worker_loses_nothing(tmp_path):
+    """Workers are killed while they write; the cluster's address is that of any cluster."""
+    distributed = pytest.importorskip("distributed")
+    plan = _plan(samples=60000)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        killed = []
+
+        def kill():
+            if len(killed) < 2:
+                (pid, *_) = {w.pid for w in cluster.workers.values() if w.pid} - set(killed)
+                os.kill(pid, signal.SIGKILL)
+                killed.append(pid)
+
+        summary = sweep.run(plan, tmp_path / "s", scheduler=cluster.scheduler_address, advance=kill)
+    assert len(killed) == 2
+    assert summary["points"] == 60000 * len(ANGLES)
+    samples = np.concatenate([sweep.read_slice(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, len(ANGLES)))
