@@ -103,14 +103,19 @@ class SphericalGear:
             x0, x1, f0 = x1, x1 - f1 * (x1 - x0) / (f1 - f0), f1
         return x1
 
-    def form(self):
+    @property
+    def next_tooth(self):
         turn = -2 * np.pi / self.teeth
         motion = np.eye(4)
         motion[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+        return motion
 
+    def form(self):
         def bore(points):
             scale = self.bore / np.hypot(points[..., 0], points[..., 1])
             return points * np.stack([scale, scale, np.ones_like(scale)], axis=-1)
 
         half = 0.5 * self.face_width
-        return ToothForm(replace(self, flank=1).side(), replace(self, flank=-1).side(), (-half, half), motion, bore)
+        return ToothForm.repeated(
+            replace(self, flank=1).side(), replace(self, flank=-1).side(), (-half, half), self.next_tooth, bore
+        )

@@ -56,9 +56,10 @@ def spherical_pair(pinion: SphericalGear, wheel: SphericalGear, material: Materi
             np.array([0.0, 0.0, 1.0]),
         )
 
+    forms = pinion.form(), wheel.form()
     return GearPair(
-        Member(pinion.form(), "left", pinion_pose, 2 * np.pi / pinion.teeth, 1, material),
-        Member(wheel.form(), "left", wheel_pose, 2 * np.pi / wheel.teeth, -1, material),
+        Member(lambda angle: forms[0], "left", pinion_pose, 2 * np.pi / pinion.teeth, 1, material),
+        Member(lambda angle: forms[1], "left", wheel_pose, 2 * np.pi / wheel.teeth, -1, material),
         pinion.teeth / wheel.teeth,
         1,
         touch,

@@ -8,10 +8,10 @@ from meshwright.cli import main
 from meshwright.fe.body import PlacedTooth, mesh_body
 from meshwright.fe.compliance import tooth_compliance
 from meshwright.fe.face_worm import gear_form, worm_form
+from meshwright.fe.grading import MeshDensity
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
-from meshwright.fe.tooth import MeshDensity
 
 DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
 

@@ -14,10 +14,10 @@ from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, judge, prepare
 from meshwright.fe.compliance import tooth_compliance
 from meshwright.fe.deck import write
+from meshwright.fe.grading import MeshDensity
 from meshwright.fe.model import Load, build_model
 from meshwright.fe.solids import gear_pair
 from meshwright.fe.solver import run_ccx
-from meshwright.fe.tooth import MeshDensity
 
 TORQUE = Load(100e3, "pinion")
 LIMIT = 600.0

@@ -5,8 +5,9 @@ import pytest
 from spherical_gear import SphericalGear
 
 from meshwright.fe.body import PlacedTooth, mesh_body
+from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hexahedra import FACES
-from meshwright.fe.tooth import ContactZone, MeshDensity, face_rows, mesh_tooth
+from meshwright.fe.tooth import face_rows, mesh_tooth
 
 PINION = SphericalGear(33, 1, 66.0)
 WHEELS = {
@@ -107,13 +108,13 @@ def test_contact_zone_is_fine():
 def test_teeth_share_their_cuts():
     """Neighbouring teeth with different zones join node to node: the body's boundary has no inner faces."""
     form = PINION.form()
-    step = form.next_tooth
+    step = PINION.next_tooth
     teeth = [
-        PlacedTooth(np.linalg.inv(step), zone_of(PINION, -2.0)),
-        PlacedTooth(np.eye(4), zone_of(PINION, 1.0)),
-        PlacedTooth(step, None),
+        PlacedTooth(form, np.linalg.inv(step), zone_of(PINION, -2.0)),
+        PlacedTooth(form, np.eye(4), zone_of(PINION, 1.0)),
+        PlacedTooth(form, step, None),
     ]
-    body = mesh_body(form, teeth, DENSITY)
+    body = mesh_body(teeth, DENSITY)
     assert body.mesh.smallest_jacobian() > 0.1
     shared = [np.intersect1d(body.nodes(k, "right_cut"), body.nodes(k + 1, "left_cut")) for k in (0, 1)]
     assert [len(nodes) for nodes in shared] == [len(body.nodes(k, "right_cut")) for k in (0, 1)]

@@ -10,9 +10,9 @@ from meshwright import Drive
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, prepare
 from meshwright.fe.compliance import tooth_compliance
+from meshwright.fe.grading import MeshDensity
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
-from meshwright.fe.tooth import MeshDensity
 
 pytestmark = pytest.mark.slow
 

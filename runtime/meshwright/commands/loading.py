@@ -45,10 +45,9 @@ def loaded_gears(fe, options):
 
 
 def compliances(fe, gear, step):
-    """Smooth tooth compliance of the members that have solid teeth; others are half-spaces on rigid teeth."""
+    """Smooth tooth compliance of both members."""
     found = {}
     for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel)):
         step(f"teeth of the {name}")
-        if member.form.bore is not None:
-            found[name] = fe.compliance.tooth_compliance(member)
+        found[name] = fe.compliance.tooth_compliance(member)
     return found

@@ -14,6 +14,7 @@ from meshwright.fe import stress
 from meshwright.fe.compliance import ToothCompliance
 from meshwright.fe.deck import write
 from meshwright.fe.gate import Check, accept
+from meshwright.fe.grading import MeshDensity
 from meshwright.fe.hertz import elliptic_contact
 from meshwright.fe.hexahedra import HexMesh
 from meshwright.fe.loaded import LoadedContact, LoadedPair, loaded_contact
@@ -23,7 +24,6 @@ from meshwright.fe.pair import GearPair
 from meshwright.fe.pictures import draw
 from meshwright.fe.solver import SolverRun, run_ccx
 from meshwright.fe.stress import Solution
-from meshwright.fe.tooth import MeshDensity
 from meshwright.fe.vtu import vtu_text
 from meshwright.files import write_json, write_text
 

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hexahedra import FaceSet, Floats, HexMesh, Ints, merge
-from meshwright.fe.tooth import ContactZone, MeshDensity, ToothForm, ToothMesh, face_rows, mesh_tooth
+from meshwright.fe.pair import Member
+from meshwright.fe.tooth import ToothForm, ToothMesh, face_rows, mesh_tooth, moved
 
 _MERGE_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True)
 class BodyMesh:
-    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore and outer cuts."""
+    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore, outer cuts and cut ends."""
 
     mesh: HexMesh
     teeth: tuple[dict[str, FaceSet], ...]
@@ -28,24 +30,40 @@ class BodyMesh:
 
 @dataclass(frozen=True)
 class PlacedTooth:
-    """A tooth of the body: 4 x 4 motion of the reference tooth, zone in the reference tooth's own frame."""
+    """A tooth of the body: its form, the 4 x 4 motion to its place, the zone in the form's own frame."""
 
+    form: ToothForm
     motion: Floats
     zone: ContactZone | None
 
 
-def mesh_body(form: ToothForm, teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
-    """Mesh neighbouring teeth, each graded to its own zone; ``teeth`` in the order of ``form.next_tooth``."""
-    rows = max(face_rows(form, tooth.zone, density) for tooth in teeth)
-    single = [mesh_tooth(form, tooth.zone, density, rows) for tooth in teeth]
-    moved = [
-        HexMesh(tooth.mesh.nodes @ place.motion[:3, :3].T + place.motion[:3, 3], tooth.mesh.elements)
+def placed_tooth(member: Member, angle: float, pairs_later: int, zone: ContactZone | None) -> PlacedTooth:
+    """The tooth that meets ``pairs_later`` pairs behind the reference pair, with the member at an angle in rad."""
+    form = member.tooth(angle - pairs_later * member.pitch)
+    return PlacedTooth(form, member.tooth_motion(pairs_later), zone)
+
+
+def tooth_order(member: Member, angle: float, numbers: Sequence[int]) -> list[int]:
+    """Consecutive ascending ``pairs_later`` in the order of their teeth from left to right."""
+    here, later = (placed_tooth(member, angle, k, None) for k in (0, 1))
+    section = np.array([0.5 * sum(here.form.faces)])
+    meets = np.allclose(here.form.right_cut(section), moved(later.motion, later.form.left_cut(section)), atol=1e-6)
+    return list(numbers) if meets else list(numbers)[::-1]
+
+
+def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
+    """Mesh neighbouring teeth from left to right, each graded to its own zone."""
+    rows = max(face_rows(tooth.form, tooth.zone, density) for tooth in teeth)
+    single = [mesh_tooth(tooth.form, tooth.zone, density, rows) for tooth in teeth]
+    placed = [
+        HexMesh(moved(place.motion, tooth.mesh.nodes), tooth.mesh.elements)
         for tooth, place in zip(single, teeth, strict=True)
     ]
-    mesh, _ = merge(moved, _MERGE_TOLERANCE)
+    mesh, _ = merge(placed, _MERGE_TOLERANCE)
     offsets = np.cumsum([0] + [len(tooth.mesh.elements) for tooth in single])
     faces = tuple(_shifted(tooth, int(offset)) for tooth, offset in zip(single, offsets[:-1], strict=True))
     rim_faces = [tooth["bore"] for tooth in faces] + [faces[0]["left_cut"], faces[-1]["right_cut"]]
+    rim_faces += [faces[k]["ends"] for k, tooth in enumerate(teeth) if tooth.form.cut_ends]
     rim = np.unique(np.concatenate([mesh.face_nodes(f).ravel() for f in rim_faces]))
     return BodyMesh(mesh, faces, rim)
 

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.fe.body import PlacedTooth, mesh_body
+from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.elastic import factorise
+from meshwright.fe.grading import MeshDensity
 from meshwright.fe.halfspace import mean_displacement
 from meshwright.fe.hexahedra import Floats, nodal_areas
 from meshwright.fe.pair import Member
-from meshwright.fe.tooth import MeshDensity
 
 _PATCH = 2
 _DENSITY = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
@@ -44,12 +44,13 @@ class ToothCompliance:
 
 
 def tooth_compliance(member: Member) -> ToothCompliance:
-    """Compute it from three neighbouring teeth whose rim is held at the bore and at the outer cuts."""
-    motions = [member.tooth_motion(later) for later in (-1, 0, 1)]
-    if not np.allclose(member.tooth_motion(1), member.form.next_tooth, atol=1e-6):
-        motions = motions[::-1]
-    body = mesh_body(member.form, [PlacedTooth(motion, None) for motion in motions], _DENSITY)
-    later = 2 if np.allclose(motions[2], member.tooth_motion(1)) else 0
+    """Compute it from three neighbouring teeth whose rim is held at the bore and at the outer cuts.
+
+    Of a thread it is that of the portion at member angle 0.
+    """
+    order = tooth_order(member, 0.0, (-1, 0, 1))
+    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _DENSITY)
+    later = order.index(1)
     name = f"flank_{member.working}"
     patches = [_patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), _DENSITY) for tooth in body.teeth]
     forces = np.moveaxis(patches[1], 0, -1)

@@ -1,11 +1,13 @@
 """Face worm gear drives: gear teeth from two designs, one a flank, and the worm's flank.
 
 Sections of a gear tooth are cylinders about the gear axis. The convex flank bounds a tooth on the side of smaller
-azimuth, the concave one on the other. The worm has no solid here: its thread is an elastic half-space on a rigid
-shaft, so only the flank is described.
+azimuth, the concave one on the other. Both flanks of the worm's thread are the generated ones; its height follows from
+the gear's blade, since the source gives none, and an arc of the blade's edge radius joins flank and root.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -14,20 +16,30 @@ from meshwright import design as designs
 from meshwright.drive import Drive
 from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import SectionCurves, Surface
-from meshwright.fe.tooth import ToothForm, ToothSide
+from meshwright.fe.profile import Section, SectionCurves, Surface
+from meshwright.fe.rim import bore_radius
+from meshwright.fe.rounding import Span
+from meshwright.fe.thread import SideName, ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
+from meshwright.fe.tooth import Teeth, ToothForm, ToothSide
 
 _FLANKS = ("convex", "concave")
 _TIP_SAMPLES = 33
 # The gear's tip is looked for up to so many axial modules above the middle of the profile.
 _HIGHEST = 2.0
 _NEWTON_STEPS = 30
-# The worm's thread in axial modules along its blade: tip towards the gear's root, and root.
-_WORM_TIP, _WORM_ROOT = -1.0, 1.25
-_WORM_REACH = 1e3
+# The tip of the worm's flank is looked for up to so many axial modules along its blade.
+_WORM_HIGHEST = -1.6
+_FIXED_POINT_STEPS = 20
+_THICKNESS_TOLERANCE = 1e-9
 
 
-def gear_form(drive: Drive, rim_thickness: float) -> ToothForm:
+def root_radii(drive: Drive) -> dict[str, float]:
+    """Root radius in mm of the worm at its reference section; the gear's rim is flat and has no such bound."""
+    value = drive.design.value
+    return {"pinion": 0.5 * value("worm_pitch_diameter_mm") - value("blade_depth_mm")}
+
+
+def gear_teeth(drive: Drive, rim_thickness: float) -> Teeth:
     """The gear tooth; rim_thickness in mm from the lowest root to the plane back of the gear."""
     sides = {flank: _side(_of_flank(drive, flank)) for flank in _FLANKS}
     faces = (drive.design.value("gear_inner_radius_mm"), drive.design.value("gear_outer_radius_mm"))
@@ -45,7 +57,8 @@ def gear_form(drive: Drive, rim_thickness: float) -> ToothForm:
         flat[..., 2] = low - rim_thickness
         return flat
 
-    return ToothForm(sides["convex"], sides["concave"], faces, about_z(pitch), back)
+    form = ToothForm.repeated(sides["convex"], sides["concave"], faces, about_z(pitch), back)
+    return Teeth(lambda angle: form, "left" if drive.design.flank > 0 else "right")
 
 
 def _of_flank(drive: Drive, flank: str) -> Drive:
@@ -99,17 +112,72 @@ def _turned(side: ToothSide, angle: float) -> ToothSide:
     return ToothSide(*curves)
 
 
-def worm_form(drive: Drive) -> ToothForm:
-    """The worm's flank alone, in (u, angle of cutting); it has no fillet and no bore."""
-    module = drive.design.value("axial_module_mm")
-    curves = SectionCurves(
-        _worm_surface(drive),
-        lambda points: points[..., 2],
-        constant(_WORM_TIP * module),
-        constant(_WORM_ROOT * module),
-    )
-    side = ToothSide(curves, curves)
-    return ToothForm(side, side, (-_WORM_REACH, _WORM_REACH), np.eye(4), None)
+def worm_teeth(drive: Drive, rim_thickness: float) -> Teeth:
+    """The worm's thread, as high as the gear's space is deep but for the clearance, and as wide at mid height."""
+    own = drive.design.tables["flank"]
+    drives = {flank: _of_flank(drive, flank) for flank in _FLANKS}
+    surfaces = {flank: _worm_surface(drives[flank]) for flank in _FLANKS}
+    value = drive.design.value
+    pitch_radius, taper = 0.5 * value("worm_pitch_diameter_mm"), np.tan(value("worm_cone_angle_deg"))
+    module = value("axial_module_mm")
+    tip = pitch_radius + value("gear_addendum_mm", "blank")
+    root = root_radii(drive)["pinion"]
+    blank = ThreadBlank(tip, root, value("fillet_radius_mm"), bore_radius(root, rim_thickness), taper)
+    (facing,), (normal,) = surfaces[own](np.zeros(1), np.zeros(1))
+    working = side_of(normal)
+    other = _FLANKS[1 - _FLANKS.index(own)]
+    turn = _turn_to_thickness(surfaces, own, 0.5 * np.pi * module * (1.0 if working == "left" else -1.0), drive)
+    flanks: dict[SideName, ThreadFlank] = {
+        working: ThreadFlank(_facing(surfaces[own], 0.0), _worm_span(drives[own])),
+        opposite(working): ThreadFlank(_facing(surfaces[other], turn), _worm_span(drives[other])),
+    }
+    return thread_teeth(flanks, working, blank, drive.pitch(), facing)
+
+
+def _worm_span(drive: Drive) -> Span:
+    """Along the blade: not deeper into the worm than the blade is into the gear."""
+    value = drive.design.value
+    slant = np.cos(value("blade_angle_deg"))
+    return Span(value("blade_depth_mm") / slant, 0.0, _WORM_HIGHEST * value("axial_module_mm"))
+
+
+def _turn_to_thickness(surfaces: dict[str, Surface], own: str, thickness: float, drive: Drive) -> float:
+    """Angle in rad by which the other flank turns about the axis to stand ``thickness`` mm beyond the own along z."""
+    other = _FLANKS[1 - _FLANKS.index(own)]
+    screw = drive.design.sizes["screw_parameter_worm_mm_per_rad"]
+    (own_point,), _ = surfaces[own](np.zeros(1), np.zeros(1))
+    azimuth = np.arctan2(own_point[1], own_point[0])
+    wanted = own_point[2] + thickness
+    turn = 0.0
+    for _ in range(_FIXED_POINT_STEPS):
+        curves = SectionCurves(
+            _facing(surfaces[other], turn)(0.0), _azimuth_from(azimuth), constant(0.0), constant(0.0)
+        )
+        found = float(curves.points(np.zeros(1), np.zeros((1, 1)))[0, 0, 2])
+        # A right-hand thread turned forwards stands back by its screw parameter.
+        turn += (found - wanted) / screw
+        if abs(found - wanted) < _THICKNESS_TOLERANCE:
+            return turn
+    raise ValueError(f"the second flank of the thread finds no place ({found - wanted:.3g} mm off)")
+
+
+def _azimuth_from(azimuth: float) -> Section:
+    c, s = np.cos(azimuth), np.sin(azimuth)
+    return lambda points: np.arctan2(c * points[..., 1] - s * points[..., 0], c * points[..., 0] + s * points[..., 1])
+
+
+def _facing(surface: Surface, turn: float) -> Callable[[float], Surface]:
+    """The flank turned about z, its face parameter counted from the cutting angle that faces the gear."""
+    rotation = about_z(turn)[:3, :3].T
+
+    def at(angle: float) -> Surface:
+        def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+            points, normals = surface(profile, face + angle + turn)
+            return points @ rotation, normals @ rotation
+
+        return evaluate
+
+    return at
 
 
 def _worm_surface(drive: Drive) -> Surface:

@@ -54,8 +54,8 @@ def contact_grid(
     feet = touch.point + np.outer(x, touch.major_direction) + np.outer(y, minor)
     surfaces = {}
     for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1])):
-        pose = member.pose(angle - contact.pairs_later * member.pitch)
-        surfaces[name] = _Footprint.of(member, pose, feet, plane)
+        own_angle = angle - contact.pairs_later * member.pitch
+        surfaces[name] = _Footprint.of(member, own_angle, feet, plane)
     gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ touch.normal
     inside = surfaces["pinion"].inside & surfaces["wheel"].inside
     place = {name: footprint.place for name, footprint in surfaces.items()}
@@ -72,15 +72,16 @@ class _Footprint:
     place: Floats
 
     @staticmethod
-    def of(member: Member, pose: Floats, feet: Floats, plane: Floats) -> _Footprint:
-        curves = member.form.side(member.working).flank
+    def of(member: Member, angle: float, feet: Floats, plane: Floats) -> _Footprint:
+        form, pose = member.tooth(angle), member.pose(angle)
+        curves = form.side(member.working).flank
         rotation = pose[:3, :3]
         feet_body = (feet - pose[:3, 3]) @ rotation
         plane_body = plane @ rotation
-        profile, face = _pierce(curves, member.form.faces, feet_body, plane_body)
+        profile, face = _pierce(curves, form.faces, feet_body, plane_body)
         points = curves.surface(profile, face)[0]
         section = curves.section(points)
-        low, high = member.form.faces
+        low, high = form.faces
         held = np.clip(section, low, high)
         first, last = curves.first(held), curves.last(held)
         fraction = (profile - first) / (last - first)

@@ -7,13 +7,13 @@ from typing import Literal
 
 import numpy as np
 
-from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body
+from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
+from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hertz import HertzContact, elliptic_contact
 from meshwright.fe.hexahedra import Floats, HexMesh
 from meshwright.fe.material import contact_modulus
-from meshwright.fe.pair import GearPair, Member, PairTouch, lever_arm, touches, unloaded_wheel_angle
-from meshwright.fe.tooth import ContactZone, MeshDensity
+from meshwright.fe.pair import GearPair, Member, PairTouch, lever_arm, pair_numbers, touches, unloaded_wheel_angle
 
 # The contact starts from an overlap of this part of the Hertz approach: from a gap the solver diverges.
 _START_OVERLAP = 0.5
@@ -96,15 +96,17 @@ def build_model(
     arms = [abs(lever_arm(loaded, contact.touch.point, contact.touch.normal)) for contact in contacts]
     least = _LEAST_FORCE * float(max(forces))
     hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
-    orders = {name: tooth_order(member, pairs, idle) for name, member in _members(gear).items()}
+    angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
+    numbers = pair_numbers(gear, pairs)
+    numbers = range(numbers.start - idle, numbers.stop + idle)
+    orders = {name: tooth_order(member, angles[name], numbers) for name, member in _members(gear).items()}
     bodies = {
-        name: mesh_body(member.form, _teeth(gear, name, orders[name], contacts, hertz), density)
-        for name, member in _members(gear).items()
+        name: mesh_body(_teeth(gear, name, angles[name], orders[name], contacts, hertz), density)
+        for name in _members(gear)
     }
     lead = int(np.argmax(forces))
     start = direction * _START_OVERLAP * hertz[lead].approach / arms[lead]
     frame = np.linalg.inv(loaded.pose(0.0))
-    angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
     parts = []
     for name, member in _members(gear).items():
         motion = frame @ member.pose(angles[name])
@@ -129,17 +131,10 @@ def _members(gear: GearPair) -> dict[BodyName, Member]:
     return {"pinion": gear.pinion, "wheel": gear.wheel}
 
 
-def tooth_order(member: Member, pairs: int, idle: int) -> list[int]:
-    """Which pair (``pairs_later``) each tooth of the body belongs to, in the order of ``next_tooth``."""
-    first = -((pairs - 1) // 2) - idle
-    order = list(range(first, first + pairs + 2 * idle))
-    later, following = member.tooth_motion(1), member.form.next_tooth
-    return order if np.allclose(later, following, atol=1e-6) else order[::-1]
-
-
 def _teeth(
     gear: GearPair,
     name: BodyName,
+    angle: float,
     order: list[int],
     contacts: tuple[PairTouch, ...],
     hertz: tuple[HertzContact, ...],
@@ -148,8 +143,8 @@ def _teeth(
     zones = {}
     for contact, ellipse in zip(contacts, hertz, strict=True):
         touch = contact.touch
-        angle = touch.pinion_angle if name == "pinion" else touch.wheel_angle
-        to_body = np.linalg.inv(member.pose(angle))
+        touched = touch.pinion_angle if name == "pinion" else touch.wheel_angle
+        to_body = np.linalg.inv(member.pose(touched))
         zones[contact.pairs_later] = ContactZone(
             member.working,
             to_body[:3, :3] @ touch.point + to_body[:3, 3],
@@ -158,7 +153,7 @@ def _teeth(
             ellipse.semi_major,
             ellipse.semi_minor,
         )
-    return [PlacedTooth(member.tooth_motion(later), zones.get(later)) for later in order]
+    return [placed_tooth(member, angle, later, zones.get(later)) for later in order]
 
 
 def _contact_pairs(

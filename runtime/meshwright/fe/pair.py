@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
+from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import ToothForm
 
 
@@ -17,12 +18,14 @@ from meshwright.fe.tooth import ToothForm
 class Member:
     """Pinion (worm) or wheel.
 
-    working: the tooth side in contact.  pose: member angle in rad to the 4 x 4 motion from the body frame to the
-    fixed frame; the member's axis is the z axis of its body frame.  pitch: angle between successive teeth.
-    turning: +1 if a growing member angle turns the body about +z of its own frame, -1 if about -z.
+    tooth: the form of the reference tooth where a pair meets at a member angle in rad: a gear tooth is the same at
+    every angle, of a worm's thread it is the portion that then faces the wheel.  working: the side in contact.
+    pose: member angle in rad to the 4 x 4 motion from the body frame to the fixed frame; the member's axis is the
+    z axis of its body frame.  pitch: angle between successive teeth.  turning: +1 if a growing member angle turns
+    the body about +z of its own frame, -1 if about -z.
     """
 
-    form: ToothForm
+    tooth: Callable[[float], ToothForm]
     working: Literal["left", "right"]
     pose: Callable[[float], Floats]
     pitch: float
@@ -34,6 +37,10 @@ class Member:
         """Origin and unit direction of the axis in the fixed frame, along +z of the body."""
         pose = self.pose(0.0)
         return pose[:3, 3], pose[:3, 2]
+
+    def working_flank(self, angle: float) -> SectionCurves:
+        """The flank in contact at a member angle of its own pair."""
+        return self.tooth(angle).side(self.working).flank
 
     def tooth_motion(self, pairs_later: int) -> Floats:
         """4 x 4 motion in the body frame from the reference tooth to the tooth that meets so many pairs later."""
@@ -61,7 +68,9 @@ class GearPair:
     """Two members and their contact.
 
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
-    touch: contact of the reference pair at a pinion angle, or None where it has none.
+    touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair: the pair
+    (``pairs_later``) that is in the middle of its contact at pinion angle 0.  assumed: sizes in mm or rad of the
+    blank that the design leaves open, as the solids have them.
     """
 
     pinion: Member
@@ -69,6 +78,8 @@ class GearPair:
     ratio: float
     sense: int
     touch: Callable[[float], Touch | None]
+    middle_pair: int = 0
+    assumed: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -80,14 +91,19 @@ class PairTouch:
     wheel_angle: float
 
 
+def pair_numbers(gear: GearPair, pairs: int) -> range:
+    """So many neighbouring pairs (``pairs_later``), centred on the middle one."""
+    first = gear.middle_pair - (pairs - 1) // 2
+    return range(first, first + pairs)
+
+
 def touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch, ...]:
-    """The contacts of the pairs around a pinion angle, ``pairs`` of them, centred on the reference pair.
+    """The contacts of ``pairs`` neighbouring pairs at a pinion angle, centred on the middle pair.
 
     wheel_angle of each is that of the whole wheel at which this pair would touch.
     """
-    first = -((pairs - 1) // 2)
     found = []
-    for pairs_later in range(first, first + pairs):
+    for pairs_later in pair_numbers(gear, pairs):
         touch = gear.touch(pinion_angle - pairs_later * gear.pinion.pitch)
         if touch is not None:
             wheel_angle = touch.wheel_angle + pairs_later * gear.wheel.pitch

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
@@ -15,7 +16,8 @@ from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
-from meshwright.fe.tooth import ToothForm
+from meshwright.fe.rim import check_rim
+from meshwright.fe.tooth import Teeth
 from meshwright.placement import placements
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
@@ -24,6 +26,16 @@ _PROBE_ANGLE = 1e-3
 _STEP_PITCHES = 0.25
 
 MemberName = Literal["pinion", "wheel"]
+
+
+@dataclass(frozen=True)
+class _Family:
+    """Key of the module; teeth of each member, given the rim's depth in mm; root radii in mm that bound the rim."""
+
+    module: str
+    pinion: Callable[[Drive, float], Teeth]
+    wheel: Callable[[Drive, float], Teeth]
+    root_radii: Callable[[Drive], dict[str, float]]
 
 
 def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
@@ -35,20 +47,19 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     if drive.design.family not in _FAMILIES:
         known = ", ".join(_FAMILIES)
         raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives; there are {known}")
-    module, forms = _FAMILIES[drive.design.family]
+    family = _FAMILIES[drive.design.family]
     if rim_thickness is not None:
-        spherical.check_rim(drive, rim_thickness)
+        check_rim(rim_thickness, family.root_radii(drive))
     else:
-        rim_thickness = _RIM_MODULES * drive.design.value(module)
+        rim_thickness = _RIM_MODULES * drive.design.value(family.module)
     if not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
         raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")
     _check_point_contact(drive)
     materials = Materials.of_table(drive.design.tables["material"])
-    members = {
-        name: _member(drive, name, form(drive, rim_thickness), getattr(materials, name)) for name, form in forms.items()
-    }
+    pinion = _member(drive, "pinion", family.pinion(drive, rim_thickness), materials.pinion)
+    wheel = _member(drive, "wheel", family.wheel(drive, rim_thickness), materials.wheel)
     sense = 1 if drive.design.flank > 0 else -1
-    return GearPair(members["pinion"], members["wheel"], drive.ratio, sense, cache(lambda angle: _touch(drive, angle)))
+    return GearPair(pinion, wheel, drive.ratio, sense, cache(lambda angle: _touch(drive, angle)))
 
 
 def _check_point_contact(drive: Drive) -> None:
@@ -80,7 +91,7 @@ def _touch(drive: Drive, angle: float) -> Touch | None:
     )
 
 
-def _member(drive: Drive, name: MemberName, form: ToothForm, material: Material) -> Member:
+def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) -> Member:
     """Placement from two solved contacts: the body turns about its own z axis between them."""
     angles = np.array([0.0, _PROBE_ANGLE])
     found = drive.tca(angles)
@@ -98,23 +109,15 @@ def _member(drive: Drive, name: MemberName, form: ToothForm, material: Material)
         return zero @ about_z(turning * angle)
 
     pitch = drive.pitch() if name == "pinion" else drive.pitch() * drive.ratio
-    working = "left" if drive.design.flank > 0 else "right"
-    return Member(form, working, pose, pitch, turning, material)
+    return Member(teeth.at, teeth.working, pose, pitch, turning, material)
 
 
-_Form = Callable[[Drive, float], ToothForm]
-
-# Key of the module, and the teeth of each member, by family.
-_FAMILIES: dict[str, tuple[str, dict[MemberName, _Form]]] = {
-    "spherical": (
+_FAMILIES = {
+    "spherical": _Family(
         "module_mm",
-        {
-            "pinion": lambda drive, rim: spherical.gear_form(drive, "pinion", rim),
-            "wheel": lambda drive, rim: spherical.gear_form(drive, "wheel", rim),
-        },
+        lambda drive, rim: spherical.gear_teeth(drive, "pinion", rim),
+        lambda drive, rim: spherical.gear_teeth(drive, "wheel", rim),
+        spherical.root_radii,
     ),
-    "face-worm": (
-        "axial_module_mm",
-        {"pinion": lambda drive, rim: face_worm.worm_form(drive), "wheel": face_worm.gear_form},
-    ),
+    "face-worm": _Family("axial_module_mm", face_worm.worm_teeth, face_worm.gear_teeth, face_worm.root_radii),
 }

@@ -19,7 +19,8 @@ from typing import Literal
 
 import numpy as np
 
-from meshwright.fe.blocks import Block, FineZone, graded, graded_count, transfinite
+from meshwright.fe.blocks import Block, FineZone, graded, transfinite
+from meshwright.fe.grading import ContactZone, MeshDensity, across_divisions, face_divisions, least_rows, profile_rows
 from meshwright.fe.hexahedra import FaceSet, Floats, HexMesh, Ints, merge
 from meshwright.fe.profile import Rail, SectionCurves
 
@@ -33,21 +34,51 @@ class ToothSide:
     fillet: SectionCurves
     flank: SectionCurves
 
+    def root_end(self, values: Floats) -> Floats:
+        """Points (K, 3) at section values (K,) where the fillet meets the root land."""
+        return self.fillet.points(values, self.fillet.first(values)[:, None])[:, 0]
+
+
+Cut = Callable[[Floats], Floats]
+"""Section values (K,) to the points (K, 3), body frame, where the rim is cut from the neighbouring tooth."""
+
 
 @dataclass(frozen=True)
 class ToothForm:
-    """What a family says of its tooth.
+    """What a family says of its tooth, or of the portion of a thread that meets one tooth.
 
     left and right are so named that (left to right, root to tip, growing section coordinate) is right-handed.
-    faces: section coordinate of both end faces.  next_tooth: 4 x 4 motion of this tooth onto its right neighbour.
-    bore: points (..., 3) of the root to the points (..., 3) of the bore below them; None: a flank without a solid.
+    faces: section coordinate of both end faces.  left_cut, right_cut: where the rim ends and the neighbour's begins.
+    bore: points (..., 3) of the root to the points (..., 3) of the bore below them.  cut_ends: the end faces are cuts
+    through a body that goes on, as a worm does, and are held like its bore.
     """
 
     left: ToothSide
     right: ToothSide
     faces: tuple[float, float]
-    next_tooth: Floats
-    bore: Callable[[Floats], Floats] | None
+    left_cut: Cut
+    right_cut: Cut
+    bore: Callable[[Floats], Floats]
+    cut_ends: bool = False
+
+    @classmethod
+    def repeated(
+        cls,
+        left: ToothSide,
+        right: ToothSide,
+        faces: tuple[float, float],
+        next_tooth: Floats,
+        bore: Callable[[Floats], Floats],
+    ) -> ToothForm:
+        """A tooth whose right neighbour is the same one moved by the 4 x 4 motion ``next_tooth``."""
+
+        def right_cut(values: Floats) -> Floats:
+            return middle_of_land(right.root_end(values), moved(next_tooth, left.root_end(values)))
+
+        def left_cut(values: Floats) -> Floats:
+            return moved(np.linalg.inv(next_tooth), right_cut(values))
+
+        return cls(left, right, faces, left_cut, right_cut, bore)
 
     def side(self, name: Literal["left", "right"]) -> ToothSide:
         """The named side."""
@@ -55,34 +86,11 @@ class ToothForm:
 
 
 @dataclass(frozen=True)
-class ContactZone:
-    """Where a flank is loaded, body frame: centre, unit direction of the major axis, semi-axes in mm."""
+class Teeth:
+    """The teeth of a member: the form at a member angle in rad of its own pair, and the side in contact."""
 
-    side: Literal["left", "right"]
-    centre: Floats
-    major_direction: Floats
-    normal: Floats
-    semi_major: float
-    semi_minor: float
-
-
-@dataclass(frozen=True)
-class MeshDensity:
-    """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes."""
-
-    per_semi_minor: float = 3.5
-    per_semi_major: float = 5.0
-    first_layer: float = 0.33
-    profile_reach: float = 1.2
-    face_reach: float = 1.15
-    depth_reach: float = 1.0
-    growth: float = 2.2
-    fillet_rows: int = 6
-    land_rows: int = 1
-    rim_rows: int = 4
-    coarse_rows: tuple[int, int, int] = (2, 4, 6)
-    coarse_fillet_rows: int = 4
-    fillet_split: float = 0.5
+    at: Callable[[float], ToothForm]
+    working: Literal["left", "right"]
 
 
 @dataclass(frozen=True)
@@ -101,25 +109,35 @@ def face_rows(form: ToothForm, zone: ContactZone | None, density: MeshDensity) -
     """Least number of elements over the face width that the zone needs."""
     if zone is None:
         return density.coarse_rows[2]
-    return graded_count(form.faces[1] - form.faces[0], _face_zone(form, zone, density), density.growth)
+    return least_rows(form.side(zone.side).flank, form.faces, zone, density)
 
 
 def mesh_tooth(form: ToothForm, zone: ContactZone | None, density: MeshDensity, rows: int) -> ToothMesh:
     """Mesh a tooth with ``rows`` elements over the face width, graded to ``zone`` or coarse without one."""
     if zone is None:
         density = replace(density, fillet_rows=density.coarse_fillet_rows)
-    low, high = form.faces
-    even = np.linspace(low, high, rows + 1)
-    values = even if zone is None else low + graded(high - low, _face_zone(form, zone, density), density.growth, rows)
+    even = np.linspace(*form.faces, rows + 1)
+    loaded = None if zone is None else form.side(zone.side).flank
+    values = even if zone is None else face_divisions(loaded, form.faces, zone, density, rows)
     rails = {name: _SideRails(form.side(name), values) for name in ("left", "right")}
-    flank = {name: _even_rows(zone, form, rails, density) for name in ("left", "right")}
-    if zone is not None:
-        flank[zone.side] = _zone_rows(zone, rails[zone.side].flank, density)
+    flank = _flank_rows(zone, rails, density)
     upper = np.linspace(density.fillet_split, 1.0, density.fillet_rows // 2 + 1)
     profile = {name: rails[name].upper(upper, flank[name]) for name in rails}
-    across = _across(zone, profile, density)
+    across = across_divisions(zone, profile, density)
     sections = _Sections(form, rails, profile, across, even, density)
     return _assemble(sections, density)
+
+
+def _flank_rows(zone: ContactZone | None, rails: dict[str, _SideRails], density: MeshDensity) -> dict[str, Floats]:
+    """Fractions (K, J) of each flank's arc length: graded on the loaded side, as many even ones on the other."""
+    sections = len(rails["left"].flank.values)
+    if zone is None:
+        count, graded_rows = density.coarse_rows[1], {}
+    else:
+        graded_rows = {zone.side: profile_rows(rails[zone.side].flank, zone, density)}
+        count = graded_rows[zone.side].shape[1] - 1
+    even = np.broadcast_to(np.linspace(0.0, 1.0, count + 1), (sections, count + 1))
+    return {name: graded_rows.get(name, even) for name in rails}
 
 
 class _SideRails:
@@ -137,62 +155,6 @@ class _SideRails:
     def lower(self, fillet: Floats) -> Floats:
         """Points (K, J, 3) from the root land up to the middle of the fillet."""
         return self.fillet.at(np.broadcast_to(fillet, (len(self.fillet.values), len(fillet))))
-
-
-def _face_zone(form: ToothForm, zone: ContactZone, density: MeshDensity) -> FineZone:
-    section = form.side(zone.side).flank.section
-    ends = [section(zone.centre + sign * zone.semi_major * zone.major_direction) for sign in (-1.0, 1.0)]
-    reach = max(0.5 * abs(float(ends[1] - ends[0])), zone.semi_minor)
-    centre = float(section(zone.centre)) - form.faces[0]
-    return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major)
-
-
-def _zone_rows(zone: ContactZone, rail: Rail, density: MeshDensity) -> Floats:
-    """Fractions (K, J) of the flank's arc length that follow the major axis of the contact ellipse."""
-    centres = _zone_centres(zone, rail)
-    middle = int(np.argmin(np.abs(rail.values - float(rail.curves.section(zone.centre)))))
-    length, centre = float(rail.total[middle]), float(centres[middle])
-    size = zone.semi_minor / density.per_semi_minor
-    fine = FineZone(centre * length, density.profile_reach * zone.semi_minor, size)
-    base = graded(length, fine, density.growth) / length
-    shift = np.where(base < centre, base / centre, (1.0 - base) / (1.0 - centre))
-    return base + (centres[:, None] - centre) * shift
-
-
-def _zone_centres(zone: ContactZone, rail: Rail) -> Floats:
-    """Fraction (K,) of the arc length at which each section meets the major axis, held beyond its ends."""
-    minor = np.cross(zone.normal, zone.major_direction)
-    offset = (rail.table - zone.centre) @ minor
-    along = (rail.table - zone.centre) @ zone.major_direction
-    rows = np.arange(len(offset))
-    nearest = np.argmin(np.abs(offset), axis=1)
-    other = np.clip(nearest + np.where(offset[rows, nearest] * (offset[:, 0] - offset[:, -1]) > 0, 1, -1), 0, 128)
-    d0, d1 = offset[rows, nearest], offset[rows, other]
-    weight = np.where(d0 == d1, 0.0, np.clip(d0 / np.where(d0 == d1, 1.0, d0 - d1), 0.0, 1.0))
-    lengths = (1 - weight) * rail.lengths[rows, nearest] + weight * rail.lengths[rows, other]
-    fraction = lengths / rail.total
-    inside = np.flatnonzero(np.abs(along[rows, nearest]) <= 1.5 * zone.semi_major)
-    held = np.clip(rows, inside.min(), inside.max())
-    return fraction[held]
-
-
-def _even_rows(zone: ContactZone | None, form: ToothForm, rails: dict[str, _SideRails], density: MeshDensity) -> Floats:
-    """Fractions (K, J) of even rows, as many as the loaded side has."""
-    count = density.coarse_rows[1] if zone is None else _zone_rows(zone, rails[zone.side].flank, density).shape[1] - 1
-    sections = len(rails["left"].flank.values)
-    return np.broadcast_to(np.linspace(0.0, 1.0, count + 1), (sections, count + 1))
-
-
-def _across(zone: ContactZone | None, profile: dict[str, Floats], density: MeshDensity) -> Floats:
-    """Fractions from the left to the right side of the tooth."""
-    if zone is None:
-        return np.linspace(0.0, 1.0, density.coarse_rows[0] + 1)
-    gap = np.linalg.norm(profile["right"] - profile["left"], axis=-1)
-    thickness = float(np.median(gap))
-    reach = density.depth_reach * zone.semi_minor
-    fine = FineZone(0.0, reach, density.first_layer * zone.semi_minor)
-    inward = graded(thickness, fine, density.growth) / thickness
-    return inward if zone.side == "left" else 1.0 - inward[::-1]
 
 
 class _Sections:
@@ -216,8 +178,7 @@ class _Sections:
         self.right_line = _straight(form.bore(right[:, 0]), right[:, 0], depth)
         self.bore = _around(self.left_line[:, 0], self.right_line[:, 0], across)
         lower = np.linspace(0.0, density.fillet_split, density.fillet_rows - density.fillet_rows // 2 + 1)
-        right_cut = _cut(form, even)
-        left_cut = _moved(np.linalg.inv(form.next_tooth), right_cut)
+        right_cut, left_cut = form.right_cut(even), form.left_cut(even)
         land = np.linspace(0.0, 1.0, density.land_rows + 1)
         left_fillet, right_fillet = rails["left"].lower(lower), rails["right"].lower(lower)
         self.left_top = np.concatenate([_around(left_cut, left_fillet[:, 0], land)[:, :-1], left_fillet], axis=1)
@@ -230,11 +191,9 @@ class _Sections:
         self.right_bore = _around(self.right_line[:, 0], self.right_cut[:, 0], share)
 
 
-def _cut(form: ToothForm, values: Floats) -> Floats:
-    """Middle (K, 3) of the root land beyond the right side, where the rim is cut between two teeth."""
-    right = form.right.fillet.points(values, form.right.fillet.first(values)[:, None])[:, 0]
-    left = form.left.fillet.points(values, form.left.fillet.first(values)[:, None])[:, 0]
-    return _around(right, _moved(form.next_tooth, left), np.array([0.5]))[:, 0]
+def middle_of_land(right: Floats, left: Floats) -> Floats:
+    """Middle (K, 3) of the root land between a tooth's right side and its right neighbour's left one."""
+    return _around(right, left, np.array([0.5]))[:, 0]
 
 
 def _assemble(s: _Sections, density: MeshDensity) -> ToothMesh:
@@ -268,6 +227,7 @@ def _assemble(s: _Sections, density: MeshDensity) -> ToothMesh:
         "bore": _joined(side("centre", "j0"), side("left_rim", "j0"), side("right_rim", "j0")),
         "left_cut": side("left_rim", "i0"),
         "right_cut": side("right_rim", "i1"),
+        "ends": _joined(*(side(rim, end) for rim in ("centre", "left_rim", "right_rim") for end in ("k0", "k1"))),
     }
     return ToothMesh(mesh, faces)
 
@@ -301,5 +261,6 @@ def _around(start: Floats, end: Floats, fractions: Floats) -> Floats:
     return points
 
 
-def _moved(motion: Floats, points: Floats) -> Floats:
+def moved(motion: Floats, points: Floats) -> Floats:
+    """Points (..., 3) under a 4 x 4 motion."""
     return points @ motion[:3, :3].T + motion[:3, 3]

@@ -1,0 +1,136 @@
+"""How the loaded flank of a tooth is divided: finely within its contact ellipse, coarsely far from it.
+
+Sections of the tooth are lines of the mesh. An ellipse oblique to them is met by rows that follow the diameter
+conjugate to the sections: it halves every chord that a section cuts from the ellipse, so that rows and sections
+divide the ellipse as they would divide one whose axes they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from meshwright.fe.blocks import FineZone, graded, graded_count
+from meshwright.fe.hexahedra import Floats
+from meshwright.fe.profile import Rail, SectionCurves
+
+# Rows follow the ellipse so many semi-axes beyond its end, and keep their place further out.
+_FOLLOWED = 1.5
+# The ellipse's diameter is held so far, in parts of the arc length, from either end of the flank.
+_END_MARGIN = 0.05
+
+
+@dataclass(frozen=True)
+class ContactZone:
+    """Where a flank is loaded, body frame: centre, unit direction of the major axis, semi-axes in mm."""
+
+    side: Literal["left", "right"]
+    centre: Floats
+    major_direction: Floats
+    normal: Floats
+    semi_major: float
+    semi_minor: float
+
+    @property
+    def minor_direction(self) -> Floats:
+        """Unit direction (3,) of the minor axis."""
+        return np.cross(self.normal, self.major_direction)
+
+
+@dataclass(frozen=True)
+class MeshDensity:
+    """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes."""
+
+    per_semi_minor: float = 3.5
+    per_semi_major: float = 5.0
+    first_layer: float = 0.33
+    profile_reach: float = 1.2
+    face_reach: float = 1.15
+    depth_reach: float = 1.0
+    growth: float = 2.2
+    fillet_rows: int = 6
+    land_rows: int = 1
+    rim_rows: int = 4
+    coarse_rows: tuple[int, int, int] = (2, 4, 6)
+    coarse_fillet_rows: int = 4
+    fillet_split: float = 0.5
+
+
+def least_rows(flank: SectionCurves, faces: tuple[float, float], zone: ContactZone, density: MeshDensity) -> int:
+    """Least number of elements over the face width that the zone needs."""
+    return graded_count(faces[1] - faces[0], _face_zone(flank, faces, zone, density), density.growth)
+
+
+def face_divisions(
+    flank: SectionCurves, faces: tuple[float, float], zone: ContactZone, density: MeshDensity, rows: int
+) -> Floats:
+    """Section values (rows + 1,) from face to face."""
+    fine = _face_zone(flank, faces, zone, density)
+    return faces[0] + graded(faces[1] - faces[0], fine, density.growth, rows)
+
+
+def _face_zone(flank: SectionCurves, faces: tuple[float, float], zone: ContactZone, density: MeshDensity) -> FineZone:
+    """Extent of the ellipse across the sections: that of its two semi-axes together."""
+    semi_axes = [zone.semi_major * zone.major_direction, zone.semi_minor * zone.minor_direction]
+    halves = [0.5 * float(flank.section(zone.centre + d) - flank.section(zone.centre - d)) for d in semi_axes]
+    reach = float(np.hypot(*halves))
+    centre = float(flank.section(zone.centre)) - faces[0]
+    return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major)
+
+
+def profile_rows(rail: Rail, zone: ContactZone, density: MeshDensity) -> Floats:
+    """Fractions (K, J) of the flank's arc length in each section."""
+    centres = _diameter(rail, zone)
+    middle = int(np.argmin(np.abs(rail.values - float(rail.curves.section(zone.centre)))))
+    length, centre = float(rail.total[middle]), float(centres[middle])
+    chord = _half_chord(rail.table[middle], zone)
+    fine = FineZone(centre * length, density.profile_reach * chord, chord / density.per_semi_minor)
+    base = graded(length, fine, density.growth) / length
+    shift = np.where(base < centre, base / centre, (1.0 - base) / (1.0 - centre))
+    return base + (centres[:, None] - centre) * shift
+
+
+def _scaled(points: Floats, zone: ContactZone) -> Floats:
+    """Distance (...,) from the centre in semi-axes: 1 on the ellipse."""
+    offset = points - zone.centre
+    along, across = offset @ zone.major_direction, offset @ zone.minor_direction
+    return np.hypot(along / zone.semi_major, across / zone.semi_minor)
+
+
+def _half_chord(section: Floats, zone: ContactZone) -> float:
+    """Half the length that the ellipse has along a section (P, 3) through its centre."""
+    nearest = int(np.clip(np.argmin(np.linalg.norm(section - zone.centre, axis=1)), 1, len(section) - 2))
+    step = section[nearest + 1] - section[nearest - 1]
+    return float(np.linalg.norm(step) / _scaled(zone.centre + step, zone))
+
+
+def _diameter(rail: Rail, zone: ContactZone) -> Floats:
+    """Fraction (K,) of the arc length at which each section meets the diameter, held beyond its ends."""
+    rows = np.arange(len(rail.values))
+    square = _scaled(rail.table, zone) ** 2
+    nearest = np.clip(np.argmin(square, axis=1), 1, square.shape[1] - 2)
+    before, here, after = (square[rows, nearest + step] for step in (-1, 0, 1))
+    bend = before - 2.0 * here + after
+    offset = np.clip(0.5 * (before - after) / bend, -1.0, 1.0)
+    spacing = 0.5 * (rail.lengths[rows, nearest + 1] - rail.lengths[rows, nearest - 1])
+    fraction = (rail.lengths[rows, nearest] + offset * spacing) / rail.total
+    inside = np.flatnonzero(square.min(axis=1) <= _FOLLOWED**2)
+    held = np.clip(rows, inside.min(), inside.max())
+    return np.clip(fraction[held], _END_MARGIN, 1.0 - _END_MARGIN)
+
+
+def across_divisions(zone: ContactZone | None, profile: dict[str, Floats], density: MeshDensity) -> Floats:
+    """Fractions from the left to the right side of the tooth, fine below the loaded flank.
+
+    profile: points (K, J, 3) of both sides.
+    """
+    if zone is None:
+        return np.linspace(0.0, 1.0, density.coarse_rows[0] + 1)
+    gap = np.linalg.norm(profile["right"] - profile["left"], axis=-1)
+    thickness = float(np.median(gap))
+    reach = density.depth_reach * zone.semi_minor
+    fine = FineZone(0.0, reach, density.first_layer * zone.semi_minor)
+    inward = graded(thickness, fine, density.growth) / thickness
+    return inward if zone.side == "left" else 1.0 - inward[::-1]

@@ -1,0 +1,117 @@
+"""Sides of a tooth whose root is not generated: the flank joins the root by a circular arc in every section.
+
+The arc touches flank and root. Where the flank ends higher up, as a worm's does near its singular line, the arc
+starts at the end of the flank and the root is as much higher.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.optimize import elementwise
+
+from meshwright.fe.generated import constant
+from meshwright.fe.hexahedra import Floats
+from meshwright.fe.profile import Section, SectionCurves, Surface
+from meshwright.fe.tooth import ToothSide
+
+_SAMPLES = 17
+
+
+class Span(NamedTuple):
+    """Profile parameters of a flank at its deepest, at its middle and beyond its tip."""
+
+    root: float
+    middle: float
+    tip: float
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Root and tip of a tooth as its sections show them; points (..., 3) in the body frame, mm.
+
+    across: unit normals (..., 3) of the sections.  above_root: height (...,) above the root and its unit gradient
+    (..., 3) within the section.  below_tip: height (...,) left to the tip.  radius: of the arc between root and flank.
+    """
+
+    across: Callable[[Floats], Floats]
+    above_root: Callable[[Floats], tuple[Floats, Floats]]
+    below_tip: Callable[[Floats], Floats]
+    radius: float
+
+
+def rounded_side(
+    surface: Surface, section: Section, span: Span, faces: tuple[float, float], outline: Outline
+) -> ToothSide:
+    """The side of a generated flank between its rounding at the root and its tip.
+
+    Raises ValueError where the flank does not reach the tip.
+    """
+    values = np.linspace(*faces, _SAMPLES)
+    whole = SectionCurves(surface, section, constant(span.root), constant(span.tip))
+    arcs = _Arcs(whole, outline)
+    tip = _crossing(lambda u, s: outline.below_tip(_at(whole, s, u)[0]), values, (span.middle, span.tip))
+    joint = np.full_like(values, span.root)
+    reaches = arcs.overlap(joint, values) < 0.0
+    if reaches.any():
+        joint[reaches] = _crossing(arcs.overlap, values[reaches], (span.root, span.middle))
+    joint_of = CubicSpline(values, joint)
+    flank = SectionCurves(surface, section, joint_of, CubicSpline(values, tip))
+    fillet = SectionCurves(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
+    return ToothSide(fillet, flank)
+
+
+def _crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[float, float]) -> Floats:
+    """Profile parameter (K,) between ``ends`` at which the function of it and of the section (K,) vanishes."""
+    found = elementwise.find_root(function, ends, args=(values,), tolerances={"xatol": 1e-13, "xrtol": 1e-13})
+    if not np.all(found.success):
+        raise ValueError("the flank does not reach its tip in every section of its face")
+    return found.x
+
+
+def _at(curves: SectionCurves, values: Floats, profile: Floats) -> tuple[Floats, Floats]:
+    """Points and normals (K, 3), (K, 3) at section values and profile parameters (K,)."""
+    face = curves.solve(values, profile[:, None])
+    points, normals = curves.surface(profile[:, None], face)
+    return points[:, 0], normals[:, 0]
+
+
+@dataclass(frozen=True)
+class _Arcs:
+    """The arcs that touch a flank at a profile parameter, one in each section."""
+
+    flank: SectionCurves
+    outline: Outline
+
+    def centre(self, profile: Floats, values: Floats) -> tuple[Floats, Floats]:
+        """Centres (K, 3) and the flank's unit normals (K, 3) within the sections."""
+        points, normals = _at(self.flank, values, profile)
+        across = self.outline.across(points)
+        within = normals - np.sum(normals * across, axis=-1, keepdims=True) * across
+        within = within / np.linalg.norm(within, axis=-1, keepdims=True)
+        return points + self.outline.radius * within, within
+
+    def overlap(self, profile: Floats, values: Floats) -> Floats:
+        """Height (K,) of the arcs above the root: 0 where they touch it."""
+        return self.outline.above_root(self.centre(profile, values)[0])[0] - self.outline.radius
+
+    def surface(self, joint: Callable[[Floats], Floats]) -> Surface:
+        """The arcs as a surface: (share of the arc from root to flank, section value) to points and normals."""
+
+        def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+            profile, face = np.broadcast_arrays(profile, face)
+            values, which = np.unique(face, return_inverse=True)
+            centre, within = self.centre(joint(values), values)
+            _, upward = self.outline.above_root(centre)
+            turn = np.arccos(np.clip(np.sum(upward * within, axis=-1), -1.0, 1.0))
+            which = which.reshape(face.shape)
+            whole = turn[which]
+            shares = [np.sin((1.0 - profile) * whole) / np.sin(whole), np.sin(profile * whole) / np.sin(whole)]
+            normals = shares[0][..., None] * upward[which] + shares[1][..., None] * within[which]
+            return centre[which] - self.outline.radius * normals, normals
+
+        return evaluate
