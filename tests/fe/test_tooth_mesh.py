@@ -7,7 +7,7 @@ from spherical_gear import SphericalGear
 from meshwright.fe.body import PlacedTooth, mesh_body
 from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hexahedra import FACES
-from meshwright.fe.tooth import face_rows, mesh_tooth
+from meshwright.fe.tooth import Stations, face_rows, mesh_tooth, section_values
 
 PINION = SphericalGear(33, 1, 66.0)
 WHEELS = {
@@ -29,7 +29,8 @@ def zone_of(gear, height=0.0, z=0.0):
 
 def tooth_of(gear, zone):
     form = gear.form()
-    return mesh_tooth(form, zone, DENSITY, face_rows(form, zone, DENSITY))
+    values = section_values(form, zone, DENSITY, face_rows(form, zone, DENSITY))
+    return mesh_tooth(form, zone, DENSITY, *Stations.between([values]))
 
 
 @pytest.mark.parametrize("gear", GEARS, ids=["pinion", *WHEELS])

@@ -55,7 +55,7 @@ def run(options):
             positions.append(_position(fe, prepared, ccx, settings))
     if len(positions) > 1:
         _picture_of_cycle(fe, positions, folder)
-    _write(options, positions)
+    _write(options, gear, positions)
     return 0 if all(_accepted(position) for position in positions) else 1
 
 
@@ -81,12 +81,13 @@ def _picture_of_cycle(fe, positions, folder):
             position["files"]["stress_over_angle"] = str(path)
 
 
-def _write(options, positions):
+def _write(options, gear, positions):
+    positions = [position | {"assumed_blank": gear.assumed} for position in positions]
     whole = {"schema": positions[0]["schema"], "torque_nm": options.torque_nm, "points": positions}
     if options.json:
         write_json(options.json, positions[0] if len(positions) == 1 else whole)
     else:
-        write_text("-", "".join(map(_page, positions)))
+        write_text("-", loading.blank_note(gear) + "".join(map(_page, positions)))
 
 
 def _page(position):

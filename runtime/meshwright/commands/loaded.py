@@ -30,11 +30,17 @@ def run(options):
         for angle in angles:
             step(f"pinion at {np.degrees(angle):.4g} deg")
             points.append(_point(fe, gear, angle, pairs, load, compliance))
-    document = {"schema": SCHEMA, "torque_nm": options.torque_nm, "torque_on": load.member, "points": points}
+    document = {
+        "schema": SCHEMA,
+        "torque_nm": options.torque_nm,
+        "torque_on": load.member,
+        "assumed_blank": gear.assumed,
+        "points": points,
+    }
     if options.json:
         write_json(options.json, document)
     else:
-        write_text("-", _table(document))
+        write_text("-", loading.blank_note(gear) + _table(document))
     return 0 if all(point["pairs"] for point in points) else 1
 
 

@@ -6,15 +6,18 @@ from meshwright.commands import options as common
 from meshwright.errors import UsageError
 
 #: Pairs that can share the load at once, and the member whose torque is usually stated, by family.
-PAIRS = {"spherical": 3, "face-worm": 5}
-STATED_TORQUE = {"spherical": "pinion", "face-worm": "wheel"}
+PAIRS = {"spherical": 3, "face-worm": 5, "cylindrical-worm": 5}
+STATED_TORQUE = {"spherical": "pinion", "face-worm": "wheel", "cylindrical-worm": "wheel"}
 
 
 def add_arguments(parser):
     common.add_design(parser)
-    parser.add_argument("--torque-nm", type=float, required=True, metavar="T", help="torque, N m, above zero")
+    stated = "on the pinion of spherical gears, on the wheel (gear) of worm drives"
     parser.add_argument(
-        "--torque-on", choices=("pinion", "wheel"), help="whose torque; default: wheel of a worm gear, else pinion"
+        "--torque-nm", type=float, required=True, metavar="T", help=f"torque, N m, above zero; {stated}"
+    )
+    parser.add_argument(
+        "--torque-on", choices=("pinion", "wheel"), help="whose torque instead; the rim of the other member is held"
     )
     parser.add_argument("--pairs", type=int, metavar="N", help="tooth pairs modelled; default: as many as can share")
     parser.add_argument(
@@ -42,6 +45,12 @@ def loaded_gears(fe, options):
     member = options.torque_on or STATED_TORQUE[drive.design.family]
     load = fe.model.Load(1000.0 * options.torque_nm, member)
     return drive, gear, load, options.pairs or PAIRS[drive.design.family]
+
+
+def blank_note(gear):
+    """A line that says what of the blank is a standard proportion, empty where the design gives all of it."""
+    sizes = ", ".join(f"{key} = {value:.6g}" for key, value in gear.assumed.items())
+    return f"assumed where [blank] is open: {sizes}\n" if sizes else ""
 
 
 def compliances(fe, gear, step):

@@ -74,18 +74,23 @@ def _blend(first: Floats, last: Floats, across_first: Floats, across_last: Float
 
 @dataclass(frozen=True)
 class FineZone:
-    """Where an edge is divided finely: centre and half width as lengths along it, interval size in the zone."""
+    """Where an edge is divided finely: centre and half width as lengths along it, interval size in the zone.
+
+    largest: interval size anywhere.
+    """
 
     centre: float
     half_width: float
     size: float
+    largest: float = np.inf
 
 
 def graded(length: float, zone: FineZone, growth: float, count: int | None = None) -> Floats:
     """(count + 1,) positions from 0 to length, one of them the zone's centre if that lies inside.
 
     Intervals are at most ``zone.size`` in the zone; outside it each exceeds its neighbour by the factor ``growth``
-    at most.  A ``count`` above the least possible one shortens the intervals; a smaller one is a ValueError.
+    at most, up to ``zone.largest``.  A ``count`` above the least possible one shortens the intervals; a smaller one
+    is a ValueError.
     """
     below, above = _counts(length, zone, growth)
     needed = below + above
@@ -129,5 +134,7 @@ def _intervals_up_to(position: Floats, zone: FineZone, growth: float) -> Floats:
     slope = np.log(growth)
     distance = np.abs(position - zone.centre)
     inside = np.minimum(distance, zone.half_width) / zone.size
-    outside = np.log1p(slope * np.maximum(distance - zone.half_width, 0.0) / zone.size) / slope
+    beyond = np.maximum(distance - zone.half_width, 0.0)
+    growing = np.minimum(beyond, max(zone.largest - zone.size, 0.0) / slope)
+    outside = np.log1p(slope * growing / zone.size) / slope + (beyond - growing) / max(zone.largest, zone.size)
     return np.sign(position - zone.centre) * (inside + outside)

@@ -10,7 +10,7 @@ import numpy as np
 from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hexahedra import FaceSet, Floats, HexMesh, Ints, merge
 from meshwright.fe.pair import Member
-from meshwright.fe.tooth import ToothForm, ToothMesh, face_rows, mesh_tooth, moved
+from meshwright.fe.tooth import Stations, ToothForm, ToothMesh, face_rows, mesh_tooth, moved, section_values
 
 _MERGE_TOLERANCE = 1e-8
 
@@ -54,7 +54,8 @@ def tooth_order(member: Member, angle: float, numbers: Sequence[int]) -> list[in
 def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     """Mesh neighbouring teeth from left to right, each graded to its own zone."""
     rows = max(face_rows(tooth.form, tooth.zone, density) for tooth in teeth)
-    single = [mesh_tooth(tooth.form, tooth.zone, density, rows) for tooth in teeth]
+    stations = Stations.between([section_values(tooth.form, tooth.zone, density, rows) for tooth in teeth])
+    single = [mesh_tooth(t.form, t.zone, density, at) for t, at in zip(teeth, stations, strict=True)]
     placed = [
         HexMesh(moved(place.motion, tooth.mesh.nodes), tooth.mesh.elements)
         for tooth, place in zip(single, teeth, strict=True)

@@ -20,6 +20,7 @@ from meshwright.fe.hexahedra import Floats, nodal_areas
 from meshwright.fe.pair import Member
 
 _PATCH = 2
+_NEIGHBOURS = 2
 _DENSITY = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
 
 
@@ -28,14 +29,23 @@ class ToothCompliance:
     """Smooth part of the compliance of the working flank of a member.
 
     profile, face: patch centres, as fractions of the flank's arc length (P,) and of its face width (Q,).
-    own: (P Q, P Q) mm/N between patches of one tooth; later: (P Q, P Q) displacement of the tooth one pitch
-    later (``pairs_later`` + 1) by load on this one; its transpose is the reverse.
+    own: (P Q, P Q) mm/N between patches of one tooth; later: for one, two, … pitches the (P Q, P Q) displacement of
+    the tooth so much later (``pairs_later`` + 1, + 2, …) by load on this one; its transpose is the reverse.
     """
 
     profile: Floats
     face: Floats
     own: Floats
-    later: Floats
+    later: tuple[Floats, ...]
+
+    def between(self, seen: int, pressed: int) -> Floats | None:
+        """Displacement of the tooth of one pair by load on that of another; None beyond the teeth considered."""
+        distance = seen - pressed
+        if distance == 0:
+            return self.own
+        if abs(distance) > len(self.later):
+            return None
+        return self.later[distance - 1] if distance > 0 else self.later[-distance - 1].T
 
     def weights(self, profile: Floats, face: Floats) -> Floats:
         """Bilinear weights (N, P Q) of the patches at N places on the flank; held constant past the outer centres."""
@@ -43,23 +53,27 @@ class ToothCompliance:
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
 
 
-def tooth_compliance(member: Member) -> ToothCompliance:
-    """Compute it from three neighbouring teeth whose rim is held at the bore and at the outer cuts.
+def tooth_compliance(member: Member, neighbours: int = _NEIGHBOURS) -> ToothCompliance:
+    """Compute it from a tooth and its neighbours on either side, whose rim is held at the bore and the outer cuts.
 
     Of a thread it is that of the portion at member angle 0.
     """
-    order = tooth_order(member, 0.0, (-1, 0, 1))
+    order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
     body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _DENSITY)
-    later = order.index(1)
     name = f"flank_{member.working}"
-    patches = [_patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), _DENSITY) for tooth in body.teeth]
-    forces = np.moveaxis(patches[1], 0, -1)
+
+    def patches(later: int) -> Floats:
+        tooth = body.teeth[order.index(later)]
+        return _patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), _DENSITY)
+
+    forces = np.moveaxis(patches(0), 0, -1)
     moved = factorise(body.mesh, member.material, body.rim).displacements(-forces)
-    own, neighbour = (-np.einsum("pnd,ndq->pq", patches[k], moved) for k in (1, later))
+    whole, *later = (-np.einsum("pnd,ndq->pq", patches(k), moved) for k in range(neighbours + 1))
     shape = (_DENSITY.coarse_rows[1] // _PATCH, _DENSITY.coarse_rows[2] // _PATCH)
-    own = own - _half_space(member, body.mesh.nodes[body.mesh.face_nodes(body.teeth[1][name])], shape)
+    corners = body.mesh.nodes[body.mesh.face_nodes(body.teeth[order.index(0)][name])]
+    own = whole - _half_space(member, corners, shape)
     centres = [(np.arange(count) + 0.5) / count for count in shape]
-    return ToothCompliance(centres[0], centres[1], 0.5 * (own + own.T), neighbour)
+    return ToothCompliance(centres[0], centres[1], 0.5 * (own + own.T), tuple(later))
 
 
 def _patch_vectors(nodes: Floats, quads: Floats, density: MeshDensity) -> Floats:

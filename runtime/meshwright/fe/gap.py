@@ -13,6 +13,8 @@ from meshwright.fe.profile import SectionCurves
 _NEWTON_STEPS = 20
 _STEP_TOLERANCE = 1e-13
 _DIFFERENCE = 1e-5
+# A flank with an edge near the grid may leave some of the normals unmet.
+_PIERCED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -80,12 +82,13 @@ class _Footprint:
         plane_body = plane @ rotation
         profile, face = _pierce(curves, form.faces, feet_body, plane_body)
         points = curves.surface(profile, face)[0]
+        pierced = np.abs((points - feet_body) @ plane_body[:2].T).max(axis=1) < _PIERCED
         section = curves.section(points)
         low, high = form.faces
         held = np.clip(section, low, high)
         first, last = curves.first(held), curves.last(held)
         fraction = (profile - first) / (last - first)
-        inside = (section >= low) & (section <= high) & (fraction >= 0.0) & (fraction <= 1.0)
+        inside = pierced & (section >= low) & (section <= high) & (fraction >= 0.0) & (fraction <= 1.0)
         # A cell off the flank has no pressure; its gap only has to be finite.
         place = np.stack([fraction, (section - low) / (high - low)], axis=1)
         return _Footprint(points @ rotation.T + pose[:3, 3], inside, place)

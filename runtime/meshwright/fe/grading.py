@@ -18,6 +18,8 @@ from meshwright.fe.profile import Rail, SectionCurves
 
 # Rows follow the ellipse so many semi-axes beyond its end, and keep their place further out.
 _FOLLOWED = 1.5
+# Rows that make way for those of the ellipse keep this part of their spacing.
+_LEAST_SPACING = 0.35
 # The ellipse's diameter is held so far, in parts of the arc length, from either end of the flank.
 _END_MARGIN = 0.05
 
@@ -41,7 +43,10 @@ class ContactZone:
 
 @dataclass(frozen=True)
 class MeshDensity:
-    """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes."""
+    """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes.
+
+    largest_section: longest element along the face, in parts of the face width.
+    """
 
     per_semi_minor: float = 3.5
     per_semi_major: float = 5.0
@@ -49,10 +54,11 @@ class MeshDensity:
     profile_reach: float = 1.2
     face_reach: float = 1.15
     depth_reach: float = 1.0
-    growth: float = 2.2
+    growth: float = 3.0
+    largest_section: float = 1.0 / 6.0
     fillet_rows: int = 6
     land_rows: int = 1
-    rim_rows: int = 4
+    rim_rows: int = 3
     coarse_rows: tuple[int, int, int] = (2, 4, 6)
     coarse_fillet_rows: int = 4
     fillet_split: float = 0.5
@@ -77,7 +83,8 @@ def _face_zone(flank: SectionCurves, faces: tuple[float, float], zone: ContactZo
     halves = [0.5 * float(flank.section(zone.centre + d) - flank.section(zone.centre - d)) for d in semi_axes]
     reach = float(np.hypot(*halves))
     centre = float(flank.section(zone.centre)) - faces[0]
-    return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major)
+    largest = density.largest_section * (faces[1] - faces[0])
+    return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major, largest)
 
 
 def profile_rows(rail: Rail, zone: ContactZone, density: MeshDensity) -> Floats:
@@ -88,8 +95,20 @@ def profile_rows(rail: Rail, zone: ContactZone, density: MeshDensity) -> Floats:
     chord = _half_chord(rail.table[middle], zone)
     fine = FineZone(centre * length, density.profile_reach * chord, chord / density.per_semi_minor)
     base = graded(length, fine, density.growth) / length
-    shift = np.where(base < centre, base / centre, (1.0 - base) / (1.0 - centre))
-    return base + (centres[:, None] - centre) * shift
+    return _followed(base, centre, chord / length, centres)
+
+
+def _followed(base: Floats, centre: float, half_chord: float, centres: Floats) -> Floats:
+    """Fractions (K, J): rows ``base`` (J,), fine about ``centre``, led along with the diameter (K,).
+
+    Rows of the ellipse keep their spacing, those beyond yield, but not to less than a part of theirs: where the way
+    to the end of the flank is too short for that, fewer rows keep it.
+    """
+    moved = (centres - centre)[:, None]
+    room = np.where(moved > 0.0, 1.0 - centre, centre) - np.abs(moved) / (1.0 - _LEAST_SPACING)
+    kept = np.clip(half_chord, 0.0, np.maximum(room, 0.0))
+    below, above = base / (centre - kept), (1.0 - base) / (1.0 - centre - kept)
+    return base + moved * np.minimum(1.0, np.minimum(below, above))
 
 
 def _scaled(points: Floats, zone: ContactZone) -> Floats:

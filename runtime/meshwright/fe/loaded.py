@@ -147,9 +147,8 @@ def _smooth(
     total = np.zeros((offsets[-1], offsets[-1]))
     for name, tooth in compliance.items():
         weights = [tooth.weights(g.place[name][:, 0], g.place[name][:, 1]) for g in grids]
-        blocks = {0: tooth.own, 1: tooth.later, -1: tooth.later.T}
         for seen, pressed in product(range(len(grids)), repeat=2):
-            block = blocks.get(contacts[seen].pairs_later - contacts[pressed].pairs_later)
+            block = tooth.between(contacts[seen].pairs_later, contacts[pressed].pairs_later)
             if block is not None:
                 rows, columns = (slice(offsets[k], offsets[k + 1]) for k in (seen, pressed))
                 total[rows, columns] += weights[seen] @ block @ weights[pressed].T

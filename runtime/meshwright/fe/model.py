@@ -86,7 +86,7 @@ def build_model(
 ) -> PairModel:
     """Model ``pairs`` tooth pairs around a pinion angle and ``idle`` more teeth of each member on either side.
 
-    forces: expected normal force in N of each pair that touches, by which its mesh is graded.  A tooth that touches
+    forces: expected normal force in N of each pair that touches, by which its mesh is graded.  A tooth that carries
     nothing gets a coarse mesh.  Raises ValueError if no pair touches at this angle.
     """
     contacts = touches(gear, pinion_angle, pairs)
@@ -97,12 +97,12 @@ def build_model(
     least = _LEAST_FORCE * float(max(forces))
     hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
     angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
+    carrying = [(c, h) for c, h, f in zip(contacts, hertz, forces, strict=True) if f > 0.0]
     numbers = pair_numbers(gear, pairs)
     numbers = range(numbers.start - idle, numbers.stop + idle)
     orders = {name: tooth_order(member, angles[name], numbers) for name, member in _members(gear).items()}
     bodies = {
-        name: mesh_body(_teeth(gear, name, angles[name], orders[name], contacts, hertz), density)
-        for name in _members(gear)
+        name: mesh_body(_teeth(gear, name, angles[name], orders[name], carrying), density) for name in _members(gear)
     }
     lead = int(np.argmax(forces))
     start = direction * _START_OVERLAP * hertz[lead].approach / arms[lead]
@@ -136,12 +136,11 @@ def _teeth(
     name: BodyName,
     angle: float,
     order: list[int],
-    contacts: tuple[PairTouch, ...],
-    hertz: tuple[HertzContact, ...],
+    carrying: list[tuple[PairTouch, HertzContact]],
 ) -> list[PlacedTooth]:
     member = _members(gear)[name]
     zones = {}
-    for contact, ellipse in zip(contacts, hertz, strict=True):
+    for contact, ellipse in carrying:
         touch = contact.touch
         touched = touch.pinion_angle if name == "pinion" else touch.wheel_angle
         to_body = np.linalg.inv(member.pose(touched))

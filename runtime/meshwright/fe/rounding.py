@@ -59,6 +59,8 @@ def rounded_side(
     reaches = arcs.overlap(joint, values) < 0.0
     if reaches.any():
         joint[reaches] = _crossing(arcs.overlap, values[reaches], (span.root, span.middle))
+    if np.any(outline.below_tip(_at(whole, values, joint)[0]) <= 0.0):
+        raise ValueError("the flank is on another sheet in some section of its face")
     joint_of = CubicSpline(values, joint)
     flank = SectionCurves(surface, section, joint_of, CubicSpline(values, tip))
     fillet = SectionCurves(arcs.surface(joint_of), section, constant(0.0), constant(1.0))

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshwright.drive import Drive
 from meshwright.errors import DesignError, UsageError
-from meshwright.fe import face_worm, spherical
+from meshwright.fe import cylindrical_worm, face_worm, spherical
 from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
@@ -30,12 +30,17 @@ MemberName = Literal["pinion", "wheel"]
 
 @dataclass(frozen=True)
 class _Family:
-    """Key of the module; teeth of each member, given the rim's depth in mm; root radii in mm that bound the rim."""
+    """What a family says of its teeth.
+
+    module: key of the module.  pinion, wheel: teeth of each member, given the rim's depth in mm.  root_radii: in mm,
+    that bound the rim.  completed: the drive with a whole blank, and what of it the design leaves open.
+    """
 
     module: str
     pinion: Callable[[Drive, float], Teeth]
     wheel: Callable[[Drive, float], Teeth]
     root_radii: Callable[[Drive], dict[str, float]]
+    completed: Callable[[Drive], tuple[Drive, dict[str, float]]] = lambda drive: (drive, {})
 
 
 def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
@@ -48,6 +53,7 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
         known = ", ".join(_FAMILIES)
         raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives; there are {known}")
     family = _FAMILIES[drive.design.family]
+    drive, assumed = family.completed(drive)
     if rim_thickness is not None:
         check_rim(rim_thickness, family.root_radii(drive))
     else:
@@ -59,7 +65,17 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     pinion = _member(drive, "pinion", family.pinion(drive, rim_thickness), materials.pinion)
     wheel = _member(drive, "wheel", family.wheel(drive, rim_thickness), materials.wheel)
     sense = 1 if drive.design.flank > 0 else -1
-    return GearPair(pinion, wheel, drive.ratio, sense, cache(lambda angle: _touch(drive, angle)))
+    touch = cache(lambda angle: _touch(drive, angle))
+    return GearPair(pinion, wheel, drive.ratio, sense, touch, _middle_pair(drive), assumed)
+
+
+def _middle_pair(drive: Drive) -> int:
+    """0 if the reference pair touches at pinion angle 0, else the pair in the middle of its contact, if that has ends."""
+    window = drive.contact_ratio()
+    ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
+    if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
+        return 0
+    return -round(0.5 * sum(ends) / drive.pitch())
 
 
 def _check_point_contact(drive: Drive) -> None:
@@ -119,5 +135,17 @@ _FAMILIES = {
         lambda drive, rim: spherical.gear_teeth(drive, "wheel", rim),
         spherical.root_radii,
     ),
-    "face-worm": _Family("axial_module_mm", face_worm.worm_teeth, face_worm.gear_teeth, face_worm.root_radii),
+    "face-worm": _Family(
+        "axial_module_mm",
+        face_worm.worm_teeth,
+        face_worm.gear_teeth,
+        face_worm.root_radii,
+    ),
+    "cylindrical-worm": _Family(
+        "axial_module_mm",
+        cylindrical_worm.worm_teeth,
+        cylindrical_worm.wheel_teeth,
+        cylindrical_worm.root_radii,
+        cylindrical_worm.completed,
+    ),
 }

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -112,19 +113,38 @@ def face_rows(form: ToothForm, zone: ContactZone | None, density: MeshDensity) -
     return least_rows(form.side(zone.side).flank, form.faces, zone, density)
 
 
-def mesh_tooth(form: ToothForm, zone: ContactZone | None, density: MeshDensity, rows: int) -> ToothMesh:
-    """Mesh a tooth with ``rows`` elements over the face width, graded to ``zone`` or coarse without one."""
+def section_values(form: ToothForm, zone: ContactZone | None, density: MeshDensity, rows: int) -> Floats:
+    """Section coordinates (rows + 1,) from face to face, graded to the zone or even without one."""
+    if zone is None:
+        return np.linspace(*form.faces, rows + 1)
+    return face_divisions(form.side(zone.side).flank, form.faces, zone, density, rows)
+
+
+@dataclass(frozen=True)
+class Stations:
+    """Section coordinates (K,) of a tooth and of the cuts on either side, between which the rim leads over."""
+
+    own: Floats
+    left_cut: Floats
+    right_cut: Floats
+
+    @classmethod
+    def between(cls, teeth: list[Floats]) -> list[Stations]:
+        """Those of neighbours from left to right: a cut takes the mean of both, the outer ones their tooth's own."""
+        cuts = [teeth[0], *(0.5 * (a + b) for a, b in pairwise(teeth)), teeth[-1]]
+        return [cls(own, left, right) for own, left, right in zip(teeth, cuts[:-1], cuts[1:], strict=True)]
+
+
+def mesh_tooth(form: ToothForm, zone: ContactZone | None, density: MeshDensity, stations: Stations) -> ToothMesh:
+    """Mesh a tooth at given sections, its rows graded to ``zone`` or coarse without one."""
     if zone is None:
         density = replace(density, fillet_rows=density.coarse_fillet_rows)
-    even = np.linspace(*form.faces, rows + 1)
-    loaded = None if zone is None else form.side(zone.side).flank
-    values = even if zone is None else face_divisions(loaded, form.faces, zone, density, rows)
-    rails = {name: _SideRails(form.side(name), values) for name in ("left", "right")}
+    rails = {name: _SideRails(form.side(name), stations.own) for name in ("left", "right")}
     flank = _flank_rows(zone, rails, density)
     upper = np.linspace(density.fillet_split, 1.0, density.fillet_rows // 2 + 1)
     profile = {name: rails[name].upper(upper, flank[name]) for name in rails}
     across = across_divisions(zone, profile, density)
-    sections = _Sections(form, rails, profile, across, even, density)
+    sections = _Sections(form, profile, across, stations, density)
     return _assemble(sections, density)
 
 
@@ -152,9 +172,22 @@ class _SideRails:
         below = self.fillet.at(np.broadcast_to(fillet, (len(flank), len(fillet))))
         return np.concatenate([below, self.flank.at(flank)[:, 1:]], axis=1)
 
-    def lower(self, fillet: Floats) -> Floats:
-        """Points (K, J, 3) from the root land up to the middle of the fillet."""
-        return self.fillet.at(np.broadcast_to(fillet, (len(self.fillet.values), len(fillet))))
+
+def _root_edge(side: ToothSide, cut: Floats, cut_values: Floats, own: Floats, density: MeshDensity) -> Floats:
+    """Points (K, J, 3) from a cut over the land and up to the middle of the fillet.
+
+    The sections of the cut pass evenly into those of the tooth.
+    """
+    fillet = np.linspace(0.0, density.fillet_split, density.fillet_rows - density.fillet_rows // 2 + 1)
+    land = density.land_rows
+    shares = np.arange(land, land + len(fillet)) / (land + len(fillet) - 1.0)
+    columns = [
+        side.fillet.rail(cut_values + share * (own - cut_values)).at(np.full((len(own), 1), fraction))
+        for share, fraction in zip(shares, fillet, strict=True)
+    ]
+    on_fillet = np.concatenate(columns, axis=1)
+    on_land = _around(cut, on_fillet[:, 0], np.linspace(0.0, 1.0, land + 1))
+    return np.concatenate([on_land[:, :-1], on_fillet], axis=1)
 
 
 class _Sections:
@@ -163,10 +196,9 @@ class _Sections:
     def __init__(
         self,
         form: ToothForm,
-        rails: dict[str, _SideRails],
         profile: dict[str, Floats],
         across: Floats,
-        even: Floats,
+        stations: Stations,
         density: MeshDensity,
     ) -> None:
         left, right = profile["left"], profile["right"]
@@ -177,13 +209,9 @@ class _Sections:
         self.left_line = _straight(form.bore(left[:, 0]), left[:, 0], depth)
         self.right_line = _straight(form.bore(right[:, 0]), right[:, 0], depth)
         self.bore = _around(self.left_line[:, 0], self.right_line[:, 0], across)
-        lower = np.linspace(0.0, density.fillet_split, density.fillet_rows - density.fillet_rows // 2 + 1)
-        right_cut, left_cut = form.right_cut(even), form.left_cut(even)
-        land = np.linspace(0.0, 1.0, density.land_rows + 1)
-        left_fillet, right_fillet = rails["left"].lower(lower), rails["right"].lower(lower)
-        self.left_top = np.concatenate([_around(left_cut, left_fillet[:, 0], land)[:, :-1], left_fillet], axis=1)
-        back = right_fillet[:, ::-1]
-        self.right_top = np.concatenate([back, _around(back[:, -1], right_cut, land)[:, 1:]], axis=1)
+        left_cut, right_cut = form.left_cut(stations.left_cut), form.right_cut(stations.right_cut)
+        self.left_top = _root_edge(form.left, left_cut, stations.left_cut, stations.own, density)
+        self.right_top = _root_edge(form.right, right_cut, stations.right_cut, stations.own, density)[:, ::-1]
         self.left_cut = _straight(form.bore(left_cut), left_cut, depth)
         self.right_cut = _straight(form.bore(right_cut), right_cut, depth)
         share = np.linspace(0.0, 1.0, self.left_top.shape[1])
