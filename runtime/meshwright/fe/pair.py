@@ -69,8 +69,8 @@ class GearPair:
 
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
     touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair: the pair
-    (``pairs_later``) about which pairs are counted, one that touches at pinion angle 0.  assumed: sizes in mm or rad of the
-    blank that the design leaves open, as the solids have them.
+    (``pairs_later``) about which pairs are counted, one that touches at pinion angle 0.  assumed: sizes of the blank
+    in mm that the design leaves open, as the solids have them.
     """
 
     pinion: Member

@@ -70,7 +70,7 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
 
 
 def _middle_pair(drive: Drive) -> int:
-    """0 if the reference pair touches at pinion angle 0, else the pair in the middle of its contact, if that has ends."""
+    """0 if the reference pair touches at pinion angle 0, else the pair then in the middle of its contact."""
     window = drive.contact_ratio()
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
     if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
