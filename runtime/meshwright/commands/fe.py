@@ -46,7 +46,7 @@ def run(options):
     folder = Path(options.folder or f"{Path(options.design).stem}-fe")
     positions = []
     with progress(2 * len(angles) + 2) as step:
-        compliance = loading.compliances(fe, gear, step)
+        compliance = loading.compliances(fe, gear, pairs, step)
         for angle in angles:
             step(f"mesh at {np.degrees(angle):.4g} deg")
             place = folder / f"{options.torque_nm:g}nm_{np.degrees(angle):+.4f}deg"

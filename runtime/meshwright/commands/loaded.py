@@ -25,7 +25,7 @@ def run(options):
     drive, gear, load, pairs = loading.loaded_gears(fe, options)
     angles = common.angles_of(options, drive)
     with progress(len(angles) + 3) as step:
-        compliance = loading.compliances(fe, gear, step)
+        compliance = loading.compliances(fe, gear, pairs, step)
         points = []
         for angle in angles:
             step(f"pinion at {np.degrees(angle):.4g} deg")

@@ -53,10 +53,10 @@ def blank_note(gear):
     return f"assumed where [blank] is open: {sizes}\n" if sizes else ""
 
 
-def compliances(fe, gear, step):
-    """Smooth tooth compliance of both members."""
+def compliances(fe, gear, pairs, step):
+    """Smooth tooth compliance of both members, for a model of so many pairs."""
     found = {}
     for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel)):
         step(f"teeth of the {name}")
-        found[name] = fe.compliance.tooth_compliance(member)
+        found[name] = fe.compliance.tooth_compliance(member, fe.compliance.neighbours_of(pairs))
     return found

@@ -20,7 +20,7 @@ from meshwright.fe.hexahedra import Floats, nodal_areas
 from meshwright.fe.pair import Member
 
 _PATCH = 2
-_NEIGHBOURS = 2
+_MOST_NEIGHBOURS = 2
 _DENSITY = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
 
 
@@ -53,7 +53,12 @@ class ToothCompliance:
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
 
 
-def tooth_compliance(member: Member, neighbours: int = _NEIGHBOURS) -> ToothCompliance:
+def neighbours_of(pairs: int) -> int:
+    """Neighbours on either side that leave the rim as free as in a finite-element model of so many pairs, or two."""
+    return min((pairs + 1) // 2, _MOST_NEIGHBOURS)
+
+
+def tooth_compliance(member: Member, neighbours: int = 1) -> ToothCompliance:
     """Compute it from a tooth and its neighbours on either side, whose rim is held at the bore and the outer cuts.
 
     Of a thread it is that of the portion at member angle 0.

@@ -98,7 +98,7 @@ def build_model(
     hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
     angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
     carrying = [(c, h) for c, h, f in zip(contacts, hertz, forces, strict=True) if f > 0.0]
-    numbers = pair_numbers(gear, pairs)
+    numbers = pair_numbers(gear, pinion_angle, pairs)
     numbers = range(numbers.start - idle, numbers.stop + idle)
     orders = {name: tooth_order(member, angles[name], numbers) for name, member in _members(gear).items()}
     bodies = {

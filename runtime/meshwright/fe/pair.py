@@ -68,8 +68,8 @@ class GearPair:
     """Two members and their contact.
 
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
-    touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair: the pair
-    (``pairs_later``) about which pairs are counted, one that touches at pinion angle 0.  assumed: sizes of the blank
+    touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair:
+    pinion angle to the pair (``pairs_later``) about which pairs are counted.  assumed: sizes of the blank
     in mm that the design leaves open, as the solids have them.
     """
 
@@ -78,7 +78,7 @@ class GearPair:
     ratio: float
     sense: int
     touch: Callable[[float], Touch | None]
-    middle_pair: int = 0
+    middle_pair: Callable[[float], int] = lambda angle: 0
     assumed: dict[str, float] = field(default_factory=dict)
 
 
@@ -91,9 +91,9 @@ class PairTouch:
     wheel_angle: float
 
 
-def pair_numbers(gear: GearPair, pairs: int) -> range:
-    """So many neighbouring pairs (``pairs_later``), centred on the middle one."""
-    first = gear.middle_pair - (pairs - 1) // 2
+def pair_numbers(gear: GearPair, pinion_angle: float, pairs: int) -> range:
+    """So many neighbouring pairs (``pairs_later``) at a pinion angle, centred on the middle one."""
+    first = gear.middle_pair(pinion_angle) - (pairs - 1) // 2
     return range(first, first + pairs)
 
 
@@ -103,7 +103,7 @@ def touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch,
     wheel_angle of each is that of the whole wheel at which this pair would touch.
     """
     found = []
-    for pairs_later in pair_numbers(gear, pairs):
+    for pairs_later in pair_numbers(gear, pinion_angle, pairs):
         touch = gear.touch(pinion_angle - pairs_later * gear.pinion.pitch)
         if touch is not None:
             wheel_angle = touch.wheel_angle + pairs_later * gear.wheel.pitch

@@ -69,13 +69,14 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     return GearPair(pinion, wheel, drive.ratio, sense, touch, _middle_pair(drive), assumed)
 
 
-def _middle_pair(drive: Drive) -> int:
-    """0 if the reference pair touches at pinion angle 0, else the pair then in the middle of its contact."""
+def _middle_pair(drive: Drive) -> Callable[[float], int]:
+    """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
     window = drive.contact_ratio()
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
     if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
-        return 0
-    return -round(0.5 * sum(ends) / drive.pitch())
+        return lambda angle: 0
+    middle, pitch = 0.5 * sum(ends), drive.pitch()
+    return lambda angle: round((angle - middle) / pitch)
 
 
 def _check_point_contact(drive: Drive) -> None:
