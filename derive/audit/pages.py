@@ -16,7 +16,7 @@ from derive.audit.claims import Document
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.published import comparisons
-from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference
+from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference, raised
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
 from derive.conditions import GUARDS
 from derive.prove.certificate import decimal
@@ -151,7 +151,10 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
     names = {name: shown for name, (shown, _, _) in document.symbols.items()}
     mathml = MathML(names)
     first = verdict.readings[0] if verdict.readings else None
-    readings = tuple((reading.label, str(reading.outcome), _parts(mathml, reading)) for reading in verdict.readings)
+    readings = tuple(
+        (reading.label, str(reading.outcome), _parts(mathml, reading, verdict.corrected if reading is first else None))
+        for reading in verdict.readings
+    )
     corrected = _parts(mathml, verdict.corrected, first) if verdict.corrected else ()
     contradiction = _parts(mathml, verdict.contradiction) if verdict.contradiction else ()
     conditions = tuple(getattr(verdict.claim, "conditions", ()))
@@ -293,8 +296,8 @@ _TEX = str.maketrans(
         "−": r"\ensuremath{-}", "·": r"\ensuremath{\cdot}", "×": r"\ensuremath{\times}", "∂": r"\ensuremath{\partial}",
         "′": r"\ensuremath{'}", "≠": r"\ensuremath{\neq}", "≥": r"\ensuremath{\geq}", "≤": r"\ensuremath{\leq}",
         "±": r"\ensuremath{\pm}", "∓": r"\ensuremath{\mp}", "√": r"\ensuremath{\surd}", "→": r"\ensuremath{\to}",
-        "°": r"\ensuremath{^\circ}", "²": r"\ensuremath{^2}", "¹": r"\ensuremath{^1}", "₀": r"\ensuremath{_0}",
-        "⁽": r"\ensuremath{^(}", "⁾": r"\ensuremath{^)}", "Δ": r"\ensuremath{\Delta}", "µ": r"\ensuremath{\mu}",
+        "⇒": r"\ensuremath{\Rightarrow}",
+        "°": r"\ensuremath{^\circ}", "₀": r"\ensuremath{_0}", "Δ": r"\ensuremath{\Delta}", "µ": r"\ensuremath{\mu}",
         "–": "--", "§": r"\S{}", "\ufffd": r"\fbox{?}",
     }
     | {letter: rf"\ensuremath{{{command}}}" for letter, command in LATEX_GREEK.items() if len(letter) == 1}
@@ -302,5 +305,10 @@ _TEX = str.maketrans(
 
 
 def _tex(text: str) -> str:
-    """Plain text for LaTeX, whatever the engine."""
-    return text.translate(_TEX)
+    """Plain text for LaTeX, whatever the engine; scripts for which it needs a font of its own are left out."""
+    return re.sub(r"[^\x00-\x7f]+", r"[\\dots]", "".join(map(_tex_letter, text)))
+
+
+def _tex_letter(letter: str) -> str:
+    above = raised(letter)
+    return rf"\ensuremath{{^{{{above.translate(_TEX)}}}}}" if above else letter.translate(_TEX)

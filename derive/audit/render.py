@@ -6,6 +6,7 @@ A pseudo node ("mark", tree) sets off the part in which two expressions differ.
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Mapping
 from html import escape
 
@@ -13,66 +14,6 @@ from derive.prove.tree import Tree
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "zeta": "ζ", "eta": "η", "theta": "θ", "lam": "λ", "lambda":
-    ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
-        ""
         "λ", "mu": "μ", "xi": "ξ", "pi": "π",
     "rho": "ρ", "sigma": "σ", "Sigma": "Σ", "tau": "τ", "phi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "epsilon":
     "ε", "kappa": "κ", "shaft": "Σ", "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh", "dv": "Δv",
@@ -371,9 +312,19 @@ class LaTeX(Format):
 
 def _letters(text: str) -> str:
     """Each letter in LaTeX's own words."""
-    return "".join(
-        f"{LATEX_GREEK[letter]} " if letter in LATEX_GREEK else LATEX_SIGNS.get(letter, letter) for letter in text
-    ).strip()
+
+    def written(letter: str) -> str:
+        plain = raised(letter) or letter
+        shown = f"{LATEX_GREEK[plain]} " if plain in LATEX_GREEK else LATEX_SIGNS.get(plain, plain)
+        return shown if plain == letter else rf"{{}}^{{{shown}}}"
+
+    return "".join(map(written, text)).strip()
+
+
+def raised(letter: str) -> str:
+    """What a superscript letter raises; "" for any other."""
+    kind, *codes = unicodedata.decomposition(letter).split() or [""]
+    return "".join(chr(int(code, 16)) for code in codes) if kind == "<super>" else ""
 
 
 LATEX_GREEK = {
@@ -384,7 +335,7 @@ LATEX_GREEK = {
 }  # fmt: skip
 LATEX_SIGNS = {
     "±": r"\pm ", "∓": r"\mp ", "−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ",
-    "′": "'", "⁽": "^{(", "¹": "1", "²": "2", "⁾": ")}",
+    "′": "'", "₀": "_0", "⇒": r"\Rightarrow ",
 }  # fmt: skip
 
 

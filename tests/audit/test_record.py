@@ -69,6 +69,12 @@ def test_pages_need_no_network():
         assert not re.search(r'(src|href)="(https?:)?//', text) and "<script" not in text and "@import" not in text
 
 
+def test_latex_is_plain_letters_that_every_engine_knows():
+    text = (GENERATED / "audit" / "audit.tex").read_text(encoding="utf-8")
+    assert text.isascii()
+    assert text.count(r"\begin{") == text.count(r"\end{")
+
+
 def test_every_header_carries_root_and_equations():
     root = record.ledger().root
     headers = [path.with_suffix(".h") for path in (GENERATED / "c").glob("*.json")]
