@@ -5,11 +5,15 @@ import shutil
 import subprocess
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 from meshwright import Drive, cli
 from meshwright.report import analyse, page
 from meshwright.report.numbers import fixed, number, unit
+from meshwright.report.tables import groups
+from meshwright.results import ARCSEC
+from meshwright.sensitivity import sensitivity
 
 from .conftest import DESIGNS, quiet
 
@@ -124,3 +128,24 @@ def test_a_browser_runs_the_view_without_an_error(name, paged, tmp_path):
     assert "CONSOLE" not in done.stderr
     readout = re.search(r'id="view-readout"[^>]*>([^<]*)', done.stdout).group(1)
     assert re.match(r"pinion −?[\d.]+°, wheel −?[\d.]+°", readout)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_exact_derivatives_stand_beside_the_effect_of_a_step_and_agree_with_it(name, analysed):
+    """One row a key; for a misalignment the slope times the step is the effect, as far as that is linear.
+
+    A slope near zero is swamped by the cube of the step: agreement is to a share of the largest effect.
+    """
+    analysis = analysed(name)
+    effects, slopes = groups(analysis)[0].tables
+    keys = [row[-1] for row in slopes.rows]
+    assert {f"misalignment.{effect.key}" for effect in analysis.sensitivities} <= set(keys)
+    assert sum(key.startswith("design.") for key in keys) >= 5
+    middle = len(analysis.tca.angles) // 2
+    exact = sensitivity(analysis.drive, analysis.tca.angles[middle : middle + 1])
+    largest = max(abs(effect.error[middle]) for effect in analysis.sensitivities)
+    for effect in analysis.sensitivities:
+        step = np.radians(effect.step) if effect.key.endswith("_deg") else effect.step
+        slope = exact.error[0, exact.of(f"misalignment.{effect.key}")]
+        assert slope * step == pytest.approx(effect.error[middle], rel=1e-2, abs=1e-3 * largest + 1e-8 * ARCSEC)
+    assert len(effects.rows) == len(analysis.sensitivities)

@@ -6,7 +6,11 @@ import numpy as np
 
 from meshwright.report.numbers import fixed, number, title, unit
 from meshwright.results import ARCSEC
+from meshwright.sensitivity import sensitivity
 from meshwright.transmission import ROUND_OFF
+
+#: Derivatives of a position below this are round-off, mm per unit of a key.
+POSITION_ROUND_OFF = 1e-12
 
 _HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank", "contact": "Contact"}
 
@@ -97,7 +101,23 @@ def _sensitivities(analysis):
         f"transmitted error{_nominal(analysis)}."
     )
     table = Table("", header, tuple(rows), frozenset(range(2, 9)))
-    return Group("sensitivity", "Sensitivity to misalignment", note, (table,))
+    exact = sensitivity(analysis.drive, analysis.tca.angles[middle : middle + 1])
+    tables = (table, _slopes(analysis.drive, exact)) if np.isfinite(exact.points).any() else (table,)
+    return Group("sensitivity", "Sensitivity to misalignment and design", note, tables)
+
+
+def _slopes(drive, exact):
+    """Derivatives by every key, exact, at one angle; what follows from a key follows it."""
+    entries = {f"{p['table']}.{p['key']}": p for p in drive.design.description["parameters"]}
+    rows = []
+    for k, place in enumerate(exact.keys):
+        parameter = entries[place]
+        error, point = exact.error[0, k] * parameter["factor"], exact.points[0, k] * parameter["factor"]
+        shown = number(error / ARCSEC if not abs(error) < ROUND_OFF else 0.0, 4)
+        shifts = (number(v if not abs(v) < POSITION_ROUND_OFF else 0.0, 4) for v in point)
+        rows.append((parameter["meaning"], unit(parameter["key"]), shown, *shifts, place))
+    header = ("derivative by", "per", "transmission error, arcsec", "contact x, mm", "y, mm", "z, mm", "key")
+    return Table("Exact derivatives at the same angle, fixed frame", header, tuple(rows), frozenset(range(2, 6)))
 
 
 def _nominal(analysis):
