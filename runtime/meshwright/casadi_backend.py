@@ -4,155 +4,118 @@ The generated ``.casadi`` file is read back, its derivatives are CasADi's own, a
 pointers lead here. Only the arithmetic differs from the C backend; solver, statuses and geometry are the same.
 """
 
-from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
 
+from meshwright import metadata
 from meshwright._library import SHIPPED, ffi, model
+
+#: Entries of the model table that are replaced; each is the name of a method of :class:`_Arithmetic`.
+REPLACED = (
+    "setup", "set_phi", "eval", "step", "scale", "guess", "start_scale", "start_eval", "start_solution", "observe",
+)  # fmt: skip
+
+
+def model_of(description):
+    """A model table whose functions are CasADi's. Its state is the parameters followed by the input angle."""
+    return _table(description["name"])[0]
+
+
+@cache
+def _table(name):
+    """A copy of the compiled model table with the arithmetic replaced; returns it with what must stay alive."""
+    compiled = model(name)
+    arithmetic = _Arithmetic(metadata.drives()[name], compiled)
+    table = ffi.new("mw_model *", compiled[0])
+    table.ns = arithmetic.parameters + 1
+    callbacks = {key: ffi.callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
+    for key, callback in callbacks.items():
+        setattr(table, key, callback)
+    return table, callbacks
 
 
 def _numpy(pointer, count):
     return np.frombuffer(ffi.buffer(pointer, 8 * count), dtype=float)
 
 
-@dataclass
-class _Functions:
-    """CasADi functions of one drive and the callbacks that keep them reachable from C."""
+class _Arithmetic:
+    """The functions of a model table (``mw_model.h``) on pointers, evaluated by CasADi."""
 
-    description: dict
-    nx: int
-    np_: int
-    values: object
-    jacobian: object
-    start: object
-    start_columns: list
-    callbacks: list = field(default_factory=list)
+    def __init__(self, description, compiled):
+        import casadi
 
+        self.values = casadi.Function.load(str(SHIPPED / f"{description['name']}.casadi"))
+        self.names = self.values.name_out()
+        self.unknowns, self.parameters = len(description["unknowns"]), len(description["parameters"])
+        self.observed = compiled.no
+        self.columns = description["start_unknowns"]
+        p, phi, x = casadi.SX.sym("p", self.parameters), casadi.SX.sym("phi"), casadi.SX.sym("x", self.unknowns)
+        out = dict(zip(self.names, self.values(p, phi, x), strict=True))
+        y = casadi.vertcat(*(x[k] for k in self.columns))
+        self.contact = casadi.Function("contact", [p, phi, x], _with_jacobian(casadi, out["residual"], x))
+        self.start = casadi.Function("start", [p, phi, x], _with_jacobian(casadi, out["start_residual"], y))
 
-def _functions(description):
-    import casadi
-
-    name = description["name"]
-    values = casadi.Function.load(str(SHIPPED / f"{name}.casadi"))
-    nx, count = len(description["unknowns"]), len(description["parameters"])
-    p, phi, x = casadi.SX.sym("p", count), casadi.SX.sym("phi"), casadi.SX.sym("x", nx)
-    out = dict(zip(values.name_out(), values(p, phi, x), strict=True))
-    columns = description["start_unknowns"]
-    y = [x[k] for k in columns]
-    start_jacobian = casadi.jacobian(out["start_residual"], casadi.vertcat(*y)) if y else casadi.SX(0, 0)
-    return _Functions(
-        description,
-        nx,
-        count,
-        values,
-        casadi.Function("J", [p, phi, x], [out["residual"], casadi.jacobian(out["residual"], x)]),
-        casadi.Function("start", [p, phi, x], [out["start_residual"], start_jacobian]),
-        columns,
-    )
-
-
-@cache
-def _cached(name):
-    from meshwright import metadata
-
-    description = metadata.drives()[name]
-    return _table(_functions(description), model(name))
-
-
-def model_of(description):
-    """A model table whose functions are CasADi's. Its state is the parameters followed by the input angle."""
-    return _cached(description["name"])[0]
-
-
-def _table(f, compiled):
-    """A copy of the compiled model table with the arithmetic replaced; returns it with what must stay alive."""
-    table = ffi.new("mw_model *", compiled[0])
-    table.ns = f.np_ + 1
-
-    def callback(signature):
-        def wrap(function):
-            handle = ffi.callback(signature, function)
-            f.callbacks.append(handle)
-            return handle
-
-        return wrap
-
-    def inputs(s):
-        state = _numpy(s, f.np_ + 1)
-        return state[: f.np_], state[f.np_]
-
-    def call(s, x, name):
-        p, phi = inputs(s)
-        names = f.values.name_out()
-        return np.asarray(f.values(p, phi, x)[names.index(name)]).ravel()
-
-    def unknowns(y):
-        x = np.zeros(f.nx)
-        x[f.start_columns] = _numpy(y, len(f.start_columns))
-        return x
-
-    @callback("int(const double *, double *)")
-    def setup(p, s):
-        _numpy(s, f.np_ + 1)[: f.np_] = _numpy(p, f.np_)
-        guards = call(s, np.zeros(f.nx), "guards")
-        failed = np.flatnonzero(~(guards > 0.0))
+    def setup(self, p, s):
+        _numpy(s, self.parameters)[:] = _numpy(p, self.parameters)
+        failed = np.flatnonzero(~(self._value("guards", s) > 0.0))
         return int(failed[0]) + 1 if failed.size else 0
 
-    @callback("void(double *, double)")
-    def set_phi(s, phi):
-        _numpy(s, f.np_ + 1)[f.np_] = phi
+    def set_phi(self, s, phi):
+        _numpy(s, self.parameters + 1)[-1] = phi
 
-    @callback("void(const double *, const double *, double *, double *)")
-    def evaluate(s, x, residual, jacobian):
-        p, phi = inputs(s)
-        r, j = f.jacobian(p, phi, _numpy(x, f.nx))
-        _numpy(residual, f.nx)[:] = np.asarray(r).ravel()
-        if jacobian != ffi.NULL:
-            _numpy(jacobian, f.nx**2)[:] = np.asarray(j).ravel()
+    def eval(self, s, x, residual, jacobian):
+        self._evaluate(self.contact, s, _numpy(x, self.unknowns), residual, jacobian)
 
-    @callback("double(const double *, double *)")
-    def step(s, x):
-        p, phi = inputs(s)
-        values = _numpy(x, f.nx)
-        r, j = f.jacobian(p, phi, values)
+    def step(self, s, x):
+        values = _numpy(x, self.unknowns)
+        residual, jacobian = self.contact(*self._inputs(s), values)
         try:
-            change = np.linalg.solve(np.asarray(j), np.asarray(r).ravel())
+            change = np.linalg.solve(np.asarray(jacobian), np.asarray(residual).ravel())
         except np.linalg.LinAlgError:
             return float("nan")
         values -= change
-        return float(np.sum(np.abs(change / call(s, values, "scale"))))
+        return float(np.sum(np.abs(change / self._value("scale", s, values))))
 
-    @callback("void(const double *, double *)")
-    def scale(s, x):
-        _numpy(x, f.nx)[:] = call(s, np.zeros(f.nx), "scale")
+    def scale(self, s, x):
+        _numpy(x, self.unknowns)[:] = self._value("scale", s)
 
-    @callback("void(const double *, double *)")
-    def guess(s, y):
-        _numpy(y, len(f.start_columns))[:] = call(s, np.zeros(f.nx), "start_guess")
+    def guess(self, s, y):
+        _numpy(y, len(self.columns))[:] = self._value("start_guess", s)
 
-    @callback("void(const double *, double *)")
-    def start_scale(s, y):
-        _numpy(y, len(f.start_columns))[:] = call(s, np.zeros(f.nx), "scale")[f.start_columns]
+    def start_scale(self, s, y):
+        _numpy(y, len(self.columns))[:] = self._value("scale", s)[self.columns]
 
-    @callback("void(const double *, const double *, double *, double *)")
-    def start_evaluate(s, y, residual, jacobian):
-        p, phi = inputs(s)
-        r, j = f.start(p, phi, unknowns(y))
-        n = len(f.start_columns)
-        _numpy(residual, n)[:] = np.asarray(r).ravel()
+    def start_eval(self, s, y, residual, jacobian):
+        self._evaluate(self.start, s, self._start_point(y), residual, jacobian)
+
+    def start_solution(self, s, y, x):
+        _numpy(x, self.unknowns)[:] = self._value("start_solution", s, self._start_point(y))
+
+    def observe(self, s, x, o):
+        _numpy(o, self.observed)[:] = self._value("observation", s, _numpy(x, self.unknowns))
+
+    def _inputs(self, s):
+        state = _numpy(s, self.parameters + 1)
+        return state[:-1], state[-1]
+
+    def _value(self, name, s, x=None):
+        """One output of the drive's function; without ``x``, one that does not depend on it."""
+        results = self.values(*self._inputs(s), np.zeros(self.unknowns) if x is None else x)
+        return np.asarray(results[self.names.index(name)]).ravel()
+
+    def _start_point(self, y):
+        """The unknowns of the start system among zeros."""
+        x = np.zeros(self.unknowns)
+        x[self.columns] = _numpy(y, len(self.columns))
+        return x
+
+    def _evaluate(self, function, s, x, residual, jacobian):
+        values, slopes = function(*self._inputs(s), x)
+        _numpy(residual, values.numel())[:] = np.asarray(values).ravel()
         if jacobian != ffi.NULL:
-            _numpy(jacobian, n * n)[:] = np.asarray(j).ravel()
+            _numpy(jacobian, slopes.numel())[:] = np.asarray(slopes).ravel()
 
-    @callback("void(const double *, const double *, double *)")
-    def start_solution(s, y, x):
-        _numpy(x, f.nx)[:] = call(s, unknowns(y), "start_solution")
 
-    @callback("void(const double *, const double *, double *)")
-    def observe(s, x, o):
-        _numpy(o, compiled.no)[:] = call(s, _numpy(x, f.nx), "observation")
-
-    table.setup, table.set_phi, table.eval, table.step, table.scale = setup, set_phi, evaluate, step, scale
-    table.guess, table.start_scale, table.start_eval = guess, start_scale, start_evaluate
-    table.start_solution, table.observe = start_solution, observe
-    return table, f
+def _with_jacobian(casadi, residual, unknowns):
+    return [residual, casadi.jacobian(residual, unknowns) if unknowns.numel() else casadi.SX(0, 0)]
