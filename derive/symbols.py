@@ -54,7 +54,8 @@ def interface_unit(key):
 class Parameter:
     """One entry of a drive's parameter vector and the key that sets it in a design file.
 
-    ``default`` is in inner units. ``required`` parameters must be given. A parameter that is neither given nor
+    ``default`` is in inner units. ``required`` parameters must be given. The domain is open; ``lower_included`` adds
+    its lower end. A parameter that is neither given nor
     derived (see :class:`Rule`) stays "not a number": a limit that uses it is then not applied.
     """
 
@@ -64,6 +65,7 @@ class Parameter:
     default: sp.Expr | None = None
     required: bool = False
     integer: bool = False
+    lower_included: bool = False
     choices: tuple[tuple[str, int], ...] = ()
 
     @property

@@ -99,6 +99,8 @@ allowance = parameter(
     "delta_e",
     "separation below which a pair counts as touching",
     table=Table.CONTACT,
+    domain=POSITIVE,
+    lower_included=True,
     default=0,
 )
 

@@ -156,6 +156,7 @@ def _parameter(p):
         "key_unit": interface_unit(p.key)[0],
         "default": None if p.default is None else _float(p.default),
         **_bounds(p.symbol),
+        "lower_included": p.lower_included,
         "integer": p.integer,
         "required": p.required,
         "choices": {word: value for word, value in p.choices},

@@ -152,6 +152,8 @@ def _first_error(family, problem):
             return DesignError(key, value, "unknown key", remedy)
         case "greater_than":
             return DesignError(key, value, f"must be greater than {context['gt']:g}", "choose a larger value")
+        case "greater_than_equal":
+            return DesignError(key, value, f"must not be less than {context['ge']:g}", "choose a larger value")
         case "less_than":
             return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
         case "finite_number":

@@ -19,7 +19,7 @@ def _field(parameter):
         return (word, ...) if parameter["required"] else (word | None, None)
     bounds = {}
     if parameter["lower"] is not None:
-        bounds["gt"] = parameter["lower"] / parameter["factor"]
+        bounds["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]
     if parameter["upper"] is not None:
         bounds["lt"] = parameter["upper"] / parameter["factor"]
     base = StrictInt if parameter["integer"] else float
