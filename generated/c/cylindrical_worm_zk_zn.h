@@ -4321,7 +4321,7 @@ static const mw_name cylindrical_worm_zk_zn_parameter_names[] = {
     { "h_hob", "mm", "end of the blade beyond the pitch line", "hob_tip_addendum_mm", "blank", 1.0, 0.0, HUGE_VAL },
     { "limits", "", "whose rule gives the wheel's tip and the end of the blade where this table leaves them open", "limits", "blank", 1.0, -HUGE_VAL, HUGE_VAL },
     { "delta", "mm", "separation for contact ellipses", "separation_mm", "contact", 1.0, 0.0, HUGE_VAL },
-    { "delta_e", "mm", "separation below which a pair counts as touching", "elastic_allowance_mm", "contact", 1.0, -HUGE_VAL, HUGE_VAL },
+    { "delta_e", "mm", "separation below which a pair counts as touching", "elastic_allowance_mm", "contact", 1.0, 0.0, HUGE_VAL },
 };
 static const mw_name cylindrical_worm_zk_zn_size_names[] = {
     { "screw_parameter_worm_mm_per_rad", "", "screw parameter of the worm", "screw_parameter_worm_mm_per_rad", "", 1.0, -HUGE_VAL, HUGE_VAL },
