@@ -21,9 +21,9 @@ class Row:
 
 
 def by_family(generated: Mapping[str, str]) -> dict[str, list[Row]]:
-    """Family → rows in order of appearance, from the descriptions among the generated files."""
+    """Family → rows in order of appearance in the descriptions among the generated files, drives by name."""
     tables: dict[str, dict[tuple, Row]] = {}
-    for path, text in generated.items():
+    for path, text in sorted(generated.items()):
         if path.startswith("c/") and path.endswith(".json"):
             description = json.loads(text)
             for entry in description["side_conditions"]:
