@@ -78,7 +78,17 @@ NOT_VERIFIED = (
         "Tooth contact tables are compared by the runtime's tests, not here; here only numbers that follow from "
         "other printed numbers.",
     ),
-    ("Measurements and finite-element results", "They do not follow from equations."),
+    (
+        "Measurements and finite-element results",
+        "They do not follow from equations. The face worm report has, under 50 N m on the gear and with five pairs "
+        "modelled, three pairs that share the load and largest von Mises stresses of 168 MPa (bending) and 1090 MPa "
+        "(contact) for the conical worm, 195 and 960 MPa for the cylindrical one. At worm angle 0 of the conical "
+        "convex design, on 28 620 elements, three pairs share; von Mises is 223 MPa in the gear's fillets, 349 MPa in "
+        "the worm's and 933 MPa below the flanks under a pressure of 1483 MPa. Only the order of magnitude can agree: "
+        "the report gives no blade parabola, rule of the pitch point, tooth heights or rounding, and not the angle or "
+        "place of its largest stresses; our worm ends in an arc of the blade's edge radius, and our mesh is graded to "
+        "each contact point.",
+    ),
     (
         "Existence and uniqueness of roots",
         "An identity f = I·g says nothing about roots gained or lost where I = 0; such factors are listed as steps "

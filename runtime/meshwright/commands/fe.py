@@ -90,6 +90,10 @@ def _write(options, gear, positions):
         write_text("-", loading.blank_note(gear) + "".join(map(_page, positions)))
 
 
+def _or_none(value):
+    return "–" if value is None else f"{value:.5g}"
+
+
 def _page(position):
     lines = [
         f"{position['torque_nm']:g} N m on the {position['torque_on']}, "
@@ -105,7 +109,7 @@ def _page(position):
         lines.append(
             f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, "
             f"contact pressure {pair['peak_pressure_mpa']:.5g} MPa, "
-            f"von Mises below the surface {pair['subsurface_von_mises_mpa']:.5g} MPa"
+            f"von Mises below the surface {_or_none(pair['subsurface_von_mises_mpa'])} MPa"
         )
     for name, stress in (position["bending"] or {}).items():
         lines.append(

@@ -19,6 +19,8 @@ from meshwright.fe.stress import Solution
 
 _DPI = 150
 _COLOURS = "viridis"
+# Degrees above the horizon at least, unless the flanks are seen from below.
+_LEAST_ELEVATION = 20.0
 
 
 def draw(model: PairModel, solution: Solution, folder: Path) -> dict[str, str]:
@@ -39,7 +41,7 @@ def stress_over_angle(positions: list[dict], path: Path) -> None:
     ordered = sorted(positions, key=lambda position: position["pinion_angle_deg"])
     angles = [position["pinion_angle_deg"] for position in ordered]
     for key, label in (("peak_pressure_mpa", "pressure"), ("subsurface_von_mises_mpa", "von Mises below the surface")):
-        contact.plot(angles, [max(pair[key] for pair in p["pairs"]) for p in ordered], "o-", label=label)
+        contact.plot(angles, [max(pair[key] or 0.0 for pair in p["pairs"]) for p in ordered], "o-", label=label)
     for name in ("pinion", "wheel"):
         values = [position["bending"][name]["max_principal_mpa"] for position in ordered]
         bending.plot(angles, values, "o-", label=f"{name}, largest principal")
@@ -107,7 +109,9 @@ def _view(model: PairModel, name: BodyName) -> tuple[float, float]:
     up = rotation @ model.contacts[0].touch.point + model.frame[:3, 3] - mesh.nodes.mean(axis=0)
     across = up - (up @ outward) * outward
     sight = outward + 0.5 * across / np.linalg.norm(across)
-    return 20.0, float(np.degrees(np.arctan2(sight[1], sight[0])))
+    elevation = float(np.degrees(np.arctan2(sight[2], np.hypot(sight[0], sight[1]))))
+    slant = elevation if abs(elevation) > _LEAST_ELEVATION else _LEAST_ELEVATION
+    return slant, float(np.degrees(np.arctan2(sight[1], sight[0])))
 
 
 def _pressure(model: PairModel, solution: Solution) -> Figure:

@@ -24,12 +24,16 @@ _ZONE_MAJOR, _ZONE_MINOR, _ZONE_DEPTHS = 1.0, 1.5, (0.2, 2.5)
 
 @dataclass(frozen=True)
 class PairStress:
-    """One pair: force (3,) in N on the wheel, moment in N mm of it about the loaded member's axis, MPa."""
+    """One pair: force (3,) in N on the wheel, moment in N mm of it about the loaded member's axis, MPa.
+
+    A pair whose mesh is too coarse for the zone below its contact, as one that carries nothing, has no
+    ``subsurface_von_mises``.
+    """
 
     force: Floats
     moment: float
     peak_pressure: float
-    subsurface_von_mises: float
+    subsurface_von_mises: float | None
     elements_per_semi_minor: float
 
 
@@ -98,12 +102,13 @@ def _pair(model: PairModel, number: int, pressure: tuple[Ints, Floats], stresses
     forces = areas * pressure[1][:, None]
     moment = np.cross(mesh.nodes[nodes], forces).sum(axis=0)[2]
     axes = _zone_axes(model, number)
-    deepest = [_subsurface(model, name, axes, hertz, stresses[name]) for name in model.bodies]
+    found = [_subsurface(model, name, axes, hertz, stresses[name]) for name in model.bodies]
+    deepest = [stress for stress in found if stress is not None]
     return PairStress(
         forces.sum(axis=0),
         float(moment),
         float(pressure[1].max()),
-        max(deepest),
+        max(deepest, default=None),
         _elements_per_semi_minor(mesh.nodes[quads], axes, hertz),
     )
 
@@ -118,7 +123,7 @@ def _zone_axes(model: PairModel, number: int) -> tuple[Floats, Floats]:
 
 def _subsurface(
     model: PairModel, name: BodyName, axes: tuple[Floats, Floats], hertz: HertzContact, stress: Floats
-) -> float:
+) -> float | None:
     local = (model.deck.part(name.upper()).mesh.nodes - axes[0]) @ axes[1].T
     depth = -local[:, 2] if name == "pinion" else local[:, 2]
     scaled = depth / hertz.semi_minor
@@ -128,7 +133,7 @@ def _subsurface(
         & (scaled > _ZONE_DEPTHS[0])
         & (scaled < _ZONE_DEPTHS[1])
     )
-    return float(von_mises(stress[below]).max()) if below.any() else float("nan")
+    return float(von_mises(stress[below]).max()) if below.any() else None
 
 
 def _elements_per_semi_minor(quads: Floats, axes: tuple[Floats, Floats], hertz: HertzContact) -> float:
