@@ -101,8 +101,6 @@ class Tape:
             return self.constant(-value)
         if (inner := self._negated(a)) is not None:
             return inner
-        if self.nodes[a].op == "sub":
-            return self.sub(*reversed(self.nodes[a].args))
         return self._new("neg", (a,))
 
     def add(self, a, b):
@@ -133,6 +131,8 @@ class Tape:
             return self.add(a, inner)
         if (inner := self._negated(a)) is not None:
             return self.neg(self.add(inner, b))
+        if (opposite := self.find("sub", b, a)) is not None:
+            return self.neg(opposite)
         return self._new("sub", (a, b))
 
     def mul(self, a, b):
@@ -421,6 +421,11 @@ class Lowering:
                 bottom.append(self(factor.base**-factor.exp))
             else:
                 top.append(self(factor))
+        latest = max((t.stages[i] for i in top), default=Stage.CONSTANT)
+        early = [i for i in bottom if t.stages[i] < latest]
+        if early:
+            top.append(t.div(t.constant(1), self._multiply(early)))
+            bottom = [i for i in bottom if i not in early]
         value = self._multiply(top)
         return t.div(value, self._multiply(bottom)) if bottom else value
 

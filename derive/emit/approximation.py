@@ -36,10 +36,20 @@ def arctangent():
 @cache
 def half_pi_parts():
     """π/2 in three parts; the first two have 33 bits, so that their multiples up to 2²⁰ are exact."""
+    return _half_pi(33, 33)
+
+
+@cache
+def half_pi_halves():
+    """π/2 in two parts, for products that are not rounded before they are subtracted."""
+    return _half_pi(53)
+
+
+def _half_pi(*bits):
     with mpmath.workdps(60):
         rest, parts = mpmath.pi / 2, []
-        for _ in range(2):
-            unit = mpmath.ldexp(1, mpmath.frexp(rest)[1] - 33)
+        for count in bits:
+            unit = mpmath.ldexp(1, mpmath.frexp(rest)[1] - count)
             parts.append(mpmath.floor(rest / unit) * unit)
             rest -= parts[-1]
         return tuple(float(p) for p in (*parts, rest))

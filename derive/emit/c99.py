@@ -1,7 +1,8 @@
 """Print a schedule as one self-contained C99 header.
 
 The header needs only ``sqrt``, has no heap, no writable data and no input or output, compiles as C99 and C++11, and
-gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction).
+gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction). Compiled with
+MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums, and needs ``fma`` too.
 """
 
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 from derive.completion import on_parameters
 from derive.drive import PATH
 from derive.emit import approximation
+from derive.emit.fusion import fused_products
 from derive.emit.order import latency_order
 from derive.emit.render import render
 from derive.schedule import Schedule
@@ -38,7 +40,7 @@ def estrin(name, variable, coefficients):
     while len(terms) > 1:
         joined = []
         for k in range(0, len(terms) - 1, 2):
-            value = f"{terms[k]} + {power} * {terms[k + 1]}"
+            value = f"MW_FMA({power}, {terms[k + 1]}, {terms[k]})"
             if len(terms) == 2:
                 joined.append(value)
             else:
@@ -55,10 +57,11 @@ def estrin(name, variable, coefficients):
 class Printer:
     """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read."""
 
-    def __init__(self, tape, prefix, leaves):
+    def __init__(self, tape, prefix, leaves, suffix=""):
         self.tape = tape
         self.prefix = prefix
         self.leaves = leaves
+        self.suffix = suffix  # of local names
 
     def body(self, outputs, known=None):
         """C that computes ``outputs``; ``known`` maps nodes to operands of earlier statements of the function.
@@ -66,12 +69,23 @@ class Printer:
         Returns the body and ``known`` extended by what it computed.
         """
         operands = dict(known or {})
-        order = latency_order(self.tape, self.tape.needed(outputs, operands.keys() | self.leaves.keys()))
-        statements = []
-        for i in order:
-            statements += self._statement(i, operands)
-        results = tuple(self._operand(i, operands) for i in outputs)
-        return Body(tuple(statements), results, len(order)), operands
+        return side_by_side([self], outputs, [operands]), operands
+
+    def program(self, outputs, known):
+        """What each operation behind ``outputs`` waits for, in an order of evaluation; and the products in sums."""
+        needed = self.tape.needed(outputs, known.keys() | self.leaves.keys())
+        products = fused_products(self.tape, needed, outputs)
+        inside = set(products.values())
+        return {i: self._arguments(i, products.get(i)) for i in needed if i not in inside}, products
+
+    def _arguments(self, i, product):
+        """Arguments of a node; the factors stand for a product that it takes."""
+        args = self.tape.nodes[i].args
+        return args if product is None else (*self.tape.nodes[product].args, *(a for a in args if a != product))
+
+    def results(self, outputs, operands):
+        """The operands of ``outputs``."""
+        return tuple(self._operand(i, operands) for i in outputs)
 
     def _operand(self, i, operands):
         value = self.tape.const_value(i)
@@ -79,10 +93,24 @@ class Printer:
             return number(value) if value >= 0 else f"({number(value)})"
         return operands[i] if i in operands else self.leaves[i]
 
-    def _statement(self, i, operands):
+    def _fused(self, i, product, operands):
+        """A sum that takes a product; product ± product takes one of them."""
+        node = self.tape.nodes[i]
+        factors = ", ".join(self._operand(a, operands) for a in self.tape.nodes[product].args)
+        first, second = node.args
+        other = self._operand(second if first == product else first, operands)
+        if node.op == "add":
+            return f"MW_FMA({factors}, {other})"
+        return f"MW_FMS({factors}, {other})" if first == product else f"MW_FNMA({factors}, {other})"
+
+    def statement(self, i, operands, product=None):
+        """Statements that compute a node, which is added to ``operands``; none if it is there already."""
         if i in operands:
             return []
-        node, serial = self.tape.nodes[i], len(operands)
+        node, serial = self.tape.nodes[i], f"{len(operands)}{self.suffix}"
+        if product is not None:
+            operands[i] = f"t{serial}"
+            return [f"const double t{serial} = {self._fused(i, product, operands)};"]
         args = [self._operand(a, operands) for a in node.args]
         if node.op in ("sin", "cos"):
             return self._sincos(node.args[0], args[0], serial, operands)
@@ -106,6 +134,24 @@ class Printer:
             f"double s{serial}, c{serial};",
             f"{self.prefix}_sincos({operand}, &s{serial}, &c{serial});",
         ]
+
+
+#: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
+LAG = 100
+
+
+def side_by_side(printers, outputs, operands):
+    """One body that computes ``outputs`` by each of several printers of the same tape, statement beside statement.
+
+    ``operands`` holds what is known to each printer and receives what is computed. Results come printer by printer.
+    """
+    first = printers[0]
+    arguments, products = first.program(outputs, operands[0])
+    statements = []
+    for copy, i in latency_order(first.tape, arguments, tuple(LAG * k for k in range(len(printers)))):
+        statements += printers[copy].statement(i, operands[copy], products.get(i))
+    results = [r for printer, known in zip(printers, operands, strict=True) for r in printer.results(outputs, known)]
+    return Body(tuple(statements), tuple(results), len(arguments) + len(set(products.values())))
 
 
 @dataclass(frozen=True)

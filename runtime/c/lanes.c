@@ -2,6 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 #include "lanes.h"
+#include "trace.h"
 
 extern const mw_lane_set mw_lanes_native, mw_lanes_avx2, mw_lanes_avx512;
 
@@ -11,6 +12,7 @@ static int available(const mw_lane_set *sets[3])
     int count = 0;
     sets[count++] = &mw_lanes_native;
 #if defined(__x86_64__) && defined(__GNUC__)
+    if (!__builtin_cpu_supports("fma")) return count;
     if (__builtin_cpu_supports("avx2")) sets[count++] = &mw_lanes_avx2;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         sets[count++] = &mw_lanes_avx512;
@@ -18,19 +20,19 @@ static int available(const mw_lane_set *sets[3])
     return count;
 }
 
-const mw_lane_set *mw_lanes(int lanes)
+const mw_lane_set *mw_lanes(int width)
 {
     const mw_lane_set *sets[3];
     const int count = available(sets);
-    if (lanes == 0) return sets[count - 1];
+    if (width == 0) return sets[count - 1];
     for (int i = 0; i < count; i++)
-        if (sets[i]->lanes == lanes) return sets[i];
+        if (sets[i]->width == width) return sets[i];
     return NULL;
 }
 
 int mw_lanes_width(const mw_lane_set *set)
 {
-    return set->lanes;
+    return set->width;
 }
 
 const char *mw_lanes_name(const mw_lane_set *set)
@@ -44,12 +46,12 @@ typedef struct room {
 } room;
 
 /* A vector that crosses a cache line costs twice: lanes begin at multiples of ALIGN numbers. */
-enum { ALIGN = 8, PARTS = 5 };
+enum { ALIGN = 8, PARTS = 5, KEPT = MW_HISTORY + MW_LANE_BLOCK };
 
 size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n)
 {
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, ns = (size_t)m->ns, np = (size_t)m->np;
-    return lanes * (ns + np + nx + n * (1 + nx)) + ns + np + PARTS * ALIGN;
+    return lanes * (ns + np + nx + n + KEPT * nx) + ns + np + PARTS * ALIGN;
 }
 
 static double *take(double **free, size_t count)
@@ -68,7 +70,7 @@ static room divide(const mw_lane_set *set, const mw_model *m, size_t n, double *
     r.p = take(&work, lanes * np);
     r.start = take(&work, lanes * nx);
     r.phi = take(&work, lanes * n);
-    r.x = take(&work, lanes * n * nx);
+    r.x = take(&work, lanes * KEPT * nx);
     r.state = work;
     r.work = r.state + ns;
     return r;
@@ -77,16 +79,6 @@ static room divide(const mw_lane_set *set, const mw_model *m, size_t n, double *
 static void spread(size_t lanes, size_t lane, const double *from, size_t count, double *to)
 {
     for (size_t k = 0; k < count; k++) to[k * lanes + lane] = from[k];
-}
-
-/* Points from lanes to one row a lane, in parts that stay in the cache; x of lane l begins at l * stride. */
-static void gather(size_t lanes, size_t used, const double *from, size_t count, double *x, size_t stride)
-{
-    for (size_t first = 0; first < count; first += 64) {
-        const size_t last = first + 64 < count ? first + 64 : count;
-        for (size_t l = 0; l < used; l++)
-            for (size_t k = first; k < last; k++) x[l * stride + k] = from[k * lanes + l];
-    }
 }
 
 /* A lane that lost its branch is traced again by the careful way, which says why. */
@@ -118,6 +110,7 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
     const room r = divide(set, m, n, work);
     double valid[MW_MAX_LANES];
     size_t solved[MW_MAX_LANES], succeeded = 0;
+    mw_lane_row rows[MW_MAX_LANES];
     for (size_t l = 0; l < lanes; l++) {
         spread(lanes, l, phi, n, r.phi);
         spread(lanes, l, start, nx, r.start);
@@ -126,8 +119,8 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
         const size_t used = designs - first < lanes ? designs - first : lanes;
         for (size_t l = 0; l < lanes; l++) spread(lanes, l, p + (first + (l < used ? l : 0)) * np, np, r.p);
         k->setup(r.p, r.s, valid);
-        set->follow(k, m, r.s, r.phi, n, r.start, r.x, solved);
-        gather(lanes, used, r.x, n * nx, x + first * n * nx, n * nx);
+        for (size_t l = 0; l < lanes; l++) rows[l] = (mw_lane_row){ x + (first + (l < used ? l : 0)) * n * nx, l < used ? n : 0 };
+        set->follow(k, m, r.s, r.phi, n, r.start, r.x, rows, solved);
         for (size_t l = 0, at = first * n; l < used; l++, at += n)
             succeeded += valid[l] > 0.0 && solved[l] == n
                              ? converged(n, status + at)
@@ -145,6 +138,7 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
     double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_info info[MW_MAX_LANES];
+    mw_lane_row rows[MW_MAX_LANES];
     const double beyond = n > 1 ? phi[n - 1] - phi[n - 2] : 0.0; /* lanes that end early go on at the last spacing */
     for (size_t l = 0; l < lanes; l++)
         for (size_t i = 0, at = l * part; i < part; i++, at++)
@@ -156,15 +150,14 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
         spread(lanes, l, xs + l * nx, nx, r.start);
     }
     k->setup(r.p, r.s, valid);
-    set->follow(k, m, r.s, r.phi, part, r.start, r.x, solved);
-    for (size_t l = 0, at = 0; at < n; l++, at += part) {
-        const size_t count = n - at < part ? n - at : part;
-        if (valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= count) {
-            gather(lanes, 1, r.x + l, count * nx, x + at * nx, 0);
-            succeeded += converged(count, status + at);
-        } else {
-            succeeded += again(m, p, phi + at, count, &r, x + at * nx, status + at);
-        }
+    for (size_t l = 0, at = 0; l < lanes; l++, at += part) {
+        const size_t left = at < n ? n - at : 0;
+        rows[l] = (mw_lane_row){ x + (left ? at : 0) * nx, left < part ? left : part };
     }
+    set->follow(k, m, r.s, r.phi, part, r.start, r.x, rows, solved);
+    for (size_t l = 0, at = 0; at < n; l++, at += part)
+        succeeded += valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= rows[l].count
+                         ? converged(rows[l].count, status + at)
+                         : again(m, p, phi + at, rows[l].count, &r, x + at * nx, status + at);
     return succeeded;
 }

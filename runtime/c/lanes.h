@@ -14,15 +14,25 @@ typedef struct mw_lane_model {
     void (*step)(const double *s, double *x, double *size);
 } mw_lane_model;
 
-/* All drives for one instruction set. follow() traces every lane along its own phi[n * lanes] from start values
- * x[nx * lanes] (overwritten by points: x[n * nx * lanes]); solved[l] counts the points of lane l before it
- * failed; s is set up; start[nx * lanes] are the start values at phi[0]. */
+/* Where the points of a lane go: x[count * nx]. */
+typedef struct mw_lane_row {
+    double *x;
+    size_t count;
+} mw_lane_row;
+
+/* Points that are kept in lanes before they go to the rows; so they stay in the nearest cache. */
+enum { MW_LANE_BLOCK = 32 };
+
+/* All drives for one instruction set: vectors of width numbers, lanes instances at once. follow() traces every lane along
+ * its own phi[n * lanes] from start[nx * lanes], the start values at phi[0], and writes the points to rows[lanes];
+ * solved[l] counts the points of lane l before it failed; s is set up; points[(MW_HISTORY + MW_LANE_BLOCK) * nx * lanes]
+ * is work. */
 struct mw_lane_set {
     const char *name;
-    int lanes;
+    int width, lanes;
     const mw_lane_model *(*find)(const char *drive);
     void (*follow)(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
-                   double *x, size_t *solved);
+                   double *points, const mw_lane_row *rows, size_t *solved);
 };
 
 #endif

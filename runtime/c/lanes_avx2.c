@@ -1,11 +1,12 @@
 /* Lanes for x86-64 processors with AVX2; never run without it.  SPDX-License-Identifier: MIT-0 */
 #if defined(__x86_64__) && defined(__GNUC__)
 #ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
 #else
-#pragma GCC target("avx2")
+#pragma GCC target("avx2,fma")
 #endif
-#define MW_LANES 4
+#define MW_LANES 8
+#define MW_FUSED
 #define MW_LANE_SET mw_lanes_avx2
 #define MW_LANE_SET_NAME "avx2"
 #include "lane_kernels.h"

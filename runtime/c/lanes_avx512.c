@@ -1,11 +1,12 @@
 /* Lanes for x86-64 processors with AVX512; never run without it.  SPDX-License-Identifier: MIT-0 */
 #if defined(__x86_64__) && defined(__GNUC__)
 #ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,fma"))), apply_to = function)
 #else
-#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+#pragma GCC target("avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512")
 #endif
-#define MW_LANES 8
+#define MW_LANES 16
+#define MW_FUSED
 #define MW_LANE_SET mw_lanes_avx512
 #define MW_LANE_SET_NAME "avx512"
 #include "lane_kernels.h"

@@ -82,10 +82,11 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
-/* Kernels over several lanes for one instruction set: of the given width, or of the widest this processor runs if
- * lanes is 0; NULL if it runs none of that width. */
+/* Kernels over several lanes for one instruction set: with vectors of the given width, or of the widest this processor
+ * runs if width is 0; NULL if it runs none of that width. Width 2 gives the same bits on every machine; wider ones fuse
+ * products into sums, and agree with one another to the last bit. */
 typedef struct mw_lane_set mw_lane_set;
-const mw_lane_set *mw_lanes(int lanes);
+const mw_lane_set *mw_lanes(int width);
 int mw_lanes_width(const mw_lane_set *set);
 const char *mw_lanes_name(const mw_lane_set *set);
 
@@ -98,7 +99,7 @@ size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n);
 size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
                         size_t n, const double *start, double *work, double *x, int *status);
 
-/* Trace one design along phi[n], each lane a part of it: as above, work for ceil(n / lanes) points. */
+/* Trace one design along phi[n], each lane a part of it: as above, work for ceil(n / width) points. */
 size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *p, const double *phi, size_t n,
                        double *work, double *x, int *status);
 

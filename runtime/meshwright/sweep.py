@@ -25,6 +25,9 @@ from meshwright.results import ARCSEC
 #: Points of a slice: enough to keep a core busy, few enough that memory stays small.
 SLICE_POINTS = 200_000
 
+#: Width of the lanes that give the same bits on every machine.
+PORTABLE_WIDTH = 2
+
 QUANTILES = (0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0)
 
 
@@ -51,7 +54,11 @@ class Variation:
 
 @dataclass(frozen=True)
 class Plan:
-    """A sweep: raw design tables, variations, pinion angles (rad), number of samples or grid levels, seed."""
+    """A sweep: raw design tables, variations, pinion angles (rad), number of samples or grid levels, seed.
+
+    ``portable`` rows have the same bits on every machine; otherwise they differ by round-off between those whose
+    processor fuses products into sums and those whose does not.
+    """
 
     tables: dict
     variations: tuple[Variation, ...]
@@ -59,11 +66,13 @@ class Plan:
     samples: int
     levels: int = 0
     seed: int = 0
+    portable: bool = False
 
     @property
     def identity(self):
         """Hash of everything that decides a row."""
-        data = [self.tables, [vars(v) for v in self.variations], self.angles, self.samples, self.levels, self.seed]
+        how = [self.angles, self.samples, self.levels, self.seed, self.portable]
+        data = [self.tables, [vars(v) for v in self.variations], *how]
         return hashlib.sha256(json.dumps(data, sort_keys=True, default=str).encode()).hexdigest()
 
     @property
@@ -141,7 +150,7 @@ def solve(plan, number):
     angles = mirror * np.array(plan.angles)
     start = np.ascontiguousarray(drive.trace(angles[:1])[0])
     lib = library()
-    lanes = lib.mw_lanes(0)
+    lanes = lib.mw_lanes(PORTABLE_WIDTH if plan.portable else 0)
     x, work = np.empty((count, n, m.nx)), np.empty(lib.mw_lanes_work(lanes, m, n))
     status, flags = np.empty((count, n), dtype=np.int32), np.empty((count, n), dtype=np.uint32)
     lib.mw_trace_designs(

@@ -65,14 +65,15 @@ def test_a_statement_that_cannot_be_read_is_an_error(tmp_path):
 def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path):
     """Every sum turned into a difference, one at a time, in the residual and the wheel flank."""
     source = header("cylindrical_worm_zn_zn")
+    opposite = {" + ": " - ", "MW_FMA": "MW_FNMA"}
     caught = total = 0
     for function in ("_eval(const", "_flank_wheel(const"):
         start = source.index(function)
         body = source[start : source.index("\n}", start)]
-        sums = list(re.finditer(r" \+ ", body))
+        sums = list(re.finditer(r" \+ |MW_FMA", body))
         for match in sums[::3]:
             total += 1
-            wrong = body[: match.start()] + " - " + body[match.end() :]
+            wrong = body[: match.start()] + opposite[match[0]] + body[match.end() :]
             path = tmp_path / "drive.h"
             path.write_text(source.replace(body, wrong), encoding="utf-8")
             try:

@@ -53,7 +53,9 @@ def test_no_division_root_or_arc_of_a_header_lacks_its_side_condition(drive):
         for name, body in functions_in(header, drive).items():
             if name not in ELEMENTARY:
                 name = name.removesuffix("_lanes") if suffix == "_lanes" else name
-                assert partial_operations(body) == wanted.get(name, Counter()), name
+                copies = 2 if (name, suffix) == ("step", "_lanes") else 1  # a step takes two lanes side by side
+                expected = {kind: copies * count for kind, count in wanted.get(name, {}).items()}
+                assert partial_operations(body) == expected, name
 
 
 @pytest.mark.parametrize("drive", DRIVES)

@@ -108,15 +108,19 @@ void scalar(const double *p, double phi, int l, double *s, double *x, double *z)
 """
 
 
+CONTRACTION = {"separate": (), "fused": ("-DMW_FUSED", "-march=native")}
+
+
 @pytest.mark.parametrize("drive", FAMILIES)
 @pytest.mark.parametrize("width", [2, 4, 8, 16])
-def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width):
+@pytest.mark.parametrize("contraction", CONTRACTION)
+def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width, contraction):
     problem, _ = problem_of(drive)
     source, library = tmp_path / "lanes.c", tmp_path / "lanes.so"
     source.write_text(LANES.replace("WIDTH", str(width)).replace("DRIVE", drive))
     command = sorted(c.compilers().items())[-1][1][0]
-    c.run(*command, "-std=c99", "-O3", *c.STRICT, *c.EXACT, "-fopenmp-simd", "-shared", "-fPIC", f"-I{c.GENERATED}",
-          source, "-o", library, "-lm")  # fmt: skip
+    c.run(*command, "-std=c99", "-O3", *c.STRICT, *c.EXACT, "-fopenmp-simd", *CONTRACTION[contraction], "-shared",
+          "-fPIC", f"-I{c.GENERATED}", source, "-o", library, "-lm")  # fmt: skip
     loaded = ctypes.CDLL(str(library))
     generator = np.random.default_rng(width)
     starts = problem.x[:, None] + 1e-3 * generator.normal(size=(len(problem.x), width))
@@ -129,6 +133,18 @@ def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width):
         loaded.scalar(_address(problem.p), phi, lane, _address(s), _address(x), _address(size))
         assert x.tobytes() == np.ascontiguousarray(many[:, lane]).tobytes()
         assert size[0] == sizes[lane]
+
+
+@pytest.mark.parametrize("drive", FAMILIES)
+def test_fusing_changes_no_more_than_round_off(tmp_path, drive):
+    _, solution = problem_of(drive)
+    command = sorted(c.compilers().items())[-1][1][0]
+    found = {}
+    for name, options in CONTRACTION.items():
+        (tmp_path / name).mkdir()
+        _, found[name] = _native(drive, tmp_path / name, (*command, *options), "-O3")
+        assert np.abs(found[name] - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())
+    assert found["separate"].tobytes() != found["fused"].tobytes()
 
 
 def _address(array):

@@ -46,25 +46,29 @@ def test_the_library_builds_for_arm64(tmp_path):
 
 LANES = r"""
 #define MW_LANES_SIMD
-#define MW_LANES 2
+#define MW_LANES 4
 #include "DRIVE_lanes.h"
-/* Both lanes from the same start: Newton as in the scalar example, by the vector unit. */
+/* All lanes from the same start: Newton as in the scalar example, by the vector unit. */
 int solve(const double *p, double phi, double *s, double *x)
 {
-    double q[2 * DRIVE_NP], y[2 * DRIVE_NX], size[2] = { 1.0, 1.0 };
-    const double angle[2] = { phi, phi };
+    double q[MW_LANES * DRIVE_NP], y[MW_LANES * DRIVE_NX], angle[MW_LANES], size[MW_LANES];
     int steps = 0;
-    for (int k = 0; k < DRIVE_NP; k++) q[2 * k] = q[2 * k + 1] = p[k];
-    for (int k = 0; k < DRIVE_NX; k++) y[2 * k] = y[2 * k + 1] = x[k];
+    for (int l = 0; l < MW_LANES; l++) {
+        angle[l] = phi;
+        for (int k = 0; k < DRIVE_NP; k++) q[MW_LANES * k + l] = p[k];
+        for (int k = 0; k < DRIVE_NX; k++) y[MW_LANES * k + l] = x[k];
+    }
     MW_LANE_NAME(DRIVE_setup_lanes)(q, s, size);
     MW_LANE_NAME(DRIVE_set_phi_lanes)(s, angle);
     do {
         MW_LANE_NAME(DRIVE_step_lanes)(s, y, size);
-        if (size[0] != size[1]) return -2;
+        for (int l = 1; l < MW_LANES; l++)
+            if (size[0] != size[l]) return -2;
     } while (++steps < 30 && !(size[0] < 1e-13));
     for (int k = 0; k < DRIVE_NX; k++) {
-        if (y[2 * k] != y[2 * k + 1]) return -3;
-        x[k] = y[2 * k];
+        for (int l = 1; l < MW_LANES; l++)
+            if (y[MW_LANES * k] != y[MW_LANES * k + l]) return -3;
+        x[k] = y[MW_LANES * k];
     }
     return steps;
 }
@@ -77,7 +81,7 @@ def test_lanes_on_an_arm64_processor_give_the_bits_of_its_scalar_kernel(tmp_path
     problem, _ = problem_of(drive)
     source = tmp_path / "lanes.c"
     source.write_text(LANES.replace("DRIVE", drive))
-    wide = type(problem)(problem.p, problem.phi, problem.x, 2 * problem.state)
+    wide = type(problem)(problem.p, problem.phi, problem.x, 4 * problem.state)
     steps, x = arm64(c.freestanding("arm64", drive, tmp_path / "lanes", source, "-fopenmp-simd"), wide)
     scalar_steps, scalar = arm64(c.freestanding("arm64", drive, tmp_path / "scalar"), problem)
     assert steps == scalar_steps

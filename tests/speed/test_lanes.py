@@ -5,39 +5,24 @@ import pytest
 
 from meshwright import Drive
 from meshwright._library import ffi, library
+from tests.lanes import WIDTHS, available, trace, trace_designs
 
 DESIGNS = ("recess-action-full", "face-worm-cylindrical-convex", "spherical-table-2-3")
 
 
-def _pointer(array, kind="double[]"):
-    return ffi.from_buffer(kind, array)
-
-
-@pytest.fixture(params=[2, 4, 8])
+@pytest.fixture(params=WIDTHS)
 def lanes(request):
-    found = library().mw_lanes(request.param)
-    if found == ffi.NULL:
+    found = available().get(request.param)
+    if found is None:
         pytest.skip(f"this processor has no lanes of width {request.param}")
     return found
-
-
-def _in_lanes(lanes, drive, angles):
-    m, n = drive.model, len(angles)
-    width = library().mw_lanes_width(lanes)
-    work = np.empty(library().mw_lanes_work(lanes, m, -(-n // width)))
-    x, status = np.empty((n, m.nx)), np.empty(n, dtype=np.int32)
-    succeeded = library().mw_trace_angles(
-        lanes, m, _pointer(drive.design.parameters), _pointer(angles), n, _pointer(work), _pointer(x),
-        _pointer(status, "int[]"),
-    )  # fmt: skip
-    return x, status, succeeded
 
 
 @pytest.mark.parametrize("name", DESIGNS)
 def test_one_design_in_lanes_is_the_scalar_trace(lanes, name):
     drive = Drive.load(name)
     angles = np.linspace(-0.3, 0.3, 203) * drive.pitch()
-    x, status, succeeded = _in_lanes(lanes, drive, angles)
+    x, status, succeeded = trace(lanes, drive, angles)
     scalar, words = drive.trace(angles)
     assert succeeded == len(angles)
     assert set(words) == {"converged"} and not status.any()
@@ -47,29 +32,45 @@ def test_one_design_in_lanes_is_the_scalar_trace(lanes, name):
 def test_unequal_spacing_is_predicted_too(lanes):
     drive = Drive.load("recess-action-full")
     angles = np.sort(np.random.default_rng(3).uniform(0.3, 30.0, 500))
-    x, _, succeeded = _in_lanes(lanes, drive, angles)
+    x, _, succeeded = trace(lanes, drive, angles)
     assert succeeded == 500
     assert np.abs(x - drive.trace(angles)[0]).max() < 1e-11
 
 
 def test_a_lane_without_contact_gets_the_status_of_the_scalar_trace(lanes):
     drive = Drive.load("recess-action-full")
-    nominal = drive.design.parameters
-    designs = np.tile(nominal, (11, 1))
+    designs = np.tile(drive.design.parameters, (11, 1))
     equal_hob = drive.with_(design={"hob_pitch_radius_mm": drive.design.as_solved()["design"]["worm_pitch_radius_mm"]})
     designs[4] = equal_hob.design.parameters
     angles = np.linspace(5.0, 6.0, 30)
-    start, _ = drive.trace(angles[:1])
-    m = drive.model
-    x, status = np.empty((11, 30, m.nx)), np.empty((11, 30), dtype=np.int32)
-    work = np.empty(library().mw_lanes_work(lanes, m, 30))
-    library().mw_trace_designs(
-        lanes, m, _pointer(designs), 11, _pointer(angles), 30, _pointer(start), _pointer(work), _pointer(x),
-        _pointer(status, "int[]"),
-    )  # fmt: skip
+    x, status, _ = trace_designs(lanes, drive, designs, angles)
     words = {library().mw_status_word(int(s)) for s in status[4]}
     assert {ffi.string(w).decode() for w in words} == {"line_contact"}
     others = np.delete(np.arange(11), 4)
     assert not status[others].any()
     scalar = drive.trace(angles)[0]
     assert np.abs(x[others] - scalar).max() < 1e-11
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.parametrize("points", [1, 31, 100])
+def test_a_design_has_the_same_bits_in_any_lane_among_any_others(lanes, name, points):
+    drive = Drive.load(name)
+    rng = np.random.default_rng(points)
+    designs = drive.design.parameters * (1.0 + 1e-7 * rng.normal(size=(21, drive.model.np)))
+    angles = np.linspace(0.0, 0.2, points) * drive.pitch()
+    x, status, succeeded = trace_designs(lanes, drive, designs, angles)
+    assert succeeded == 21 * points and not status.any()
+    order = rng.permutation(21)
+    assert x[order].tobytes() == trace_designs(lanes, drive, designs[order], angles)[0].tobytes()
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_lanes_that_fuse_products_agree_to_the_last_bit(name):
+    fusing = [lanes for width, lanes in available().items() if width > 2]
+    if len(fusing) < 2:
+        pytest.skip("this processor has fewer than two sets of lanes with fused operations")
+    drive = Drive.load(name)
+    designs, angles = np.tile(drive.design.parameters, (5, 1)), np.linspace(0.0, 0.2, 70) * drive.pitch()
+    first, *others = (trace_designs(lanes, drive, designs, angles)[0].tobytes() for lanes in fusing)
+    assert all(x == first for x in others)

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -122,6 +123,13 @@ def test_a_key_that_is_not_free_is_refused(key):
     plan = sweep.Plan(designs.read("plain-zn"), (sweep.Variation(key, "uniform", 19.0, 21.0),), ANGLES, 1)
     with pytest.raises(DesignError, match=key.partition(".")[2]):
         sweep.check(plan)
+
+
+def test_portable_rows_agree_to_round_off_and_are_another_sweep():
+    plan = _plan()
+    portable = replace(plan, portable=True)
+    assert portable.identity != plan.identity
+    assert np.abs(sweep.solve(portable, 0).error - sweep.solve(plan, 0).error).max() < 1e-14
 
 
 def test_an_interrupted_sweep_goes_on_without_losing_or_repeating_rows(tmp_path, monkeypatch):

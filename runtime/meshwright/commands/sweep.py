@@ -27,6 +27,9 @@ def add_arguments(parser):
     common.add_angles(parser)
     parser.add_argument("--out", required=True, metavar="FOLDER", help="where the slices are written")
     parser.add_argument("--format", choices=("parquet", "csv"), default="parquet")
+    parser.add_argument(
+        "--portable", action="store_true", help="rows with the same bits on every machine, at a third of the speed"
+    )
     parser.add_argument("--threads", type=int, metavar="N", help="default: one a processor")
     parser.add_argument(
         "--scheduler", nargs="?", const="local", metavar="ADDRESS",
@@ -52,9 +55,8 @@ def _plan(options):
             raise UsageError(f"--{name} {value}: must be at least 1")
     angles = common.angles_of(options, common.Drive.from_tables(tables))
     variations = tuple(_variation(text) for text in options.vary)
-    return sweep.Plan(
-        tables, variations, tuple(map(float, angles)), options.samples or 0, options.grid or 0, options.seed
-    )
+    how = (options.samples or 0, options.grid or 0, options.seed, options.portable)
+    return sweep.Plan(tables, variations, tuple(map(float, angles)), *how)
 
 
 def _variation(text):
