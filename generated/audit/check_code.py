@@ -121,6 +121,9 @@ OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
 CALL = re.compile(r"(?:\w+_)?(sqrt|atan2)\((.+)\)")
 
+#: A product and a number: a b + c, a b - c, c - a b.
+FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
+
 
 @dataclass(frozen=True)
 class Function:
@@ -243,26 +246,35 @@ class Machine:
         if match := CALL.fullmatch(text):
             arguments = [self.value(argument) for argument in match[2].split(", ")]
             return root(*arguments) if match[1] == "sqrt" else self._arc(*arguments)
+        if match := FUSED.fullmatch(text):
+            product, number = self._product(match[2], match[3]), self.value(match[4])
+            if match[1] == "FNMA":
+                return add(number, product, -1)
+            return add(product, number, 1 if match[1] == "FMA" else -1)
         if match := BINARY.fullmatch(text):
             return self._binary(match[1], match[2], match[3])
         if text.startswith("-") and text[1:] in self.function.definitions | self.inputs:
             return add(Number(0, (), {}), self.value(text[1:]), -1)
         return self.value(text)
 
+    def _product(self, left: str, right: str) -> Number:
+        a, b = self.value(left), self.value(right)
+        product = multiply(a, b)
+        for number, other in ((a, right), (b, left)):
+            literal = other.strip("()")
+            if number.angle is not None and re.fullmatch(r"-?[\d.]+", literal):
+                return scaled(number, Fraction(literal), product)
+        return product
+
     def _binary(self, left: str, operator: str, right: str) -> Number:
+        if operator == "*":
+            return self._product(left, right)
         a, b = self.value(left), self.value(right)
         match operator:
             case "+":
                 return add(a, b)
             case "-":
                 return add(a, b, -1)
-            case "*":
-                product = multiply(a, b)
-                for number, other in ((a, right), (b, left)):
-                    literal = other.strip("()")
-                    if number.angle is not None and re.fullmatch(r"-?[\d.]+", literal):
-                        return scaled(number, Fraction(literal), product)
-                return product
         return divide(a, b)
 
     def _arc(self, y: Number, x: Number) -> Number:
