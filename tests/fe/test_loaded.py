@@ -143,6 +143,14 @@ def test_bad_input(capsys, arguments, said):
     assert said in capsys.readouterr().err
 
 
+def test_a_load_that_no_flank_carries_is_said_to_be_so(capsys):
+    arguments = ["spherical-table-4-4-concave", "--torque-nm", "1e12", "--phi-deg", "0", "--json", "-"]
+    assert main(["loaded", *arguments]) == 1
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert point["status"] == "diverged" and "too large" in point["message"]
+    assert point["pairs"] == [] and point["loaded_transmission_error_arcsec"] is None
+
+
 def test_line_contact_is_refused(capsys):
     design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
     assert main(["loaded", *design, "--torque-nm", "1"]) == 2

@@ -1,6 +1,6 @@
 """Loaded contact in seconds: transmission error under load, load share, contact pressure, mesh stiffness.
 
-Exit status 1 if no tooth pair touches at one of the angles.
+Exit status 1 if no tooth pair touches at one of the angles, or its contact under load is not found.
 """
 
 import numpy as np
@@ -47,6 +47,8 @@ def run(options):
 def _point(fe, gear, angle, pairs, load, compliance):
     point = {
         "pinion_angle_deg": float(np.degrees(angle)),
+        "status": "no_contact",
+        "message": "no tooth pair touches at this angle",
         "loaded_transmission_error_arcsec": None,
         "mesh_stiffness_n_per_um": None,
         "rotation_rad": None,
@@ -54,9 +56,14 @@ def _point(fe, gear, angle, pairs, load, compliance):
     }
     if not fe.pair.touches(gear, angle, pairs):
         return point
-    found = fe.loaded.loaded_contact(gear, angle, pairs, load, compliance)
+    try:
+        found = fe.loaded.loaded_contact(gear, angle, pairs, load, compliance)
+    except ArithmeticError as error:
+        return point | {"status": "diverged", "message": str(error)}
     total = sum(pair.force for pair in found.pairs)
     return point | {
+        "status": "converged",
+        "message": "",
         "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
@@ -82,7 +89,7 @@ def _table(document):
     lines.append(f"{'pinion, deg':>12} {'TE, arcsec':>11} {'N/um':>8}  force N (share): pressure MPa of each pair")
     for point in document["points"]:
         if not point["pairs"]:
-            lines.append(f"{point['pinion_angle_deg']:12.5g} no contact")
+            lines.append(f"{point['pinion_angle_deg']:12.5g} {point['status']}: {point['message']}")
             continue
         pairs = ", ".join(
             f"{p['force_n']:.5g} ({p['share']:.3f}): {p['peak_pressure_mpa']:.5g}" for p in point["pairs"]

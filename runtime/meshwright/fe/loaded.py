@@ -160,8 +160,11 @@ def active_set(
 ) -> tuple[Floats, float]:
     """Pressures (N,) >= 0 and rotation with gap + matrix p - rotation arms >= 0, zero where p > 0, moment = torque.
 
-    start (N,): cells thought to touch.  Raises ArithmeticError if the set of touching cells does not settle.
+    start (N,): cells thought to touch.  Raises ArithmeticError if no cell is on both flanks, or the set of touching
+    cells does not settle.
     """
+    if not inside.any():
+        raise ArithmeticError("no cell of the contact grid lies on both flanks: the load is too large for these teeth")
     active = inside & start
     if not active.any():
         active = inside & (gap <= gap[inside].min())
