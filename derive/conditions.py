@@ -209,7 +209,7 @@ def design_guards(plan):
         guards.append(DesignGuard(node, g.message, g.keys, node))
     needed = tape.needed([*(g.node for g in guards), *solving(plan)])
     wanted = [condition for i in needed for condition in demanded(tape, i)]
-    wanted += [(k, kind) for _, _, k, kind in _lost_in(plan, "result") if tape.stages[k] <= Stage.DESIGN]
+    wanted += [(k, kind) for _, _, k, kind in _lost_in(plan, {"result"}) if tape.stages[k] <= Stage.DESIGN]
     done = {g.of for g in guards}
     for node, kind in wanted:
         if tape.stages[node] <= Stage.DESIGN and node not in done:
@@ -219,15 +219,14 @@ def design_guards(plan):
     return [*guards, _finite(plan, sorted(inputs))]
 
 
-def _lost_in(plan, guard, held=frozenset()):
-    """(function, group, node, kind) of conditions not in ``held`` that fail unseen in functions with this guard."""
+def _lost_in(plan, guards, held=frozenset()):
+    """(function, group, node, kind) of conditions not in ``held`` that fail unseen in functions with these guards."""
     for f in functions(plan):
-        if f.guard == guard and f.name not in EARLY:
+        if f.guard in guards and f.name not in EARLY:
             order = f.tape.needed(f.outputs)
-            conditions = dict.fromkeys(c for i in order for c in demanded(f.tape, i))
-            for node, kind in conditions:
+            for (node, kind), failing in _failing(f.tape, order).items():
                 if f.tape is not plan.tape or node not in held:
-                    for group in lost(f, order, node, kind):
+                    for group in lost(f, order, failing):
                         yield f, group, node, kind
 
 
@@ -266,10 +265,13 @@ def _keys(plan, nodes):
 FINITE, INFINITE, NAN = range(3)
 
 
-def _failing(tape, order, node, kind):
-    """Operations that are not defined where this condition fails, and the least that is certain of their values."""
-    value = INFINITE if kind == "nonzero" else NAN
-    return {i: value for i in order if i in tape.origins and (node, kind) in demanded(tape, i)}
+def _failing(tape, order):
+    """(node, kind) → operations that are not defined where this fails, and the least certain of their values."""
+    found = {}
+    for i in order:
+        for node, kind in demanded(tape, i):
+            found.setdefault((node, kind), {})[i] = INFINITE if kind == "nonzero" else NAN
+    return found
 
 
 def _certain(tape, order, failing):
@@ -307,10 +309,9 @@ def _affected(tape, order, failing):
     return found
 
 
-def lost(evaluated, order, node, kind):
-    """Groups of results that a failing condition changes and leaves finite in every number."""
+def lost(evaluated, order, failing):
+    """Groups of results that the ``failing`` operations change and leave finite in every number."""
     tape = evaluated.tape
-    failing = _failing(tape, order, node, kind)
     certain, affected = _certain(tape, order, failing), _affected(tape, order, failing)
     return [
         group
@@ -336,12 +337,11 @@ def tests(plan):
     held = {g.of for g in plan.guards}
     testing = {"derive", *(f.name for f in plan.functions)}
     found = {}
-    for guard in (name for name in GUARDS if name != "start"):
-        for f, group, node, kind in _lost_in(plan, guard, held):
-            if f.name not in testing or kind != "nonzero":
-                text = formula(f.tape, node, f.lower)
-                raise Unguarded(f"{plan.drive.name}: nothing shows in {f.name} that {text} is not {kind}")
-            found.setdefault((f.name, f.part), {}).setdefault(group, []).append(node)
+    for f, group, node, kind in _lost_in(plan, GUARDS.keys() - {"start"}, held):
+        if f.name not in testing or kind != "nonzero":
+            text = formula(f.tape, node, f.lower)
+            raise Unguarded(f"{plan.drive.name}: nothing shows in {f.name} that {text} is not {kind}")
+        found.setdefault((f.name, f.part), {}).setdefault(group, []).append(node)
     return found
 
 

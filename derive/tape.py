@@ -360,20 +360,19 @@ class Lowering:
         self.inputs = inputs
         self.definitions = definitions if definitions is not None else Definitions()
         self._done = {}
+        self._names = {}
 
     def names(self):
         """Node → name of the definition whose value it is, for those that have been needed."""
-        found = {}
-        for expression, node in self._done.items():
-            if expression.is_Symbol and expression in self.definitions:
-                found.setdefault(node, str(expression))
-        return found
+        return self._names
 
     def __call__(self, expression):
         """Node of an expression; its symbols are inputs or definitions."""
         expression = sp.sympify(expression)
         if expression not in self._done:
-            self._done[expression] = self._lower(expression)
+            node = self._done[expression] = self._lower(expression)
+            if expression.is_Symbol and expression in self.definitions:
+                self._names.setdefault(node, str(expression))
         return self._done[expression]
 
     def _lower(self, e):
