@@ -10,6 +10,10 @@ from derive.tape import Lowering, Stage, Tape
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40
 
+#: How far beside a solution a self-test starts, in natural sizes: far enough for several steps, near enough that none
+#: of them is cut short. Exact in binary.
+BESIDE = 1.0 / 64.0
+
 #: Steps in which the path of a design system is followed.
 PATH_STEPS = 16
 
@@ -67,11 +71,19 @@ def sample_solution(plan, angle=None):
     return {k: float(x) for k, x in inputs.items()}
 
 
-def start_values(plan):
-    """Start values of the unknowns at the sample design, from the start system."""
+def beside(plan):
+    """Start values (nx,) from which Newton comes to the sample's solution in a few steps.
+
+    Each unknown stands off by a share of its natural size. A pair that touches along a line has no Newton step, whose
+    matrix is singular: there the solution itself is returned.
+    """
+    n, flat = len(plan.unknowns), [*(e for row in plan.jacobian for e in row), *plan.scales]
     with mpmath.workdps(DIGITS):
-        inputs = _start(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
-    return [float(inputs[u]) for u in plan.unknowns]
+        exact = solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
+        numbers = plan.tape.evaluate(flat, exact, mpmath)
+        _, pivots = _eliminated(mpmath.matrix([numbers[i * n : i * n + n] for i in range(n)]), [0] * n)
+    share = BESIDE if len(pivots) == n else 0.0
+    return [float(exact[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
 
 def solve(plan, parameters, angle):
@@ -112,10 +124,20 @@ def _iterate(tape, residual, jacobian, unknowns, inputs):
 
 
 def _change(matrix, residual):
-    """Solution of matrix · change = residual by complete pivoting; directions the equations do not see stay put.
+    """Solution of matrix · change = residual; directions the equations do not see stay put.
 
     A pair that touches along a line has such a direction at every contact.
     """
+    rows, pivots = _eliminated(matrix, residual)
+    change = [mpmath.mpf(0)] * len(residual)
+    for step, j in reversed(pivots):
+        known = sum(rows[step][k] * change[k] for _, k in pivots if k != j)
+        change[j] = (rows[step][-1] - known) / rows[step][j]
+    return change
+
+
+def _eliminated(matrix, residual):
+    """Rows (matrix | residual) after elimination with complete pivoting, and the pivots (row, column) worth using."""
     n, negligible = len(residual), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
     rows = [[matrix[i, j] for j in range(n)] + [residual[i]] for i in range(n)]
     pivots = []
@@ -129,8 +151,4 @@ def _change(matrix, residual):
             factor = rows[k][j] / rows[step][j]
             rows[k] = [a - factor * b for a, b in zip(rows[k], rows[step], strict=True)]
         pivots.append((step, j))
-    change = [mpmath.mpf(0)] * n
-    for step, j in reversed(pivots):
-        known = sum(rows[step][k] * change[k] for _, k in pivots if k != j)
-        change[j] = (rows[step][n] - known) / rows[step][j]
-    return change
+    return rows, pivots

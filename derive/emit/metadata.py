@@ -113,9 +113,11 @@ def operations(plan):
 
 
 def self_test(plan):
-    """A solved contact of the sample design, for any implementation to check itself against. Hex floats."""
+    """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
+    reaches ``x``. Hex floats.
+    """
     inputs = newton.sample_solution(plan)
-    start = newton.start_values(plan)
+    start = newton.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),
