@@ -75,6 +75,11 @@ static unsigned flags_of(const mw_model *m, const double *o, double curvature_mi
     return flags;
 }
 
+int mw_impossible(const char *flag)
+{
+    return strcmp(flag, "interference") == 0 || strcmp(flag, "spurious_sheet") == 0;
+}
+
 const char *mw_flag(const mw_model *m, int bit)
 {
     if (bit == 0) return "undercut";

@@ -65,15 +65,28 @@ const mw_model *mw_find(const char *drive);
  * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution. */
 int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
 
-/* Solve one point from a cold start. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result.
- * Misalignments are applied by continuation. Returns info->status. */
+/* Which contact. The equations may hold in several places of a tooth pair at once, and also in places where bodies cannot
+ * touch. The contact of a pair at an input angle is
+ *   1. at angle 0, the tangency in the middle of the flanks, to which the model's start values lead; where bodies cannot
+ *      make it but can make another as under 3, that one; elsewhere the point of the branch of contact through it. Where
+ *      nothing touches at 0, the branch is that of the tangency at the nearest of a fixed series of angles;
+ *   2. that point stays the contact where it lies beyond a limit of a flank, which is then flagged;
+ *   3. where bodies cannot make it (see mw_impossible), or the branch ends before the angle: a contact within all limits
+ *      of both flanks that bodies can make, the nearest to the middle that a search over the wheel flank finds. The teeth
+ *      must not overlap elsewhere on a face that is as wide on the other side of the middle as this contact needs;
+ *   4. where there is none: the point of 1 with its flags, or the status that says how the branch ended.
+ * So one angle has one contact and one status, whichever other angles are asked for. A line of contact has no branch:
+ * there every angle is solved from the start values. */
+
+/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result. Misalignments are applied
+ * by continuation. Returns info->status. */
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
 
 /* Solve from start values x[nx], state s set up for p and phi already. */
 int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
 
-/* Trace phi[n] in order, each point predicted from its predecessors; x[n*nx], info[n]. A point that fails is
- * solved cold. Returns the number of points that succeeded. */
+/* Solve the points phi[n], each predicted from its predecessors: the same contacts as of mw_solve, faster where the
+ * angles are in order. x[n*nx], info[n]. Returns the number of points that succeeded. */
 size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                 mw_info *info);
 
@@ -138,6 +151,9 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
 
 /* Name of flag number bit of mw_contact.flags, NULL past the last. */
 const char *mw_flag(const mw_model *m, int bit);
+
+/* Whether a flag marks points that satisfy the equations but that bodies cannot make. */
+int mw_impossible(const char *flag);
 
 /* END INTERFACE */
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "newton.h"
-#include "refine.h"
+#include "choice.h"
 
 static const double FUSED_TOLERANCE = 1e-9;
 

@@ -1,165 +1,216 @@
-/* Trace contact along the input angle.  SPDX-License-Identifier: MIT-0 */
+/* The contact of a tooth pair at one angle and at many: see "Which contact" in meshwright.h.  SPDX-License-Identifier:
+ * MIT-0 */
 #include <math.h>
 #include <string.h>
-#include "newton.h"
-#include "refine.h"
-#include "trace.h"
+#include "branch.h"
+#include "choice.h"
 
-enum { HISTORY = MW_HISTORY, MAX_SPLITS = 12 };
+/* Where nothing touches at angle 0 (misalignment may have moved the contact): angles at which a tangency is tried next,
+ * ever further to either side. From FIRST on they double; the last is past a turn of the pinion. */
+enum { DOUBLINGS = 10 };
+static const double FIRST = 1.0 / 64.0; /* rad */
 
-static const double BRANCH_WIDTH = 0.5; /* in natural sizes of the unknowns */
-static const double FOLD_GAP = 1e-6;
-static const double NUDGE = 1e-3; /* rad */
+/* The branch of the reference, walked along stations at equal spacing from it, so that every angle is reached by the same
+ * steps whichever angles are asked for. The newest of the history is the station reached; `ended` says why none comes
+ * after it, 0 where one may. */
+typedef struct walk {
+    mw_history history;
+    double at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS];
+    int station, ended;          /* stations are counted from the reference, negative below it */
+} walk;
 
-/* The last points solved, newest first. */
-typedef struct history {
-    int count;
-    const double *x[HISTORY];
-    double phi[HISTORY];
-} history;
+/* Between stations the unknowns move by a part of their natural sizes. */
+static const double STATION = 0.25; /* rad */
 
-static void remember(history *h, double phi, const double *x)
+/* Points of a trace go from one to the next in single steps. That none came out on another branch is checked against the
+ * walk, every so many points for each station of it; where one did, the points since the last check are walked to. */
+enum { CHECK_EVERY = 256 };
+
+/* Solutions nearer than this, in natural sizes, are one; near line contact they scatter along the line. */
+static const double SAME = 1e-4;
+
+typedef struct trace {
+    const mw_model *m;
+    const double *p, *phi;
+    size_t n;
+    double *s, *work, *x;
+    mw_info *info;
+    mw_history reference, history;
+    double at_reference[MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS];
+    walk walk;
+    size_t checked, walked;      /* points before these numbers are on the branch; have to be walked to */
+} trace;
+
+/* The tangency at a reference angle: what the start values lead to or, at angle 0 and if that is impossible, a contact
+ * that bodies can make. */
+static int tangency_at(trace *t, double phi, mw_info *info)
 {
-    for (int i = HISTORY - 1; i > 0; i--) {
-        h->x[i] = h->x[i - 1];
-        h->phi[i] = h->phi[i - 1];
-    }
-    h->x[0] = x;
-    h->phi[0] = phi;
-    if (h->count < HISTORY) h->count++;
+    double *x = t->at_reference;
+    const int started = mw_start(t->m, t->p, phi, t->s, t->work, x, info) >= 0;
+    if (started && mw_worth_of(t->m, t->s, x) != MW_IMPOSSIBLE) return 1;
+    return (phi == 0.0 && mw_search(t->m, t->s, x, info)) || started;
 }
 
-/* Polynomial through the history, at phi. */
-static void predict(const history *h, double phi, int n, double *x)
-{
-    double weight[HISTORY];
-    const double d = phi - h->phi[0];
-    int uniform = h->count == HISTORY;
-    for (int i = 1; uniform && i < HISTORY; i++)
-        uniform = fabs(h->phi[i - 1] - h->phi[i] - d) <= MW_EQUAL_SPACING * fabs(d);
-    if (uniform) {
-        for (int j = 0; j < n; j++)
-            x[j] = MW_PREDICT_CUBIC(h->x[0][j], h->x[1][j], h->x[2][j], h->x[3][j]);
-        return;
-    }
-    for (int i = 0; i < h->count; i++) {
-        weight[i] = 1.0;
-        for (int k = 0; k < h->count; k++)
-            if (k != i) weight[i] *= (phi - h->phi[k]) / (h->phi[i] - h->phi[k]);
-    }
-    for (int j = 0; j < n; j++) {
-        x[j] = 0.0;
-        for (int i = 0; i < h->count; i++) x[j] += weight[i] * h->x[i][j];
-    }
-}
-
-/* Newton from a prediction; a solution further than one natural size from it belongs to another branch. */
-static int refine_near(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double before[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    for (int i = 0; i < m->nx; i++) before[i] = x[i];
-    if (mw_refine(m, s, x, info) < 0) return info->status;
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++)
-        if (fabs(x[i] - before[i]) > BRANCH_WIDTH * scale[i]) info->status = MW_NO_CONTACT;
-    return info->status;
-}
-
-/* Give a history of one point a second one close by, on the side of phi, so that it has a direction: a point alone
- * predicts itself, and a pitch further on that is the contact of the neighbouring pair. */
-static void take_direction(const mw_model *m, history *h, double phi, double *s, double *near)
+static void find_reference(trace *t)
 {
     mw_info info;
-    const double next = h->phi[0] + (phi > h->phi[0] ? NUDGE : -NUDGE);
-    memset(&info, 0, sizeof info);
-    memcpy(near, h->x[0], sizeof(double) * (size_t)m->nx);
-    m->set_phi(s, next);
-    if (mw_refine(m, s, near, &info) >= 0) remember(h, next, near);
-}
-
-/* Walk from the newest points of the history to phi in steps as small as Newton needs. Steps that keep failing where
- * the Jacobian degenerates mean that the branch turns back. */
-static int walk(const mw_model *m, const history *from, double to, double *s, double *x, mw_info *info)
-{
-    double good[2][MW_MAX_UNKNOWNS];
-    history h = { from->count > 1 ? 2 : 1, { good[0], good[1] }, { from->phi[0], from->phi[1] } };
-    double step = to - from->phi[0];
-    for (int i = 0; i < h.count; i++) memcpy(good[i], from->x[i], sizeof(double) * (size_t)m->nx);
-    for (int splits = 0; splits <= MAX_SPLITS;) {
-        const double next = fabs(to - h.phi[0]) <= 1.0001 * fabs(step) ? to : h.phi[0] + step;
-        predict(&h, next, m->nx, x);
-        m->set_phi(s, next);
-        if (refine_near(m, s, x, info) < 0) {
-            step *= 0.5;
-            splits++;
-            continue;
-        }
-        if (next == to) return info->status;
-        memcpy(good[1], good[0], sizeof good[0]);
-        memcpy(good[0], x, sizeof(double) * (size_t)m->nx);
-        h = (history){ 2, { good[0], good[1] }, { next, h.phi[0] } };
+    double angle = 0.0;
+    int found = tangency_at(t, 0.0, &info);
+    for (int k = 0; k < 2 * DOUBLINGS && !found; k++) {
+        angle = ldexp(k % 2 ? -FIRST : FIRST, k / 2);
+        found = tangency_at(t, angle, &info);
     }
-    if (info->rank_gap < FOLD_GAP && info->status != MW_LEFT_FLANK) info->status = MW_FOLD;
-    return info->status;
+    /* a point of a contact line is arbitrary: no branch begins there */
+    if (found && mw_worth_of(t->m, t->s, t->at_reference) != MW_OF_A_LINE)
+        mw_remember(&t->reference, angle, t->at_reference);
 }
 
-/* From the history: predicted and refined, then walked to. Negative if the branch does not reach phi. */
-static int continue_branch(const mw_model *m, const history *h, double phi, double *s, double *x, mw_info *info)
+static void begin_walk(trace *t)
 {
+    memset(&t->walk, 0, sizeof t->walk);
+    t->walk.history = t->reference;
+}
+
+/* Walk on to the next station of that side. */
+static void to_next_station(trace *t, int side)
+{
+    walk *w = &t->walk;
+    double x[MW_MAX_UNKNOWNS];
+    mw_info info;
+    const double phi = t->reference.phi[0] + (w->station + side) * STATION;
+    if (w->history.count == 1) mw_take_direction(t->m, &w->history, phi, t->s, w->beside);
+    if (mw_walk(t->m, &w->history, phi, t->s, x, &info) < 0) {
+        w->ended = info.status;
+        return;
+    }
+    w->station += side;
+    double *place = w->at[w->station & 1];
+    memcpy(place, x, sizeof x);
+    mw_remember(&w->history, phi, place);
+    w->history.count = 2;
+}
+
+/* The point of the branch at phi, from the station before it. */
+static int walk_to(trace *t, double phi, double *x, mw_info *info)
+{
+    walk *w = &t->walk;
+    const double distance = phi - t->reference.phi[0];
+    const int side = distance < 0.0 ? -1 : 1, last = (int)(fabs(distance) / STATION) * side;
+    if (w->station * side < 0 || w->station * side > last * side || (w->station == 0 && w->ended)) begin_walk(t);
+    while (w->station != last && !w->ended) to_next_station(t, side);
     memset(info, 0, sizeof *info);
-    m->set_phi(s, phi);
-    predict(h, phi, m->nx, x);
-    if (mw_newton_fused(m, s, x, MW_FUSED_TOLERANCE, info) && mw_within_bounds(m, x)) return info->status;
-    return walk(m, h, phi, s, x, info);
+    if (w->station != last) return info->status = w->ended;
+    if (distance == 0.0) {
+        memcpy(x, t->reference.x[0], sizeof(double) * (size_t)t->m->nx);
+        t->m->set_phi(t->s, phi);
+        return mw_refine(t->m, t->s, x, info);
+    }
+    mw_history from = w->history;
+    double beside[MW_MAX_UNKNOWNS];
+    if (from.count == 1) mw_take_direction(t->m, &from, phi, t->s, beside);
+    return mw_walk(t->m, &from, phi, t->s, x, info);
+}
+
+static int possible(const trace *t, double phi, const double *x)
+{
+    t->m->set_phi(t->s, phi);
+    return mw_worth_of(t->m, t->s, x) != MW_IMPOSSIBLE;
+}
+
+/* Whether point k is of the branch, and bodies can make it. */
+static int holds(trace *t, size_t k)
+{
+    double x[MW_MAX_UNKNOWNS];
+    mw_info info;
+    return walk_to(t, t->phi[k], x, &info) >= 0 && possible(t, t->phi[k], x) &&
+           mw_near(t->m, t->s, x, t->x + k * (size_t)t->m->nx, SAME);
+}
+
+/* Solve point k where no branch leads: the tangency in the middle, unless bodies can make another. */
+static void alone(trace *t, size_t k)
+{
+    double *x = t->x + k * (size_t)t->m->nx;
+    mw_info *info = t->info + k;
+    const int status = mw_start(t->m, t->p, t->phi[k], t->s, t->work, x, info);
+    if (status >= 0 && mw_worth_of(t->m, t->s, x) != MW_IMPOSSIBLE) return;
+    if (!mw_search(t->m, t->s, x, info) && status == MW_DIVERGED) info->status = MW_NO_CONTACT;
+}
+
+/* Solve point k by walking to it, or by search. */
+static void by_walk(trace *t, size_t k)
+{
+    double *x = t->x + k * (size_t)t->m->nx;
+    const int status = walk_to(t, t->phi[k], x, t->info + k);
+    memset(&t->history, 0, sizeof t->history);
+    t->checked = k + 1;
+    if (status >= 0 && possible(t, t->phi[k], x)) {
+        mw_remember(&t->history, t->phi[k], x);
+        return;
+    }
+    t->m->set_phi(t->s, t->phi[k]);
+    mw_search(t->m, t->s, x, t->info + k);
+}
+
+/* Solve point k by a step from the points before it. Returns 0 where that does not succeed. */
+static int by_leap(trace *t, size_t k)
+{
+    double *x = t->x + k * (size_t)t->m->nx;
+    const double phi = t->phi[k];
+    if (t->history.count == 0 || phi == t->history.phi[0]) return 0;
+    if (t->history.count == 1) mw_take_direction(t->m, &t->history, phi, t->s, t->beside);
+    if (!mw_leap(t->m, &t->history, phi, t->s, x, t->info + k)) return 0;
+    mw_remember(&t->history, phi, x);
+    return 1;
+}
+
+static int check_is_due(const trace *t, size_t k)
+{
+    const double stations = 1.0 + fabs(t->phi[k] - t->reference.phi[0]) / STATION;
+    return k + 1 == t->n || (double)(k + 1 - t->checked) >= CHECK_EVERY * stations;
+}
+
+/* Walk to the points since the last check up to number `end`. */
+static size_t back(trace *t, size_t end)
+{
+    t->walked = end;
+    t->history.count = 0;
+    return t->checked;
+}
+
+/* Solve point k of the branch; returns the number of the point that is next. */
+static size_t on_branch(trace *t, size_t k)
+{
+    if (k >= t->walked && by_leap(t, k)) {
+        if (!check_is_due(t, k)) return k + 1;
+        if (!holds(t, k)) return back(t, k + 1);
+        t->checked = k + 1;
+        t->m->set_phi(t->s, t->phi[k]);
+        return k + 1;
+    }
+    if (k > t->checked && !holds(t, k - 1)) return back(t, k);
+    by_walk(t, k);
+    return k + 1;
 }
 
 size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                 mw_info *info)
 {
-    history h;
-    double near[MW_MAX_UNKNOWNS];
+    trace t = { .m = m, .p = p, .phi = phi, .n = n, .s = s, .work = work, .x = x, .info = info };
     size_t succeeded = 0;
-    memset(&h, 0, sizeof h);
     const int guard = m->setup(p, s);
-    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
-        int lost = 0;
-        if (guard) {
-            memset(info, 0, sizeof *info);
-            info->guard = guard;
-            info->status = MW_BAD_INPUT;
-            continue;
-        }
-        if (h.count == 1) take_direction(m, &h, phi[k], s, near);
-        if (h.count > 0) lost = continue_branch(m, &h, phi[k], s, x, info);
-        if (h.count == 0 || lost < 0) {
-            h.count = 0;
-            if (mw_solve(m, p, phi[k], s, work, x, info) < 0) {
-                if (lost < 0) info->status = lost;
-                continue;
-            }
-        }
-        /* a point of a contact line is arbitrary: it predicts nothing */
-        if (info->status == MW_LINE_CONTACT) h.count = 0;
-        else remember(&h, phi[k], x);
-        succeeded++;
-    }
+    for (size_t k = 0; k < n && guard; k++) info[k] = (mw_info){ .status = MW_BAD_INPUT, .guard = guard };
+    if (guard) return 0;
+    find_reference(&t);
+    m->setup(p, s);
+    begin_walk(&t);
+    for (size_t k = 0; k < n && t.reference.count == 0; k++) alone(&t, k);
+    for (size_t k = 0; k < n && t.reference.count > 0;) k = on_branch(&t, k);
+    for (size_t k = 0; k < n; k++) succeeded += info[k].status >= 0;
     return succeeded;
 }
 
-size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
-                 mw_info *info)
+int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
-    history h;
-    memset(&h, 0, sizeof h);
-    remember(&h, phi0, x0);
-    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
-        if (phi[k] == h.phi[0]) {
-            memcpy(x, h.x[0], sizeof(double) * (size_t)m->nx);
-            memset(info, 0, sizeof *info);
-            continue;
-        }
-        if (continue_branch(m, &h, phi[k], s, x, info) < 0) return k;
-        remember(&h, phi[k], x);
-    }
-    return n;
+    mw_trace(m, p, &phi, 1, s, work, x, info);
+    return info->status;
 }

@@ -21,9 +21,6 @@ _CONTACT = np.dtype(
     align=True,
 )  # fmt: skip
 
-#: Bit of ``mw_contact.flags`` for negative relative curvature: see ``mw_flag``.
-_INTERFERENCE = 2
-
 
 def pointer(array):
     """A contiguous float array as a ``double *``."""
@@ -77,12 +74,7 @@ class _Points:
 
     @classmethod
     def of(cls, drive, grid):
-        points = cls.solved(drive, grid, *trace(drive, grid))
-        s = drive.state()
-        for k in np.flatnonzero(points.contacts["flags"] & _INTERFERENCE):
-            drive.model.set_phi(pointer(s), grid[k])
-            points._look_again(k, s)
-        return points
+        return cls.solved(drive, grid, *trace(drive, grid))
 
     @classmethod
     def solved(cls, drive, grid, x, records):
@@ -104,20 +96,6 @@ class _Points:
         solution, observed = pointer(self.x[k]), pointer(self.observed[k])
         ended = library().mw_contact_at(self.drive.model, pointer(s), solution, observed, place)
         self.status[k] = ended if self.contacts["line"][k] else self.records["status"][k]
-
-    def _look_again(self, k, s):
-        """A trace may follow a saddle of the gap; keep what a cold start finds instead if bodies can make it."""
-        m, traced = self.drive.model, (self.x[k].copy(), self.records[k].copy())
-        record, work = ffi.from_buffer("mw_info[]", self.records[k : k + 1]), np.empty(m.np)
-        parameters = pointer(self.drive.design.parameters)
-        ended = library().mw_solve(m, parameters, self.grid[k], pointer(s), pointer(work), pointer(self.x[k]), record)
-        if ended >= 0:
-            self._look(k, s)
-        if ended < 0 or self.contacts["flags"][k] & _INTERFERENCE:
-            self.x[k], self.records[k] = traced
-            m.setup(parameters, pointer(s))
-            m.set_phi(pointer(s), self.grid[k])
-            self._look(k, s)
 
     @property
     def description(self):

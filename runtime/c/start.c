@@ -1,12 +1,17 @@
-/* One contact point from a cold start.  SPDX-License-Identifier: MIT-0 */
+/* The tangency in the middle of the flanks, from the model's start values.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
+#include "choice.h"
 #include "newton.h"
-#include "refine.h"
 
 enum { MAX_ATTEMPTS = 100 };
 
-static const double SMALLEST_STEP = 1e-8;   /* share of the misalignments */
-static const double SINGULAR_SHARE = 1e-2;  /* of the aligned drive's: a pivot falls as the root of the way left */
+/* Share of the misalignments below which no further step is tried. */
+static const double SMALLEST_STEP = 1e-8;
+
+/* Where two tangencies meet and vanish, the smallest pivot falls as the square root of the way left. A search that ends
+ * within SMALLEST_STEP of such a place sees a pivot of 1e-4 of the aligned drive's; this share leaves room for its
+ * factor, and a pivot that only varies with the geometry stays far above it. */
+static const double SINGULAR_SHARE = 1e-2;
 
 static int ended_well(int status)
 {
@@ -27,8 +32,7 @@ static int setup_share(const mw_model *m, const double *p, double share, double 
     return guard;
 }
 
-/* Start values x from the model's start system, or from its first guess where it has no solution. */
-static int start_values(const mw_model *m, const double *s, double *x, mw_info *info)
+int mw_start_values(const mw_model *m, const double *s, double *x, mw_info *info)
 {
     double y[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     memset(info, 0, sizeof *info);
@@ -39,9 +43,9 @@ static int start_values(const mw_model *m, const double *s, double *x, mw_info *
     return info->status;
 }
 
-static int start(const mw_model *m, const double *s, double *x, mw_info *info)
+static int from_middle(const mw_model *m, const double *s, double *x, mw_info *info)
 {
-    if (ended_well(start_values(m, s, x, info))) mw_refine(m, s, x, info);
+    if (ended_well(mw_start_values(m, s, x, info))) mw_refine(m, s, x, info);
     return info->status;
 }
 
@@ -58,8 +62,8 @@ static double pivot_gap(const mw_model *m, const double *s, const double *x)
 
 /* Raise the misalignments from share `from` to 1, halving the step where Newton fails. Contact is lost on the way if
  * the equations become singular where the solutions end. */
-static int raise(const mw_model *m, const double *p, double phi, double from, double *s, double *work, double *x,
-                 mw_info *info)
+static int raise_misalignments(const mw_model *m, const double *p, double phi, double from, double *s, double *work,
+                               double *x, mw_info *info)
 {
     double good[MW_MAX_UNKNOWNS];
     double share = from, step = 1.0 - from;
@@ -84,19 +88,15 @@ static int raise(const mw_model *m, const double *p, double phi, double from, do
     return info->status;
 }
 
-int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+int mw_start(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
-    double near[MW_MAX_UNKNOWNS];
-    mw_info started;
     memset(info, 0, sizeof *info);
     info->guard = setup_share(m, p, 1.0, phi, s, work);
     if (info->guard) return info->status = MW_BAD_INPUT;
-    if (!ended_well(start(m, s, x, info))) {
+    if (!ended_well(from_middle(m, s, x, info))) {
         setup_share(m, p, 0.0, phi, s, work);
-        if (ended_well(start(m, s, x, info))) raise(m, p, phi, 0.0, s, work, x, info);
+        if (ended_well(from_middle(m, s, x, info))) raise_misalignments(m, p, phi, 0.0, s, work, x, info);
         setup_share(m, p, 1.0, phi, s, work);
     }
-    start_values(m, s, near, &started);
-    mw_search(m, s, near, x, info);
     return info->status;
 }
