@@ -50,6 +50,15 @@ def analyse(drive, angles):
     return points.result(angles, inverse[:-1], mirror)
 
 
+def without_contact(drive, angles):
+    """:class:`~meshwright.results.TCA` of teeth that do not reach each other, at pinion angles (rad)."""
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    records = np.zeros(len(angles), _INFO)
+    records["status"] = _code("no_contact")
+    points = _Points.solved(drive, mirror * angles, np.full((len(angles), drive.model.nx), np.nan), records)
+    return points.result(angles, np.arange(len(angles)), mirror)
+
+
 def at_solutions(drive, angles, unknowns):
     """:class:`~meshwright.results.TCA` of contacts solved already: angles (N,) and unknowns (N, nx), one row each.
 
@@ -184,6 +193,11 @@ class _Points:
 def turns(name):
     """Whether a number of this name is an angle of rotation about a z-type axis, which a mirror image negates."""
     return name.startswith(("psi_", "phi_"))
+
+
+def _code(word):
+    """The first failure that results call by this word."""
+    return next(code for code in range(-1, -100, -1) if text(library().mw_status_word(code)) == word)
 
 
 def _flag_names(m):

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import analysis, contact_ratio, edge, grids, limits
+from meshwright import analysis, contact_ratio, edge, grids, limits, windows
 from meshwright import design as designs
 from meshwright._library import library, model, text
 from meshwright.design import Design
@@ -73,6 +73,11 @@ class Drive:
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])
 
     @cached_property
+    def past_the_tips(self):
+        """Whether the teeth do not reach each other at any angle."""
+        return windows.past_the_tips(self)
+
+    @cached_property
     def edge_window(self):
         """Window of a pair that runs on an edge, where the drive's error is designed to avoid that; else None."""
         absorbs_errors = self.design.description["absorbs_errors"]
@@ -98,7 +103,10 @@ class Drive:
         angles = np.atleast_1d(np.asarray(angles, dtype=float))
         if angles.ndim != 1 or not np.all(np.isfinite(angles)):
             raise UsageError("angles must be a one-dimensional array of finite numbers")
-        return edge.flagged(analysis.analyse(self, angles), self.edge_window)
+        result = analysis.analyse(self, angles)
+        if any("off_tip" in flags for flags in result.flags) and self.past_the_tips:
+            return analysis.without_contact(self, angles)
+        return edge.flagged(result, self.edge_window)
 
     def contacts(self, angle):
         """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""

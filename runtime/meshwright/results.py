@@ -4,13 +4,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from meshwright._library import library
+
 ARCSEC = np.pi / 648000.0
 
 #: Status words of points that have numbers.
 SOLVED = ("converged",)
 
-#: Flags of points that satisfy the equations but that bodies cannot make.
-IMPOSSIBLE = frozenset({"interference", "spurious_sheet"})
+
+def impossible(flag):
+    """Whether a flag marks points that satisfy the equations but that bodies cannot make."""
+    return bool(library().mw_impossible(flag.encode()))
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ class TCA:
     @property
     def complete(self):
         """Whether every point converged to a contact that bodies can make."""
-        return bool(self.solved.all()) and not any(IMPOSSIBLE & set(f) for f in self.flags)
+        return bool(self.solved.all()) and not any(impossible(f) for flags in self.flags for f in flags)
 
     def ellipse(self, k, points=97):
         """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN without one."""

@@ -1,7 +1,7 @@
 """The window of contact of one tooth pair: where it begins, where it ends, and what limits it there."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -16,6 +16,13 @@ ANGLE_TOLERANCE = 1e-10
 
 #: The search goes on this many pitches at a time.
 CHUNK = 2
+
+#: Nodes about the place that comes nearest to the flanks, where none lies on them: a window shorter than a share of
+#: 1/256 of the pitch is none.
+FINER = 33
+
+#: Events beyond which a member has no more tooth.
+TIPS = ("tip", "throat")
 
 
 @dataclass(frozen=True)
@@ -87,10 +94,44 @@ def contact_window(drive):
         ends = _line_ends(drive, limits) if status == "line_contact" else (NO_EVENT, NO_EVENT)
         return Window(*_in_order(drive, ends), None, status)
     path = _searched(path, limits)
+    if not (_worst(path, limits) >= 0.0).any():
+        path = _closer(path, limits)
     ends = _ends(path, limits)
     if ends is None:
+        if _past_the_tips(path, limits):
+            return Window(NO_EVENT, NO_EVENT, None, "no_contact")
         return Window(NO_EVENT, NO_EVENT, path)
     return Window(*_in_order(drive, ends), _with_margin(path, ends))
+
+
+def past_the_tips(drive):
+    """Whether the pair's path of contact lies past a tip everywhere: the teeth do not reach each other.
+
+    Where the path has a stretch between both tips, a point beyond it is a contact off the tip.
+    """
+    path, _ = Path.start(drive)
+    return path is not None and _past_the_tips(path, limits_of(drive))
+
+
+def _past_the_tips(path, limits):
+    tips = [limit for limit in limits if limit.reason in TIPS]
+    if not tips:
+        return False
+    path = _searched(path, tips)
+    return not (_worst(path, tips) >= 0.0).any() and not (_worst(_closer(path, tips), tips) >= 0.0).any()
+
+
+def _closer(path, limits):
+    """The path with more nodes about that where its limits are least exceeded."""
+    best = int(np.argmax(_worst(path, limits)))
+    low, high = path.angles[[max(best - 1, 0), min(best + 1, len(path.angles) - 1)]]
+    angles = np.setdiff1d(np.linspace(low, high, FINER), path.angles)
+    order = np.argsort(np.concatenate([path.angles, angles]))
+    return replace(
+        path,
+        angles=np.concatenate([path.angles, angles])[order],
+        unknowns=np.concatenate([path.unknowns, path.solve(angles)])[order],
+    )
 
 
 def _in_order(drive, ends):

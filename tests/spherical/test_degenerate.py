@@ -73,3 +73,23 @@ def test_impossible_designs_name_their_key(pair, changes, key):
 def test_a_sphere_radius_is_needed_for_a_curved_gear(pair):
     with pytest.raises(DesignError, match="wheel_sphere_radius_mm.*cannot be made without it"):
         pair("convex", "spur").with_(design={"wheel_form": "convex"})
+
+
+@pytest.mark.parametrize(("error", "reached"), [(5.0, True), (7.5, True), (8.0, False), (50.0, False)])
+def test_teeth_that_reach_each_other_nowhere_have_no_contact(pair, error, reached):
+    """The path of contact, along the line of action, runs from the wheel's tip circle to the pinion's."""
+    drive = pair("convex", "convex", misalignment={"center_distance_mm": error})
+    sizes, distance = drive.design.sizes, 216.0 + error
+    inclination = math.acos(216.0 * math.cos(math.radians(20.0)) / distance)
+    length = -distance * math.sin(inclination)
+    for name in ("pinion", "wheel"):
+        length += math.sqrt(sizes[f"{name}_tip_radius_mm"] ** 2 - sizes[f"{name}_base_radius_mm"] ** 2)
+    assert (length > 0.0) == reached
+    result, ratio = drive.tca([-0.3, 0.0, 0.04, 0.3]), drive.contact_ratio()
+    if reached:
+        assert set(result.status) == {"converged"} and "off_tip" in result.flags[0]
+        assert ratio.begin.exists and ratio.end.exists
+        assert ratio.contact_ratio == pytest.approx(length / (math.pi * 4.0 * math.cos(math.radians(20.0))), abs=1e-6)
+    else:
+        assert set(result.status) == {"no_contact"} and not result.complete
+        assert ratio.status == "no_contact" and not ratio.begin.exists and not ratio.end.exists

@@ -23,13 +23,32 @@ def test_an_oversize_hob_of_the_same_form_gives_point_contact(profile):
     assert np.all(result.curvatures > 0)
 
 
-@pytest.mark.parametrize("profile", ["ZA", "ZI", "ZN", "ZK"])
-def test_with_an_undersize_hob_the_middle_of_the_face_interferes_and_contact_moves_to_its_side(profile):
+@pytest.mark.parametrize("flank", ["right", "left"])
+@pytest.mark.parametrize("profile", PROFILES)
+def test_an_undersize_hob_interferes_at_every_angle(profile, flank):
+    """The gap rises from the middle of the face to either side: a saddle. On one side it falls again, and the tangency
+    there is a contact by its curvatures; but teeth that touch in it overlap on the other half of the face."""
+    drive = Drive.from_tables(plain(profile, hob_pitch_radius_mm=19.8, flank=flank))
+    result = drive.tca(np.linspace(-0.5, 0.5, 7) * drive.pitch())
+    assert set(result.status) == {"converged"} and set(result.flags) == {("interference",)}
+    assert np.abs(result.unknowns["psi_fixed_hob"][3]) < 0.05
+    assert not result.complete
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_tangency_beside_the_middle_of_an_undersize_hob_s_face_is_no_contact_of_bodies(profile):
     found = Drive.from_tables(plain(profile, hob_pitch_radius_mm=19.8)).contacts(0.0)
     middle = np.argmin(np.abs(found.unknowns["psi_fixed_hob"]))
     side = np.argmax(found.unknowns["psi_fixed_hob"])
     assert found.flags[middle] == ("interference",) and found.flags[side] == ()
     assert found.error[side] > found.error[middle]  # s = +1: the larger wheel angle leads
+
+
+def test_a_side_contact_off_the_face_does_not_displace_the_saddle_of_an_undersize_hob():
+    drive = Drive.load("plain-zi").with_(design={"hob_pitch_radius_mm": 20.289172746317988})
+    result = drive.tca([0.0])
+    assert result.flags == (("interference",),)
+    assert abs(result.unknowns["psi_fixed_hob"][0]) < 0.05
 
 
 @pytest.mark.parametrize("form", PROFILES)

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshwright.report import words
 from meshwright.report.numbers import fixed, number
-from meshwright.results import ARCSEC, IMPOSSIBLE
+from meshwright.results import ARCSEC, impossible
 from meshwright.transmission import ROUND_OFF
 
 
@@ -127,7 +127,7 @@ def _flags(analysis):
     counted = Counter(flag for flags in analysis.tca.flags for flag in flags)
     total = len(analysis.tca.flags)
     return [
-        Finding("warn" if flag in IMPOSSIBLE else "note", f"At {n} of {total} positions {words.flag(flag)}.")
+        Finding("warn" if impossible(flag) else "note", f"At {n} of {total} positions {words.flag(flag)}.")
         for flag, n in counted.items()
     ]
 
