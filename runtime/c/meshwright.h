@@ -69,7 +69,7 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
  * touch. The contact of a pair at an input angle is
  *   1. at angle 0, the tangency in the middle of the flanks, to which the model's start values lead; where bodies cannot
  *      make it but can make another as under 3, that one; elsewhere the point of the branch of contact through it. Where
- *      nothing touches at 0, the branch is that of the tangency at the nearest of a fixed series of angles;
+ *      nothing touches at 0, the branch is that of a contact on both flanks at the nearest of a fixed series of angles;
  *   2. that point stays the contact where it lies beyond a limit of a flank, which is then flagged;
  *   3. where bodies cannot make it (see mw_impossible), or the branch ends before the angle: a contact within all limits
  *      of both flanks that bodies can make, the nearest to the middle that a search over the wheel flank finds. The teeth

@@ -1,12 +1,13 @@
-/* The contact of a tooth pair at one angle and at many: see "Which contact" in meshwright.h.  SPDX-License-Identifier:
- * MIT-0 */
+/* The contact of a tooth pair at one angle and at many.  SPDX-License-Identifier: MIT-0
+ *
+ * The rule is "Which contact" in meshwright.h. */
 #include <math.h>
 #include <string.h>
 #include "branch.h"
 #include "choice.h"
 
-/* Where nothing touches at angle 0 (misalignment may have moved the contact): angles at which a tangency is tried next,
- * ever further to either side. From FIRST on they double; the last is past a turn of the pinion. */
+/* Where nothing touches at angle 0 (misalignment may have moved the contact): angles at which a contact on both flanks
+ * is tried next, ever further to either side. From FIRST on they double; the last is past a turn of the pinion. */
 enum { DOUBLINGS = 10 };
 static const double FIRST = 1.0 / 64.0; /* rad */
 
@@ -58,7 +59,7 @@ static void find_reference(trace *t)
     int found = tangency_at(t, 0.0, &info);
     for (int k = 0; k < 2 * DOUBLINGS && !found; k++) {
         angle = ldexp(k % 2 ? -FIRST : FIRST, k / 2);
-        found = tangency_at(t, angle, &info);
+        found = tangency_at(t, angle, &info) && mw_worth_of(t->m, t->s, t->at_reference) >= MW_ON_BOTH_FLANKS;
     }
     /* a point of a contact line is arbitrary: no branch begins there */
     if (found && mw_worth_of(t->m, t->s, t->at_reference) != MW_OF_A_LINE)
