@@ -26,7 +26,7 @@ def _tables(worm, hob, shaft_angle, errors, flank):
 
 @pytest.mark.parametrize("worm, hob", PAIRS)
 def test_flank_forms_at_any_shaft_angle_agree_with_fifty_digits(worm, hob):
-    compared = 0
+    compared = folded = 0
     with mpmath.workdps(50):
         for shaft_angle, errors, flank in itertools.product(SHAFT_ANGLES, ERRORS, ("right", "left")):
             tables = _tables(worm, hob, shaft_angle, errors, flank)
@@ -35,6 +35,8 @@ def test_flank_forms_at_any_shaft_angle_agree_with_fifty_digits(worm, hob):
             result = Drive.from_tables(tables).tca(angles)
             for k, phi in enumerate(angles):
                 if result.status[k] != "converged":
+                    assert result.status[k] == "fold"
+                    folded += 1
                     continue
                 compared += 1
                 u = {name: values[k] for name, values in result.unknowns.items()}
@@ -46,4 +48,4 @@ def test_flank_forms_at_any_shaft_angle_agree_with_fifty_digits(worm, hob):
                 assert abs(float(error - result.error[k])) * 648000 / np.pi < 1e-10
                 as_solved = exact.residual([mpmath.mpf(float(x)) for x in start], mpmath.mpf(phi))
                 assert max(map(abs, as_solved[:5])) < 1e-12
-    assert compared >= 28  # beyond a fold there is no contact to compare
+    assert compared > 4 * folded  # beyond a fold there is no contact to compare
