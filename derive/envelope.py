@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derive import vectors as v
+from derive.differentiate import partial
 from derive.origin import EXPLICIT, Origin
 from derive.symbols import Quantity
 
@@ -108,7 +109,7 @@ def in_turn(condition, angle):
     """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
     form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
-    a, b, c = sp.diff(form, cosine), sp.diff(form, sine), form.xreplace({cosine: sp.Integer(0), sine: sp.Integer(0)})
+    a, b, c = partial(form, cosine), partial(form, sine), form.xreplace({cosine: sp.Integer(0), sine: sp.Integer(0)})
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
         raise ValueError("the equation is not linear in the cosine and sine of one angle")
     return a, b, c

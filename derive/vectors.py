@@ -20,19 +20,20 @@ def sub(a, b):
 
 
 def scale(factor, a):
-    return tuple(factor * p for p in a)
+    return tuple(_times(factor, p) for p in a)
 
 
 def dot(a, b):
-    return sp.Add(*(p * q for p, q in zip(a, b, strict=True)))
+    return sp.Add(*(_times(p, q) for p, q in zip(a, b, strict=True)))
 
 
 def cross(a, b):
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
+    return tuple(_times(a[i], b[j]) - _times(a[j], b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
+
+
+def _times(p, q):
+    """p q, without asking whether a factor of zero is finite."""
+    return sp.S.Zero if p == 0 or q == 0 else p * q
 
 
 def unit(a):
