@@ -1,6 +1,8 @@
 """Finite elements of spherical pairs against Hertz, and the gate that refuses bad runs."""
 
+import gzip
 import json
+import shutil
 import stat
 from dataclasses import replace
 from pathlib import Path
@@ -17,10 +19,11 @@ from meshwright.fe.deck import write
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.model import Load, build_model
 from meshwright.fe.solids import gear_pair
-from meshwright.fe.solver import run_ccx
+from meshwright.fe.solver import SolverRun, run_ccx
 
 TORQUE = Load(100e3, "pinion")
 LIMIT = 600.0
+RECORDED = Path(__file__).parents[1] / "reference" / "ccx-surface-to-surface"
 # two rows of coarse fillet elements leave the solver a singular matrix
 MODEST = MeshDensity(growth=3.0, fillet_rows=4, rim_rows=3, coarse_fillet_rows=3)
 COARSE = replace(MODEST, per_semi_minor=1.0, per_semi_major=1.5, growth=3.5, first_layer=1.0)
@@ -98,8 +101,26 @@ def turned(model, angle):
     return replace(model.deck, parts=tuple(parts))
 
 
-def test_gate_refuses_garbage_with_a_good_return_code(ccx, concave, compliance, tmp_path):
-    """ "Job finished", return code 0 and a rotation of 1.5e8 rad, which mortar runs from a gap have printed."""
+def test_gate_refuses_a_recorded_run_with_wrong_pressures(concave, compliance, tmp_path):
+    """Converged, "Job finished", return code 0, and pressures that carry 2.9 times the torque."""
+    prepared, _ = prepared_at(concave, compliance, tmp_path, COARSE)
+    results = prepared.input_file.with_suffix(".frd")
+    results.write_bytes(gzip.decompress((RECORDED / "model.frd.gz").read_bytes()))
+    shutil.copy(RECORDED / "model.dat", tmp_path)
+    coordinates = [line for line in results.read_text().split("-3\n")[0].splitlines() if line.startswith(" -1")]
+    recorded = {int(line[3:13]): [float(line[k : k + 12]) for k in (13, 25, 37)] for line in coordinates}
+    nodes = np.concatenate([part.mesh.nodes for part in prepared.model.deck.parts])
+    assert nodes[np.array(list(recorded)) - 1] == pytest.approx(np.array(list(recorded.values())), abs=1e-3)
+    run = SolverRun(0, 15.0, (RECORDED / "model.log").read_text())
+    document, solution = judge(prepared, run)
+    assert run.finished and solution is None
+    refused(document, "pair_moment_error")
+    assert document["gate"]["pair_moment_error"]["value"] > 1.0
+    assert document["gate"]["reaction_moment_error"]["held"] and document["gate"]["rotation_rad"]["held"]
+
+
+def test_gate_refuses_a_rotation_beyond_reason(ccx, concave, compliance, tmp_path):
+    """Return code 0 and a rotation of 1.5e8 rad, put by hand into the result of a run."""
     prepared, settings = prepared_at(concave, compliance, tmp_path, COARSE)
     run = run_ccx(ccx, prepared.input_file, LIMIT)
     dat = prepared.input_file.with_suffix(".dat")
