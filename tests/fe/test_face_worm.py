@@ -12,7 +12,8 @@ from meshwright.fe.generated import about_z
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.hexahedra import FACES
 from meshwright.fe.loaded import loaded_contact
-from meshwright.fe.model import Load
+from meshwright.fe.model import Load, build_model
+from meshwright.fe.pictures import view
 from meshwright.fe.solids import gear_pair
 
 FLANKS = {"convex": ("convex", "concave"), "concave": ("concave", "convex")}
@@ -150,6 +151,21 @@ def test_worm_points_satisfy_their_meshing_equation():
     contact = drive.tca([0.0])
     along = contact.unknowns["u_worm"], contact.unknowns["psi_worm"]
     assert curves.surface(*along)[0][0] == pytest.approx(contact.body_points["pinion"][0], abs=1e-9)
+
+
+@pytest.mark.parametrize("member", ["pinion", "wheel"])
+def test_pictures_look_at_the_flank_in_contact(member):
+    """From outside it, and from the side of the tips: the worm's threads, above the gear, from below."""
+    gear = gear_pair(Drive.load("face-worm-conical-convex"))
+    model = build_model(gear, 0.0, 1, Load(50e3, "wheel"), np.array([700.0]), DENSITY)
+    elevation, azimuth = np.radians(view(model, member))
+    sight = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    touch = model.contacts[0].touch
+    from_pinion = model.frame[:3, :3] @ touch.normal
+    point = model.frame[:3, :3] @ touch.point + model.frame[:3, 3]
+    tips = np.array([0.0, 0.0, point[2]])  # the worm's axis is at z = 0, square to the gear's
+    assert sight @ (from_pinion if member == "pinion" else -from_pinion) > 0.5
+    assert sight @ (tips if member == "pinion" else -tips) > 0.0
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,8 @@ from meshwright.fe.stress import Solution
 
 _DPI = 150
 _COLOURS = "viridis"
-# Degrees above the horizon at least, unless the flanks are seen from below.
-_LEAST_ELEVATION = 20.0
+# Degrees above the horizon at least, or below it where the flanks are seen from below; what is level within this.
+_LEAST_ELEVATION, _LEVEL = 20.0, 1.0
 
 
 def draw(model: PairModel, solution: Solution, folder: Path) -> dict[str, str]:
@@ -78,7 +78,7 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(high - low)
     axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
-    axes.view_init(*_view(model, name))
+    axes.view_init(*view(model, name))
     bar = figure.colorbar(colours, ax=axes, shrink=0.7, extend="max")
     bar.set_label(f"von Mises stress / MPa (largest on the surface {values.max():.0f})")
     axes.set_title(f"von Mises stress of the {name}; {_position(model)}")
@@ -100,7 +100,7 @@ def _loaded_teeth(model: PairModel, name: BodyName) -> HexMesh:
     return HexMesh(mesh.nodes, mesh.elements[np.concatenate(keep)])
 
 
-def _view(model: PairModel, name: BodyName) -> tuple[float, float]:
+def view(model: PairModel, name: BodyName) -> tuple[float, float]:
     """Elevation and azimuth in degrees that look at the flanks in contact, a little from the tip."""
     rotation = model.frame[:3, :3]
     normal = rotation @ model.contacts[0].touch.normal
@@ -110,7 +110,9 @@ def _view(model: PairModel, name: BodyName) -> tuple[float, float]:
     across = up - (up @ outward) * outward
     sight = outward + 0.5 * across / np.linalg.norm(across)
     elevation = float(np.degrees(np.arctan2(sight[2], np.hypot(sight[0], sight[1]))))
-    slant = elevation if abs(elevation) > _LEAST_ELEVATION else _LEAST_ELEVATION
+    # What lies level, to round-off, is seen from above.
+    below = elevation < -_LEVEL
+    slant = min(elevation, -_LEAST_ELEVATION) if below else max(elevation, _LEAST_ELEVATION)
     return slant, float(np.degrees(np.arctan2(sight[1], sight[0])))
 
 

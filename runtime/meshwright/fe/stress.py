@@ -103,7 +103,8 @@ def _pair(model: PairModel, number: int, pressure: tuple[Ints, Floats], stresses
     moment = np.cross(mesh.nodes[nodes], forces).sum(axis=0)[2]
     axes = _zone_axes(model, number)
     found = [_subsurface(model, name, axes, hertz, stresses[name]) for name in model.bodies]
-    deepest = [stress for stress in found if stress is not None]
+    carries = bool(pressure[1].max() > 0.0)
+    deepest = [stress for stress in found if stress is not None and carries]
     return PairStress(
         forces.sum(axis=0),
         float(moment),
