@@ -146,6 +146,14 @@ typedef struct arc {
     double phi[ARC_STEPS + 1], x[(ARC_STEPS + 1) * MW_MAX_UNKNOWNS], slope[ARC_STEPS + 1], determinant[ARC_STEPS + 1];
 } arc;
 
+/* Why the branch cannot be followed from x: the equations do not exist there, or nothing true can be said. */
+static int stuck(const mw_model *m, double phi, double *s, double *x, mw_info *info)
+{
+    m->set_phi(s, phi);
+    if (mw_refine(m, s, x, info) >= 0) info->status = MW_DIVERGED;
+    return info->status;
+}
+
 /* Follow the branch in arclength towards `to`, through places where the angle cannot lead. Where it arrives, x and info
  * are the solution; else info->status says what became of the branch. */
 static int along_arc(const mw_model *m, const way *w, double to, double *s, double *x, mw_info *info)
@@ -167,7 +175,7 @@ static int along_arc(const mw_model *m, const way *w, double to, double *s, doub
             m->set_phi(s, to);
             return mw_refine(m, s, x, info);
         }
-        if (n < ARC_STEPS + 1) return info->status = MW_DIVERGED;
+        if (n < ARC_STEPS + 1) return stuck(m, from, s, x, info);
         from = a.phi[ARC_STEPS];
         memcpy(x, a.x + ARC_STEPS * nx, sizeof(double) * nx);
     }

@@ -124,7 +124,7 @@ static int overlaps(const field *f, const double *x)
     double at[MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS], slope;
     const int error = f->m->error;
     const size_t size = sizeof(double) * (size_t)f->m->nx;
-    const double step = 2.0 * (f->middle[f->across] - x[f->across]) / SECTIONS;
+    const double step = 2.0 * (f->middle[f->across] - x[f->across]) / (double)SECTIONS;
     memcpy(beside, x, size);
     beside[f->along] += RIDGE_STEP * f->scale[f->along];
     if (!touch(f, beside, &slope)) return 0;

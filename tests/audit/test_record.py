@@ -145,7 +145,9 @@ def test_explain_shows_side_conditions_of_function_statement_and_drive(capsys):
     assert command.main(["explain", "cylindrical_worm_zn_zn_step"]) == 0
     text = capsys.readouterr().out
     assert "pivot 1 of the Newton step ≠ 0" in text or "pivot 2 of the Newton step ≠ 0" in text
-    assert "sin(Sigma_gen) must not be 0" in text and "[derivation/explicit" in text
+    assert "[derivation/explicit" in text
+    assert command.main(["explain", "cylindrical_worm_zn_zn_setup"]) == 0
+    assert "sin(Sigma_gen) must not be 0" in capsys.readouterr().out
     assert command.main(["explain", "derivation/explicit"]) == 0
     assert "cos(theta_pinion) ≠ 0" in capsys.readouterr().out
     assert command.main(["explain", "face_worm"]) == 0
