@@ -76,12 +76,13 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     axes.add_collection3d(faces)
     low, high = mesh.nodes[quads].min(axis=(0, 1)), mesh.nodes[quads].max(axis=(0, 1))
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low)
+    # An upright box would reach into the title.
+    axes.set_box_aspect(high - low, zoom=0.85 if high[2] - low[2] >= (high - low)[:2].max() else 1.0)
     axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
     axes.view_init(*view(model, name))
     bar = figure.colorbar(colours, ax=axes, shrink=0.7, extend="max")
     bar.set_label(f"von Mises stress / MPa (largest on the surface {values.max():.0f})")
-    axes.set_title(f"von Mises stress of the {name}; {_position(model)}")
+    figure.suptitle(f"von Mises stress of the {name}; {_position(model)}")
     return figure
 
 
