@@ -167,7 +167,7 @@ static int by_leap(trace *t, size_t k)
 static int check_is_due(const trace *t, size_t k)
 {
     const double stations = 1.0 + fabs(t->phi[k] - t->reference.phi[0]) / STATION;
-    return k + 1 == t->n || (double)(k + 1 - t->checked) >= CHECK_EVERY * stations;
+    return k + 1 == t->n || (double)(k + 1 - t->checked) >= (double)CHECK_EVERY * stations;
 }
 
 /* Walk to the points since the last check up to number `end`. */
