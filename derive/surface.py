@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Motion, Rz, screw
+from derive.chain import Motion, Rz, screw, swing
 from derive.definitions import Definitions
 from derive.origin import joined
 
@@ -78,14 +78,16 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
     return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",))
 
 
-def revolved(definitions, profile, *, along, turn, outward):
-    """The surface of revolution of a ``profile`` in the x–z half plane (x > 0), turned by ``turn`` about z.
+def revolved(definitions, profile, *, along, turn, outward, radius=0):
+    """The surface of revolution of a ``profile`` in the x–z half plane, turned by ``turn`` about the axis x = −``radius``.
 
-    The tangent along the circle has unit length, so the normal is as long as the profile's tangent.
+    The profile lies at x > −``radius``: a frame near it keeps large lengths from cancelling. The tangent along the
+    circle has unit length, so the normal is as long as the profile's tangent.
     """
     tangents = (definitions.derivative_vector(profile, along), v.vector(*v.J))
     normal = v.scale(outward, v.cross(*tangents))
-    return Surface(definitions, (along, turn), profile, tangents, normal, Rz(turn), steps=("derivation/revolved",))
+    motion = swing("z", turn, (-radius, 0, 0)) if radius else Rz(turn)
+    return Surface(definitions, (along, turn), profile, tangents, normal, motion, steps=("derivation/revolved",))
 
 
 def helicoid(definitions, section, *, along, sweep, parameter, outward):

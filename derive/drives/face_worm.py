@@ -206,7 +206,8 @@ def face_worm():
     definitions = Definitions()
     reference = hob_cut(definitions)
     cutter = HeadCutter(definitions, R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
-    installed = placement(*(k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z, k.origin)))
+    x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
+    installed = placement(x_g, y_g, z_g, v.add(k.symbols(k.origin), v.scale(R_g, x_g)))
 
     phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
     error = Quantity("transmission_error", "rad", "gear angle less ratio times worm angle", "f")

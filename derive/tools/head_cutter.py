@@ -1,4 +1,6 @@
-"""Head-cutter: a blade that turns about the tool axis z; straight or parabolic edge, circular end.
+"""Head-cutter: a blade that turns about the tool's axis; straight or parabolic edge, circular end.
+
+Frame: z along the axis, x outwards from it, origin on the edge at the blade point u = 0, blade at θ = 0.
 
 The surfaces are those of the gear tooth that the tool leaves as its copy: normals point out of the gear.
 Source: 001_d957fec2e26e51c5.txt, sections 2 to 4, Figs. 5 and 11.
@@ -38,12 +40,12 @@ class HeadCutter:
         x, z = self._across
         bulge = parabola * u**2
         profile = (
-            self.radius + u * sp.sin(self.blade_angle) + bulge * x,
+            u * sp.sin(self.blade_angle) + bulge * x,
             sp.Integer(0),
             u * sp.cos(self.blade_angle) + bulge * z,
         )
         proved = "face_worm/blade-normal" if parabola else "face_worm/cone-normal"
-        return revolved(self.definitions, profile, along=u, turn=theta, outward=-self.flank).on(proved)
+        return self._revolved(profile, u, theta).on(proved)
 
     @property
     def junction(self):
@@ -59,11 +61,15 @@ class HeadCutter:
     def fillet(self, lam, theta):
         """The torus of the blade's rounding, λ from 0 (bottom of the tooth space) to ``fillet_end``."""
         x, _ = self._across
-        centre = self.radius + self.junction * sp.sin(self.blade_angle) + self.fillet_radius * x
+        centre = self.junction * sp.sin(self.blade_angle) + self.fillet_radius * x
         profile = (
             centre - self.flank * self.fillet_radius * sp.sin(lam),
             sp.Integer(0),
             self.fillet_radius * (1 - sp.cos(lam)) - self.depth,
         )
-        torus = revolved(self.definitions, profile, along=lam, turn=theta, outward=-self.flank)
-        return torus.on("face_worm/fillet-join", "face_worm/fillet-tangent")
+        return self._revolved(profile, lam, theta).on("face_worm/fillet-join", "face_worm/fillet-tangent")
+
+    def _revolved(self, profile, along, theta):
+        return revolved(
+            self.definitions, profile, along=along, turn=theta, outward=-self.flank, radius=self.radius
+        )
