@@ -213,7 +213,9 @@ MW_INLINE void cylindrical_worm_zi_za_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    c.number = MW_FMA(z * z, v, MW_FNMA(0.5, z, 1.0));
+    const double half = 0.5 * z;
+    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
+    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
     s.bits ^= exchanged ^ ((quadrant & 2) << 62);
