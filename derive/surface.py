@@ -79,7 +79,7 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
 
 
 def revolved(definitions, profile, *, along, turn, outward, radius=0):
-    """The surface of revolution of a ``profile`` in the x–z half plane, turned by ``turn`` about the axis x = −``radius``.
+    """The surface of revolution of a ``profile`` in the x–z half plane, turned by ``turn`` about x = −``radius``.
 
     The profile lies at x > −``radius``: a frame near it keeps large lengths from cancelling. The tangent along the
     circle has unit length, so the normal is as long as the profile's tangent.
