@@ -5,7 +5,7 @@ that acts right to left. Products merge successive rotations about one axis and 
 axis through a rotation about it, so that only the angles that geometry needs remain in the equations.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 
 import sympy as sp
@@ -72,6 +72,20 @@ class Translation:
 
 
 @dataclass(frozen=True)
+class Station(Translation):
+    """A constant translation to the place, far from the axes, where everything happens.
+
+    In a product it moves to the left end, and the rotations it passes become swings about their axes as seen from
+    there: what remains are small displacements. Where two chains meet, their stations cancel as symbols.
+    """
+
+    rests_on = ("derivation/translation", "derivation/swing")
+
+    def inverse(self):
+        return Station(v.scale(-1, self.offset))
+
+
+@dataclass(frozen=True)
 class Swing:
     """Rotation by ``angle`` about the axis through ``centre``, for an arc whose radius may be huge.
 
@@ -101,7 +115,7 @@ class Swing:
         return (self.angle, *self.centre)
 
     def inverse(self):
-        return Swing(self.axis, -self.angle, self.centre)
+        return replace(self, angle=-self.angle)
 
     def local_velocity(self, variable, point):
         rate = sp.diff(self.angle, variable)
@@ -136,19 +150,40 @@ def _along(axis, offset):
 
 def _merged(left, right):
     """The product of two neighbours as a shorter or better ordered list of factors, or None."""
-    if isinstance(left, Rotation) and isinstance(right, Rotation) and left.axis == right.axis:
-        angle = left.angle + right.angle
-        return [] if angle == 0 else [Rotation(left.axis, angle)]
-    if isinstance(left, Translation) and isinstance(right, Translation):
-        return [Translation(v.add(left.offset, right.offset))]
-    if isinstance(left, Rotation) and isinstance(right, Translation) and _along(left.axis, right.offset):
-        return [right, left]
+    match left, right:
+        case (Rotation(), Rotation()) if left.axis == right.axis:
+            return _moving(Rotation(left.axis, left.angle + right.angle))
+        case (Swing(), Swing()) if (left.axis, left.centre) == (right.axis, right.centre):
+            return _moving(replace(left, angle=left.angle + right.angle))
+        case (Translation(), Translation()) if type(left) is type(right):
+            return _moving(replace(left, offset=v.add(left.offset, right.offset)))
+        case (Rotation(), Translation()) if _along(left.axis, right.offset):
+            return [right, left]
+        case (_, Station()):
+            return _passed(left, right)
     return None
+
+
+def _passed(factor, station):
+    """factor · T(c) with the station T(c) on the left."""
+    c = station.offset
+    match factor:
+        case Rotation() if not factor.angle.is_number:
+            return [station, Swing(factor.axis, factor.angle, v.scale(-1, c))]
+        case Swing():
+            return [station, replace(factor, centre=v.sub(factor.centre, c))]
+    return [Station(factor.direction(c)), factor]
+
+
+def _moving(factor):
+    """The factor, or none where it moves nothing."""
+    still = all(e == 0 for e in factor.offset) if isinstance(factor, Translation) else factor.angle == 0
+    return [] if still else [factor]
 
 
 def _normal_form(factors):
     """Merge and reorder neighbours until nothing changes; translations only move left, so this ends."""
-    factors = [f for f in factors if not (isinstance(f, Rotation) and f.angle == 0)]
+    factors = [f for f in factors if not (isinstance(f, Rotation | Swing) and f.angle == 0)]
     at = 0
     while at + 1 < len(factors):
         merged = _merged(factors[at], factors[at + 1])
@@ -218,9 +253,9 @@ class Motion:
                 case Rotation():
                     factors.append(Rotation(f.axis, swap(f.angle)))
                 case Translation():
-                    factors.append(Translation(tuple(map(swap, f.offset))))
+                    factors.append(replace(f, offset=tuple(map(swap, f.offset))))
                 case Swing():
-                    factors.append(Swing(f.axis, swap(f.angle), tuple(map(swap, f.centre))))
+                    factors.append(replace(f, angle=swap(f.angle), centre=tuple(map(swap, f.centre))))
                 case Placement():
                     factors.append(Placement(tuple(tuple(map(swap, c)) for c in f.columns)))
         return Motion(_normal_form(factors))
@@ -254,6 +289,11 @@ def swing(axis, angle, centre):
     return Motion((Swing(axis, sp.sympify(angle), v.vector(*centre)),))
 
 
+def station(x=0, y=0, z=0):
+    """Constant translation by (x, y, z) to or from the place, far from the axes, where everything happens."""
+    return Motion(tuple(_moving(Station(v.vector(x, y, z)))))
+
+
 def placement(x_axis, y_axis, z_axis, origin):
-    """The constant motion from a frame with these axes and this origin to its parent."""
-    return Motion((Translation(v.vector(*origin)), Placement((x_axis, y_axis, z_axis))))
+    """The constant motion from a frame with these axes and this origin, its station, to its parent."""
+    return station(*origin) @ Motion((Placement((x_axis, y_axis, z_axis)),))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Ry, Rz, placement, translation
+from derive.chain import Ry, Rz, placement, station, translation
 from derive.contact import contact
 from derive.definitions import Definitions
 from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
@@ -301,15 +301,15 @@ def _hob_phase(reference):
 def _cradle(psi):
     """From the cradle to the worm: the cradle turns N1/N2 times as fast, the worm plunges by a parabola."""
     plunge = k.plunge.symbol * psi**2
-    return Rz(-psi) @ crossing.inverse() @ translation(-L, -(E_m + plunge), 0) @ Rz(ratio * psi)
+    return Rz(-psi) @ crossing.inverse() @ station(-L, -E_m) @ translation(y=-plunge) @ Rz(ratio * psi)
 
 
 def _mounting(phi_1):
     """The worm in mesh: the shaft angle error turns about the common perpendicular, the axial one follows it."""
     return (
-        translation(y=E_m + k.error_offset.symbol)
+        station(y=E_m + k.error_offset.symbol)
         @ Ry(k.error_angle.symbol)
-        @ translation(x=L + k.error_axial.symbol)
+        @ station(x=L + k.error_axial.symbol)
         @ crossing
         @ Rz(phi_1)
     )

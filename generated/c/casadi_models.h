@@ -102,5 +102,5 @@ MW_CASADI(spherical_spur_concave, 25, 85, 5)
 MW_CASADI(spherical_spur_spur, 25, 80, 5)
 #endif
 #if !defined(MW_DRIVES) || defined(MW_DRIVE_face_worm)
-MW_CASADI(face_worm, 53, 120, 6)
+MW_CASADI(face_worm, 53, 143, 6)
 #endif

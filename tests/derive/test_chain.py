@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, swing, translation
+from derive.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, station, swing, translation
 
 a, b, p, q, t = sp.symbols("a b p q t", real=True)
 POINT = sp.symbols("x y z", real=True)
@@ -28,7 +28,8 @@ CHAINS = [
     Rz(a) @ Rz(b) @ translation(z=p * b),
     Rx(a) @ translation(q, p * a, 0) @ Ry(b) @ screw(t, p),
     translation(x=-p) @ swing("y", a * b, (p, 0, q)) @ Rz(b),
-    Rz(-a) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, b)) @ Rx(b),
+    Rz(-a) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3)) @ Rx(b),
+    station(p, q, 1) @ Ry(sp.pi / 2) @ Rz(a * b) @ translation(y=b**2) @ swing("x", b, (q, 2, p)) @ station(y=t),
 ]
 
 
@@ -65,6 +66,26 @@ def test_substitution_merges_what_becomes_equal():
     motion = Rz(a) @ Rx(t) @ Rz(b)
     assert motion.substitute({t: sp.Integer(0)}) == Rz(a + b)
     assert (Rz(a) @ Rz(b)).substitute({b: -a}) == Motion()
+
+
+def test_a_station_moves_left_and_changes_no_point():
+    near = Ry(sp.pi / 2) @ Rz(a) @ translation(y=b) @ station(p, q, t) @ Rx(b)
+    plain = Ry(sp.pi / 2) @ Rz(a) @ translation(y=b) @ translation(p, q, t) @ Rx(b)
+    assert [type(f).__name__ for f in near.factors] == ["Station", "Rotation", "Swing", "Translation", "Rotation"]
+    _close(near.point(POINT), plain.point(POINT))
+    _close(near.direction(POINT), plain.direction(POINT))
+
+
+def test_stations_of_chains_that_meet_cancel_as_symbols():
+    """A body on a far axis, seen from another chain to the same place: what is left vanishes with the motion."""
+    met = (station(p, q, t) @ Rx(b)).inverse() @ Rz(a) @ station(p, q, t)
+    assert not [f for f in met.factors if type(f).__name__ == "Station"]
+    assert all(c == 0 for c in met.substitute({a: sp.Integer(0), b: sp.Integer(0)}).point((0, 0, 0)))
+
+
+def test_swings_about_one_axis_merge():
+    assert Rz(a) @ Rx(0) @ station(x=p) == station(x=p) @ swing("z", a, (-p, 0, 0))
+    assert swing("z", a, (p, 0, 0)) @ swing("z", -a, (p, 0, 0)) == Motion()
 
 
 def test_a_swing_about_a_far_axis_keeps_its_digits():
