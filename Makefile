@@ -70,7 +70,7 @@ lint: setup
 	$(PY) -m ruff check derive runtime tests
 
 test: build check solver cmake
-	$(PY) -m pytest -m 'not slow'
+	$(PY) -m pytest -m 'not slow' --numprocesses auto --dist loadfile
 
 # The longer finite-element validation.
 test-fe: build solver
