@@ -42,8 +42,9 @@ def compile_drive(drive, record, log):
         }
         files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
         # last: it adds the changes of the inputs to the tape
-        files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, metadata.GENERATOR)
-        evaluated = [*conditions.functions(plan), *sensitivity.functions(plan)]
+        tangents = sensitivity.tangents(plan)
+        files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
+        evaluated = [*conditions.functions(plan), *tangents.functions()]
         description["side_conditions"] = conditions.side_conditions(plan, evaluated)
         files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
         return files

@@ -29,12 +29,24 @@ class SystemTape:
         return [u.symbol for u in self.system.unknowns]
 
 
+@dataclass(frozen=True)
+class ParameterTape:
+    """Nodes of expressions of a drive's parameter vector alone, on a tape of their own."""
+
+    lower: Lowering
+    nodes: list
+
+    @property
+    def tape(self):
+        return self.lower.tape
+
+
 def on_parameters(drive, expressions):
-    """Expressions of a drive's parameter vector alone, on a tape of their own: (lowering, nodes)."""
+    """The :class:`ParameterTape` of these expressions."""
     lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
     for p in drive.parameters:
         lower(p.symbol)
-    return lower, [lower(e) for e in expressions]
+    return ParameterTape(lower, [lower(e) for e in expressions])
 
 
 def lower_system(system: DesignSystem, parameters):

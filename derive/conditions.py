@@ -9,10 +9,11 @@ stages test nothing on their way: a quotient by zero is not finite, a root of a 
 result itself.
 """
 
-from collections import Counter
+from collections import Counter, defaultdict
 from dataclasses import dataclass
+from functools import cache, reduce
+from operator import or_
 
-from derive.completion import on_parameters
 from derive.formula import formula
 from derive.origin import ARCCOSINE, PARTIAL
 from derive.tape import Lowering, Stage, Tape
@@ -67,7 +68,7 @@ def solving(plan):
 
 def functions(plan):
     """Every function of the generated header, in the order in which they are printed."""
-    tape, lower, drive = plan.tape, plan.lower, plan.drive
+    tape, lower = plan.tape, plan.lower
     slots = list(plan.state)
     state, design = frozenset(slots), frozenset(slots[: plan.design_slots])
 
@@ -77,11 +78,11 @@ def functions(plan):
     def results(name, outputs):
         return Evaluated(name, tape, lower, tuple(o.nodes for o in outputs), state, "result")
 
-    for k, rule in enumerate(drive.completion):
-        yield _on_parameters(drive, "derive", [rule.value], "parameter", k)
+    for k, rule in enumerate(plan.rules):
+        yield _on_parameters("derive", rule, "parameter", k)
     for system in plan.systems:
         yield from _of_system(system)
-    yield _on_parameters(drive, "size", [value for _, value, _ in drive.sizes], "result")
+    yield _on_parameters("size", plan.sizes, "result")
     yield on_tape("setup", [g.node for g in plan.guards], "setup", frozenset())
     yield on_tape("setup", slots[: plan.design_slots], "setup", frozenset())
     yield on_tape("set_phi", slots[plan.design_slots :], "step size", design)
@@ -101,9 +102,9 @@ def functions(plan):
         yield results(function.name, function.outputs)
 
 
-def _on_parameters(drive, name, expressions, guard, part=0):
-    lower, nodes = on_parameters(drive, expressions)
-    return Evaluated(name, lower.tape, lower, tuple((i,) for i in nodes), frozenset(), guard, part)
+def _on_parameters(name, program, guard, part=0):
+    groups = tuple((i,) for i in program.nodes)
+    return Evaluated(name, program.tape, program.lower, groups, frozenset(), guard, part)
 
 
 def _of_system(plan):
@@ -224,10 +225,10 @@ def _lost_in(plan, guards, held=frozenset()):
     for f in functions(plan):
         if f.guard in guards and f.name not in EARLY:
             order = f.tape.needed(f.outputs)
-            for (node, kind), failing in _failing(f.tape, order).items():
+            failing = _failing(f.tape, order)
+            for (node, kind), groups in zip(failing, lost(f, order, failing.values()), strict=True):
                 if f.tape is not plan.tape or node not in held:
-                    for group in lost(f, order, failing):
-                        yield f, group, node, kind
+                    yield from ((f, group, node, kind) for group in groups)
 
 
 def _is_parameter(tape, i):
@@ -262,11 +263,11 @@ def _keys(plan, nodes):
 
 # -- what is not finite reaches the test ----------------------------------------------------------------------------
 
-FINITE, INFINITE, NAN = range(3)
+INFINITE, NAN = "infinite or not a number", "not a number"
 
 
 def _failing(tape, order):
-    """(node, kind) → operations that are not defined where this fails, and the least certain of their values."""
+    """(node, kind) → operations that are not defined where this fails, and what is certain of their values."""
     found = {}
     for i in order:
         for node, kind in demanded(tape, i):
@@ -274,50 +275,52 @@ def _failing(tape, order):
     return found
 
 
-def _certain(tape, order, failing):
-    """Node → the least that is certain of its value where the ``failing`` operations are not defined.
+def _reached(tape, order, failing):
+    """Node → which conditions change its value where they fail, and which make it certainly infinite or not a number.
 
-    FINITE: nothing; INFINITE: it is infinite or not a number; NAN: not a number. Every other value may be anything.
+    ``failing`` lists for each condition the operations that are then not defined; condition k is bit k of a number.
     A quotient by an infinite number and the angle of an infinite point may be finite; all else passes it on.
     """
-    certain = dict(failing)
+    changed, infinite, nan = defaultdict(int), defaultdict(int), defaultdict(int)
+    for k, operations in enumerate(failing):
+        for i, certain in operations.items():
+            changed[i] |= 1 << k
+            infinite[i] |= 1 << k
+            nan[i] |= (certain == NAN) << k
     for i in order:
         node = tape.nodes[i]
-        below = [certain.get(a, FINITE) for a in node.args]
-        if not any(below):
-            continue
+        a, b = node.args[0], node.args[-1]
+        changed[i] |= changed[a] | changed[b]
+        passed = nan[a] | nan[b]
         match node.op:
             case "div":
-                value = max(below[0], NAN if below[1] == NAN else FINITE)
+                infinite[i] |= infinite[a] | passed
             case "sin" | "cos":
-                value = NAN
+                passed = infinite[a]
             case "sqrt" if tape.origins[i] == ARCCOSINE:
-                value = NAN  # of (1 − a)(1 + a), −∞ for any infinite a
+                passed = infinite[a]  # of (1 − a)(1 + a), −∞ for any infinite a
             case "atan2":
-                value = NAN if NAN in below else FINITE
+                pass
             case _:
-                value = max(below)
-        certain[i] = max(value, certain.get(i, FINITE))
-    return certain
-
-
-def _affected(tape, order, failing):
-    found = set(failing)
-    for i in order:
-        if not found.isdisjoint(tape.nodes[i].args):
-            found.add(i)
-    return found
+                infinite[i] |= infinite[a] | infinite[b]
+        nan[i] |= passed
+        infinite[i] |= passed
+    return changed, infinite
 
 
 def lost(evaluated, order, failing):
-    """Groups of results that the ``failing`` operations change and leave finite in every number."""
-    tape = evaluated.tape
-    certain, affected = _certain(tape, order, failing), _affected(tape, order, failing)
+    """For each condition the groups of results that its ``failing`` operations change and leave finite in every number.
+    """
+    changed, infinite = _reached(evaluated.tape, order, failing)
+    unseen = [_any(changed, group) & ~_any(infinite, group) for group in evaluated.groups]
     return [
-        group
-        for group in evaluated.groups
-        if not affected.isdisjoint(group) and not any(certain.get(i, FINITE) for i in group)
+        [group for group, bits in zip(evaluated.groups, unseen, strict=True) if bits >> k & 1]
+        for k in range(len(failing))
     ]
+
+
+def _any(bits, group):
+    return reduce(or_, (bits[i] for i in group), 0)
 
 
 # -- the list -------------------------------------------------------------------------------------------------------
@@ -352,12 +355,12 @@ def side_conditions(plan, evaluated):
     ``functions``: for each, how often it is evaluated and the guards that answer.
     """
     numbers = {g.of: k for k, g in enumerate(plan.guards, 1)}
-    entries = {}
+    shown, entries = cache(formula), {}
     for f in evaluated:
         for i in partial_operations(f):
             node, origin = f.tape.nodes[i], f.tape.origins[i]
             operation = "arccosine" if _is_complement(node, origin) else OPERATIONS[node.op]
-            text = _condition(f, i)
+            text = _condition(f, i, shown)
             entry = entries.setdefault(
                 (operation, f.tape.stages[i], text, origin.statement),
                 {
@@ -374,13 +377,14 @@ def side_conditions(plan, evaluated):
     return list(entries.values())
 
 
-def _condition(f, i):
+def _condition(f, i, shown):
+    """The condition of a partial operation to read; ``shown`` writes a node as :func:`~derive.formula.formula` does."""
     tape, origin = f.tape, f.tape.origins[i]
     node = tape.nodes[i]
 
     def text(k):
-        shown = formula(tape, k, f.lower)
-        return origin.meaning if origin.meaning and "…" in shown else shown
+        full = shown(tape, k, f.lower)
+        return origin.meaning if origin.meaning and "…" in full else full
 
     if _is_complement(node, origin):
         return f"|{text(_argument(tape, node.args[0]))}| ≤ 1"

@@ -18,33 +18,38 @@ BESIDE = 1.0 / 64.0
 PATH_STEPS = 16
 
 
+class Completion:
+    """What completes the designs of a drive: its rules and its design systems, on tapes."""
+
+    def __init__(self, drive):
+        lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+        self._parameters = drive.parameters
+        self._rules = [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
+        self._systems = [lower_system(system, drive.parameters) for system in drive.systems]
+
+    def __call__(self, design):
+        """Parameter values by symbol for a ``design`` (key → number), complete; parameters left open are NaN."""
+        values = {p.symbol: mpmath.nan for p in self._parameters}
+        for p in self._parameters:
+            if p.table in (Table.DESIGN, Table.FLANK) and p.key in design:
+                values[p.symbol] = _number(p.factor) * mpmath.mpf(design[p.key])
+            elif p.default is not None:
+                values[p.symbol] = _number(p.default)
+        self._apply_rules(values)
+        for system in self._systems:
+            _complete(system, values)
+            self._apply_rules(values)
+        return values
+
+    def _apply_rules(self, values):
+        for target, tape, node in self._rules:
+            if mpmath.isnan(values[target]):
+                values[target] = tape.evaluate([node], values, mpmath)[0]
+
+
 def sample_parameters(drive):
-    """The drive's sample design as parameter values by symbol, complete; parameters left open are NaN."""
-    values = {p.symbol: mpmath.nan for p in drive.parameters}
-    for p in drive.parameters:
-        if p.table in (Table.DESIGN, Table.FLANK) and p.key in drive.sample:
-            values[p.symbol] = _number(p.factor) * mpmath.mpf(drive.sample[p.key])
-        elif p.default is not None:
-            values[p.symbol] = _number(p.default)
-    rules = _rules(drive)
-    _apply(rules, values)
-    for system in drive.systems:
-        _complete(lower_system(system, drive.parameters), values)
-        _apply(rules, values)
-    return values
-
-
-def _rules(drive):
-    """Each rule's target with the tape and node of its value."""
-    inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
-    lower = Lowering(Tape(), inputs, drive.definitions)
-    return [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
-
-
-def _apply(rules, values):
-    for target, tape, node in rules:
-        if mpmath.isnan(values[target]):
-            values[target] = tape.evaluate([node], values, mpmath)[0]
+    """The drive's sample design as parameter values by symbol: see :class:`Completion`."""
+    return Completion(drive)(drive.sample)
 
 
 def _complete(plan, values):
@@ -52,9 +57,10 @@ def _complete(plan, values):
     unknowns = plan.unknowns
     inputs = dict(values)
     inputs.update(zip(unknowns, plan.tape.evaluate(plan.guess, inputs, mpmath), strict=True))
+    iterate = _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)
     for step in range(PATH_STEPS + 1):
         inputs[PATH] = mpmath.mpf(step) / PATH_STEPS
-        _iterate(plan.tape, plan.residual, plan.jacobian, unknowns, inputs)
+        iterate(inputs)
     for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
         if mpmath.isnan(values[target]):
             values[target] = value
@@ -64,11 +70,15 @@ def _number(expression):
     return mpmath.mpf(expression.evalf(DIGITS))
 
 
-def sample_solution(plan, angle=None):
-    """Inputs (symbol → float) at a solved contact of the sample design."""
+def sample_contact(plan):
+    """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS):
-        inputs = solve(plan, sample_parameters(plan.drive), angle if angle is not None else plan.drive.sample_angle)
-    return {k: float(x) for k, x in inputs.items()}
+        return solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
+
+
+def in_double(inputs):
+    """The same inputs as floats."""
+    return {symbol: float(value) for symbol, value in inputs.items()}
 
 
 def beside(plan):
@@ -79,17 +89,16 @@ def beside(plan):
     """
     n, flat = len(plan.unknowns), [*(e for row in plan.jacobian for e in row), *plan.scales]
     with mpmath.workdps(DIGITS):
-        exact = solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
-        numbers = plan.tape.evaluate(flat, exact, mpmath)
-        _, pivots = _eliminated(mpmath.matrix([numbers[i * n : i * n + n] for i in range(n)]), [0] * n)
+        numbers = plan.tape.evaluate(flat, plan.sample, mpmath)
+        _, pivots = _eliminated([[*numbers[i * n : i * n + n], 0] for i in range(n)])
     share = BESIDE if len(pivots) == n else 0.0
-    return [float(exact[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
+    return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
 
 def solve(plan, parameters, angle):
     """Start system, then contact, by full Newton steps in the current mpmath precision."""
     inputs = _start(plan, parameters, angle)
-    _iterate(plan.tape, plan.residual, plan.jacobian, plan.unknowns, inputs)
+    _iteration(plan.tape, plan.residual, plan.jacobian, plan.unknowns)(inputs)
     return inputs
 
 
@@ -99,47 +108,48 @@ def _start(plan, parameters, angle):
     inputs[drive.instant] = mpmath.mpf(angle)
     start = [u.symbol for u in drive.start.unknowns]
     inputs.update(zip(start, plan.tape.evaluate(plan.start_guess, inputs, mpmath), strict=True))
-    _iterate(plan.tape, plan.start_residual, plan.start_jacobian, start, inputs)
+    _iteration(plan.tape, plan.start_residual, plan.start_jacobian, start)(inputs)
     solution = plan.tape.evaluate(plan.start_solution, inputs, mpmath)
     inputs.update(zip(plan.unknowns, solution, strict=True))
     return inputs
 
 
-def _iterate(tape, residual, jacobian, unknowns, inputs):
+def _iteration(tape, residual, jacobian, unknowns):
+    """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes."""
     n = len(unknowns)
-    flat = [*residual, *(e for row in jacobian for e in row)]
+    evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], mpmath)
     tolerance = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
-    for _ in range(60):
-        numbers = tape.evaluate(flat, inputs, mpmath)
-        matrix = mpmath.matrix(n, n)
-        for i in range(n):
-            for j in range(n):
-                matrix[i, j] = numbers[n + i * n + j]
-        change = _change(matrix, numbers[:n])
-        for k, symbol in enumerate(unknowns):
-            inputs[symbol] -= change[k]
-        if max(map(abs, change), default=0) < tolerance:
-            return
-    raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")
+
+    def iterate(inputs):
+        for _ in range(60):
+            numbers = evaluate(inputs)
+            change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
+            for symbol, value in zip(unknowns, change, strict=True):
+                inputs[symbol] -= value
+            if max(map(abs, change), default=0) < tolerance:
+                return
+        raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")
+
+    return iterate
 
 
-def _change(matrix, residual):
-    """Solution of matrix · change = residual; directions the equations do not see stay put.
+def _change(rows):
+    """Solution of matrix · change = residual, given as rows (matrix | residual); directions that the equations do not
+    see stay put.
 
     A pair that touches along a line has such a direction at every contact.
     """
-    rows, pivots = _eliminated(matrix, residual)
-    change = [mpmath.mpf(0)] * len(residual)
+    change = [mpmath.mpf(0)] * len(rows)
+    rows, pivots = _eliminated(rows)
     for step, j in reversed(pivots):
         known = sum(rows[step][k] * change[k] for _, k in pivots if k != j)
         change[j] = (rows[step][-1] - known) / rows[step][j]
     return change
 
 
-def _eliminated(matrix, residual):
+def _eliminated(rows):
     """Rows (matrix | residual) after elimination with complete pivoting, and the pivots (row, column) worth using."""
-    n, negligible = len(residual), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
-    rows = [[matrix[i, j] for j in range(n)] + [residual[i]] for i in range(n)]
+    n, rows, negligible = len(rows), list(rows), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
     pivots = []
     for step in range(n):
         free = [j for j in range(n) if j not in [column for _, column in pivots]]

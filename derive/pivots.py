@@ -16,7 +16,7 @@ STABLE_SHARE = 0.1
 def newton_step(plan):
     """Nodes of the updated unknowns and of their changes."""
     tape, linear = plan.tape, plan.linear
-    order = _pivot_order(plan, newton.sample_solution(plan))
+    order = _pivot_order(plan, newton.in_double(plan.sample))
     right = [*plan.residual, *[tape.constant(0)] * linear.angles]
     changes = _solve(tape, linear.matrix, right, order)[: linear.unknowns]
     unknowns = [plan.lower(u) for u in plan.unknowns]

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive import conditions, linearise, pivots
-from derive.completion import SystemTape, lower_system
+from derive import conditions, linearise, newton, pivots
+from derive.completion import ParameterTape, SystemTape, lower_system, on_parameters
 from derive.drive import Body, Drive, System
 from derive.limits import singular_function
 from derive.origin import STEP_SIZE, UNIT, Origin
@@ -62,11 +62,16 @@ class BodyOutputs:
 
 @dataclass
 class Schedule:
-    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first."""
+    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
+
+    ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
+    contact of the sample design (symbol → number, see :mod:`derive.newton`).
+    """
 
     drive: Drive
     tape: Tape
     lower: Lowering
+    sample: dict = field(default_factory=dict)
     residual: list[int] = field(default_factory=list)
     linear: linearise.Linear | None = None
     jacobian: list[list[int]] = field(default_factory=list)
@@ -84,7 +89,9 @@ class Schedule:
     bodies: dict = field(default_factory=dict)
     flanks: list[Flank] = field(default_factory=list)
     regions: list[Flank] = field(default_factory=list)
+    rules: list[ParameterTape] = field(default_factory=list)
     systems: list[SystemTape] = field(default_factory=list)
+    sizes: ParameterTape | None = None
     functions: list[FunctionOutputs] = field(default_factory=list)
     state: dict[int, int] = field(default_factory=dict)
     design_slots: int = 0
@@ -106,11 +113,14 @@ def schedule(drive):
         tape.input(symbol, stage)
     plan = Schedule(drive, tape, Lowering(tape, inputs, drive.definitions))
 
+    plan.rules = [on_parameters(drive, [rule.value]) for rule in drive.completion]
     plan.systems = [lower_system(system, drive.parameters) for system in drive.systems]
+    plan.sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
     plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
     plan.jacobian = linearise.jacobian(tape, plan.linear)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
+    plan.sample = newton.sample_contact(plan)
     plan.step, changes = pivots.newton_step(plan)
     with tape.within(STEP_SIZE):
         plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]

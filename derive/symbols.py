@@ -20,6 +20,9 @@ class Quantity(sp.Symbol):
         self.domain = tuple(map(sp.sympify, domain))
         return self
 
+    def __str__(self):
+        return self.name
+
     def __getnewargs_ex__(self):
         return (self.name, self.unit, self.meaning, self.frame, self.domain), {}
 

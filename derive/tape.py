@@ -6,10 +6,11 @@ first needed, so that the same drive gives the same text on every machine.
 """
 
 import math
+import operator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -26,8 +27,7 @@ class Stage(IntEnum):
     ITERATE = 3
 
 
-@dataclass(frozen=True)
-class Node:
+class Node(NamedTuple):
     """One operation. ``value`` is the constant or the symbol of a leaf."""
 
     op: str
@@ -53,6 +53,8 @@ class Tape:
         self._within = None
         self.stages = []
         self._index = {}
+        self._constants = {}
+        self._exact = {}
         self._derivatives = {}
 
     # -- building ---------------------------------------------------------------------------------------------
@@ -68,17 +70,23 @@ class Tape:
         if op in _COMMUTATIVE and args[0] > args[1]:
             args = args[1], args[0]
         node = Node(op, args, value)
-        if node not in self._index:
-            self._index[node] = len(self.nodes)
+        i = self._index.get(node)
+        if i is None:
+            i = self._index[node] = len(self.nodes)
             self.nodes.append(node)
-            self.stages.append(max((self.stages[a] for a in args), default=stage or Stage.CONSTANT))
+            self.stages.append(max([self.stages[a] for a in args], default=stage or Stage.CONSTANT))
             if op in PARTIAL:
-                self.origins[self._index[node]] = self._within or PARTIAL[op]
-        return self._index[node]
+                self.origins[i] = self._within or PARTIAL[op]
+        return i
 
     def constant(self, value):
         """A constant: exact where rational, else a float."""
-        return self._new("const", value=Fraction(value) if isinstance(value, int) else value)
+        i = self._constants.get(value)
+        if i is None:
+            exact = Fraction(value) if isinstance(value, int) else value
+            i = self._constants[value] = self._new("const", value=exact)
+            self._exact[i] = exact
+        return i
 
     def input(self, symbol, stage):
         """An input that becomes known at ``stage``."""
@@ -86,7 +94,7 @@ class Tape:
 
     def const_value(self, i):
         """The constant at a node, or None."""
-        return self.nodes[i].value if self.nodes[i].op == "const" else None
+        return self._exact.get(i)
 
     def find(self, op, *args):
         """The node of this operation, or None if the tape does not have it."""
@@ -94,7 +102,8 @@ class Tape:
 
     def _negated(self, i):
         """The argument if the node is a negation."""
-        return self.nodes[i].args[0] if self.nodes[i].op == "neg" else None
+        node = self.nodes[i]
+        return node.args[0] if node.op == "neg" else None
 
     def neg(self, a):
         if (value := self.const_value(a)) is not None:
@@ -252,14 +261,16 @@ class Tape:
 
     def rule(self, i, derivatives):
         """The chain rule at one node, given the derivative of each of its arguments."""
-        node = self.nodes[i]
-        d = [derivatives[a] for a in node.args]
-        if all(self.const_value(k) == 0 for k in d):
-            return self.constant(0)
-        with self.within(self.origins.get(i)):
-            return self._chain(i, node, d)
+        zero, d = self._constants.get(0), [derivatives[a] for a in self.nodes[i].args]
+        if all(k == zero for k in d):
+            return zero
+        if i not in self.origins:
+            return self._chain(i, d)
+        with self.within(self.origins[i]):
+            return self._chain(i, d)
 
-    def _chain(self, i, node, d):
+    def _chain(self, i, d):
+        node = self.nodes[i]
         a, b = node.args if len(node.args) == 2 else (node.args[0], None)
         match node.op:
             case "add":
@@ -299,18 +310,17 @@ class Tape:
 
     def needed(self, outputs, known=frozenset()):
         """Indices of the operations behind ``outputs`` in an order of evaluation, stopping at ``known``."""
-        order, seen = [], set(known)
-        for output in outputs:
-            stack = [(output, False)]
-            while stack:
-                i, ready = stack.pop()
-                if ready:
-                    order.append(i)
-                elif i not in seen:
-                    seen.add(i)
-                    if self.nodes[i].op not in ("const", "input"):
-                        stack.append((i, True))
-                        stack.extend((a, False) for a in reversed(self.nodes[i].args))
+        nodes, order, seen = self.nodes, [], set(known)
+        stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
+        while stack:
+            i = stack.pop()
+            if i < 0:
+                order.append(~i)
+            elif i not in seen:
+                seen.add(i)
+                if args := nodes[i].args:
+                    stack.append(~i)
+                    stack.extend(args[::-1])
         return order
 
     def inputs_of(self, outputs):
@@ -319,37 +329,48 @@ class Tape:
         return {self.nodes[i].value for i in read if self.nodes[i].op == "input"}
 
     def evaluate(self, outputs, inputs, arithmetic=math):
-        """Values of ``outputs`` for ``inputs`` (symbol → number) in any arithmetic that has the functions.
+        """Values of ``outputs`` for ``inputs`` (symbol → number): see :meth:`evaluator`."""
+        return self.evaluator(outputs, arithmetic)(inputs)
+
+    def evaluator(self, outputs, arithmetic=math):
+        """Function: inputs (symbol → number) → values of ``outputs``, in any arithmetic that has the functions.
 
         ``arithmetic`` is :mod:`math`, :mod:`mpmath`, :mod:`casadi` or alike: it supplies sqrt, sin, cos, atan2.
+        Constants have the precision of the moment.
         """
-        values = {}
+        order = self.needed(outputs)
+        leaves = dict.fromkeys(a for i in order for a in self.nodes[i].args) | dict.fromkeys(outputs)
+        symbols = {i: self.nodes[i].value for i in leaves if self.nodes[i].op == "input"}
         make = getattr(arithmetic, "mpf", float)
+        constants = {i: _number(self._exact[i], make) for i in leaves if i in self._exact}
+        steps = [(i, _operation(self.nodes[i].op, arithmetic), self.nodes[i].args) for i in order]
 
-        def value(i):
-            node = self.nodes[i]
-            if node.op == "const":
-                exact = node.value
-                return make(exact.numerator) / exact.denominator if isinstance(exact, Fraction) else make(exact)
-            return inputs[node.value] if node.op == "input" else values[i]
+        def run(inputs):
+            values = dict(constants)
+            for i, symbol in symbols.items():
+                values[i] = inputs[symbol]
+            for i, apply, args in steps:
+                values[i] = apply(*[values[a] for a in args])
+            return [values[i] for i in outputs]
 
-        for i in self.needed(outputs):
-            node = self.nodes[i]
-            values[i] = _APPLY[node.op](arithmetic, *map(value, node.args))
-        return [value(i) for i in outputs]
+        return run
 
 
-_APPLY = {
-    "add": lambda m, a, b: a + b,
-    "sub": lambda m, a, b: a - b,
-    "mul": lambda m, a, b: a * b,
-    "div": lambda m, a, b: a / b,
-    "neg": lambda m, a: -a,
-    "sqrt": lambda m, a: m.sqrt(a),
-    "sin": lambda m, a: m.sin(a),
-    "cos": lambda m, a: m.cos(a),
-    "atan2": lambda m, a, b: m.atan2(a, b),
+def _number(exact, make):
+    return make(exact.numerator) / exact.denominator if isinstance(exact, Fraction) else make(exact)
+
+
+_ALGEBRA = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "neg": operator.neg,
 }
+
+
+def _operation(op, arithmetic):
+    return _ALGEBRA.get(op) or getattr(arithmetic, op)
 
 
 class Lowering:

@@ -4,7 +4,7 @@ Numbers here come from a drive's own placement, solved in 40-digit arithmetic fr
 tuned to the print.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import mpmath
 
@@ -54,8 +54,9 @@ _TILT_REASON = (
 def comparisons():
     """Every :class:`Comparison`, in the order of the sources."""
     drive = face_worm.face_worm()
+    complete = newton.Completion(drive)
     placed = {
-        (table, rule): [_placement(drive, changes | side | {"pitch_point_rule": rule}) for side in _SIDES]
+        (table, rule): [_placement(drive, complete, changes | side | {"pitch_point_rule": rule}) for side in _SIDES]
         for table, changes, _ in _TABLES
         for _, rule in _RULES
     }
@@ -76,11 +77,10 @@ def comparisons():
     return tuple(rows)
 
 
-def _placement(drive, changes):
+def _placement(drive, complete, changes):
     """Head-cutter radius, mm, and tilt, degrees, of the sample design with keys changed."""
-    design = replace(drive, sample=drive.sample | changes)
     with mpmath.workdps(newton.DIGITS):
-        values = newton.sample_parameters(design)
+        values = complete(drive.sample | changes)
         by_key = {p.key: values[p.symbol] for p in drive.parameters}
         return by_key["head_cutter_radius_mm"], mpmath.degrees(mpmath.acos(by_key["tool_axis_z_z"]))
 

@@ -7,7 +7,6 @@ MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums,
 
 from dataclasses import dataclass
 
-from derive.completion import on_parameters
 from derive.drive import PATH
 from derive.emit import approximation
 from derive.emit.fusion import fused_products
@@ -196,7 +195,7 @@ def header(plan: Schedule, description: dict, model_source: str):
         description=description,
         model_source=model_source,
         rules=list(_rules(plan)),
-        sizes=_from_parameters(drive, prefix, [value for _, value, _ in drive.sizes]),
+        sizes=_from_parameters(drive, plan.sizes).body(plan.sizes.nodes)[0],
         guards=design.body([g.node for g in plan.guards])[0],
         setup=design.body(slots[: plan.design_slots])[0],
         set_phi=instant.body(slots[plan.design_slots :])[0],
@@ -251,9 +250,8 @@ def _rules(plan):
     """Each default and rule of the drive: parameter index, statements, value, name."""
     drive = plan.drive
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    for k, rule in enumerate(drive.completion):
-        printer, nodes = _printer(drive, drive.name, [rule.value])
-        body = _tested(printer, [nodes], plan.tests.get(("derive", k), {}))
+    for k, (rule, program) in enumerate(zip(drive.completion, plan.rules, strict=True)):
+        body = _tested(_from_parameters(drive, program), [program.nodes], plan.tests.get(("derive", k), {}))
         target = rule.target
         yield {"index": index[target], "statements": body.statements, "value": body.results[0], "name": target.name}
 
@@ -273,13 +271,7 @@ def _tested(printer, groups, tests):
     return Body(body.statements, tuple(map(result, body.results[: len(outputs)], wanted)), body.operations)
 
 
-def _from_parameters(drive, prefix, expressions):
-    printer, nodes = _printer(drive, prefix, expressions)
-    return printer.body(nodes)[0]
-
-
-def _printer(drive, prefix, expressions):
-    """A printer of expressions of the parameter vector alone, and their nodes."""
-    lower, nodes = on_parameters(drive, expressions)
-    leaves = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
-    return Printer(lower.tape, prefix, leaves), nodes
+def _from_parameters(drive, program):
+    """A printer of expressions of the parameter vector alone."""
+    leaves = {program.lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
+    return Printer(program.tape, drive.name, leaves)

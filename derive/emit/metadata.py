@@ -116,7 +116,7 @@ def self_test(plan):
     """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
     reaches ``x``. Hex floats.
     """
-    inputs = newton.sample_solution(plan)
+    inputs = newton.in_double(plan.sample)
     start = newton.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],

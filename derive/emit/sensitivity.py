@@ -5,6 +5,8 @@ systems and of the contact this gives exact sensitivities of their solutions (im
 ``runtime/c/sensitivity.c``.
 """
 
+from dataclasses import dataclass
+
 import sympy as sp
 
 from derive.conditions import Evaluated
@@ -16,7 +18,42 @@ from derive.tape import Lowering, Stage, Tape
 _POINT = "point_pinion_f"
 
 
-class _Tangents:
+@dataclass(frozen=True)
+class Tangent:
+    """Tangents ``nodes`` on a tape, of the generated function ``name``; ``part`` as in :class:`Evaluated`.
+
+    ``leaves`` are the C operands of the inputs and of their changes.
+    """
+
+    name: str
+    lower: Lowering
+    leaves: dict
+    nodes: tuple[int, ...]
+    part: int = 0
+
+    def body(self, drive):
+        return Printer(self.lower.tape, drive.name, self.leaves).body(self.nodes)[0]
+
+    def evaluated(self):
+        known = frozenset(self.leaves)
+        return Evaluated(self.name, self.lower.tape, self.lower, (self.nodes,), known, "tangent", self.part)
+
+
+@dataclass(frozen=True)
+class Tangents:
+    """All tangents of a drive: of each rule; of residual and values of each design system; of the contact."""
+
+    rules: tuple[Tangent, ...]
+    systems: tuple[tuple[Tangent, Tangent], ...]
+    contact: Tangent
+
+    def functions(self):
+        """The generated functions, for the list of side conditions."""
+        for tangent in (*self.rules, *(part for system in self.systems for part in system), self.contact):
+            yield tangent.evaluated()
+
+
+class _Derivatives:
     """Tangent nodes on a tape: an input's is an input of its own, a value's follows by the chain rule."""
 
     def __init__(self, tape, seeds):
@@ -36,47 +73,42 @@ def _seeds(tape, lower, symbols, stage):
     return {lower(s): tape.input(sp.Symbol(f"d_{s}"), stage) for s in symbols}
 
 
-def header(plan, generator):
+def tangents(plan):
+    """The :class:`Tangents` of a schedule. Adds the changes of the inputs to its tapes."""
+    drive = plan.drive
+    return Tangents(
+        rules=tuple(_of_rule(drive, rule, k) for k, rule in enumerate(drive.rules)),
+        systems=tuple(_of_system(drive, system) for system in plan.systems),
+        contact=_of_contact(plan),
+    )
+
+
+def header(plan, tangents, generator):
     """The text of the drive's sensitivity header."""
     drive = plan.drive
-    leaves, nodes = _contact(plan)
     return render(
         "sensitivity.h.jinja",
         drive=drive,
         X=drive.name,
         generator=generator,
         defaults=[k for k, p in enumerate(drive.parameters) if p.default is not None],
-        rules=list(_rules(drive)),
-        systems=[_system(system, drive) for system in plan.systems],
-        tangent=Printer(plan.tape, drive.name, leaves).body(nodes)[0],
+        rules=[_rule(drive, *pair) for pair in zip(drive.rules, tangents.rules, strict=True)],
+        systems=[_system(drive, *pair) for pair in zip(plan.systems, tangents.systems, strict=True)],
+        tangent=tangents.contact.body(drive),
     )
 
 
-def functions(plan):
-    """The generated functions, for the list of side conditions."""
-    for k, rule in enumerate(plan.drive.rules):
-        lower, leaves, _, value = _rule(plan.drive, rule)
-        yield Evaluated("derive_tangent", lower.tape, lower, ((value,),), frozenset(leaves), "tangent", k)
-    for system in plan.systems:
-        leaves, residual, values = _tangents_of_system(system, plan.drive)
-        for name, nodes in (("tangent", residual), ("fill_tangent", values)):
-            name = f"{system.system.name}_{name}"
-            yield Evaluated(name, system.tape, system.lower, (tuple(nodes),), frozenset(leaves), "tangent")
-    leaves, nodes = _contact(plan)
-    yield Evaluated("tangent", plan.tape, plan.lower, (tuple(nodes),), frozenset(leaves), "tangent")
-
-
-def _contact(plan):
-    """C operands of the inputs, and the tangents of residual and contact point."""
+def _of_contact(plan):
+    """Of residual and contact point."""
     drive, tape, lower = plan.drive, plan.tape, plan.lower
     parameters = [p.symbol for p in drive.parameters]
     by_p, by_x = _seeds(tape, lower, parameters, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
     by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
     leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
     leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
-    tangent = _Tangents(tape, by_p | by_phi | by_x)
+    tangent = _Derivatives(tape, by_p | by_phi | by_x)
     point = next(o for o in plan.observed if o.name == _POINT)
-    return leaves, [tangent(i) for i in (*plan.residual, *point.nodes)]
+    return Tangent("tangent", lower, leaves, tuple(map(tangent, (*plan.residual, *point.nodes))))
 
 
 def _leaves(lower, name, symbols, seeds):
@@ -85,49 +117,48 @@ def _leaves(lower, name, symbols, seeds):
     return leaves | {seeds[lower(s)]: f"d{name}[{k}]" for k, s in enumerate(symbols)}
 
 
-def _rules(drive):
-    """Tangent of each rule of the drive: parameter index, what it needs, C body, name."""
-    symbols = [p.symbol for p in drive.parameters]
-    index = {symbol: k for k, symbol in enumerate(symbols)}
-    for rule in drive.rules:
-        lower, leaves, node, value = _rule(drive, rule)
-        yield {
-            "index": index[rule.target],
-            "name": rule.target.name,
-            "needs": sorted(index[s] for s in lower.tape.inputs_of([node])),
-            "body": Printer(lower.tape, drive.name, leaves).body([value])[0],
-        }
-
-
-def _rule(drive, rule):
-    """A rule on a tape of its own: lowering, C operands of the inputs, its value and its tangent."""
+def _of_rule(drive, rule, part):
+    """Of a rule's value, on a tape of its own."""
     symbols, tape = [p.symbol for p in drive.parameters], Tape()
     lower = Lowering(tape, dict.fromkeys(symbols, Stage.DESIGN), drive.definitions)
     seeds = _seeds(tape, lower, symbols, Stage.DESIGN)
-    node = lower(rule.value)
-    return lower, _leaves(lower, "p", symbols, seeds), node, _Tangents(tape, seeds)(node)
+    value = _Derivatives(tape, seeds)(lower(rule.value))
+    return Tangent("derive_tangent", lower, _leaves(lower, "p", symbols, seeds), (value,), part)
 
 
-def _system(plan, drive):
-    """Tangents of a design system: of its residual and of the values that it fills in, along dq and dy."""
-    symbols = [p.symbol for p in drive.parameters]
-    leaves, residual, values = _tangents_of_system(plan, drive)
-    printer = Printer(plan.tape, drive.name, leaves)
+def _rule(drive, rule, tangent):
+    """A rule for the template: parameter index, name, what it needs, C body."""
+    index, lower = {p.symbol: k for k, p in enumerate(drive.parameters)}, tangent.lower
     return {
-        "name": plan.system.name,
-        "unknowns": plan.unknowns,
-        "residual": printer.body(residual)[0],
-        "values": printer.body(values)[0],
-        "fills": [symbols.index(target) for target in plan.system.fills],
+        "index": index[rule.target],
+        "name": rule.target.name,
+        "needs": sorted(index[s] for s in lower.tape.inputs_of([lower(rule.value)])),
+        "body": tangent.body(drive),
     }
 
 
-def _tangents_of_system(plan, drive):
-    """C operands of a design system's inputs, and the tangents of its residual and of its values."""
+def _of_system(drive, plan):
+    """Of a design system's residual and of the values that it fills in, along dq and dy."""
     tape, lower = plan.tape, plan.lower
     symbols = [p.symbol for p in drive.parameters]
     by_q, by_y = _seeds(tape, lower, symbols, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
     leaves = _leaves(lower, "q", symbols, by_q) | _leaves(lower, "y", plan.unknowns, by_y)
     leaves[lower(PATH)] = f"q[{len(symbols)}]"
-    tangent = _Tangents(tape, by_q | by_y)
-    return leaves, [tangent(i) for i in plan.residual], [tangent(i) for i in plan.values]
+    tangent = _Derivatives(tape, by_q | by_y)
+    return tuple(
+        Tangent(f"{plan.system.name}_{name}", lower, leaves, tuple(map(tangent, nodes)))
+        for name, nodes in (("tangent", plan.residual), ("fill_tangent", plan.values))
+    )
+
+
+def _system(drive, plan, tangents):
+    """A design system for the template: C bodies of the two tangents."""
+    symbols = [p.symbol for p in drive.parameters]
+    residual, values = tangents
+    return {
+        "name": plan.system.name,
+        "unknowns": plan.unknowns,
+        "residual": residual.body(drive),
+        "values": values.body(drive),
+        "fills": [symbols.index(target) for target in plan.system.fills],
+    }

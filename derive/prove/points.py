@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from itertools import islice
 from math import isqrt
 
@@ -138,6 +139,7 @@ def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> F
     return total
 
 
+@cache
 def arctangent(t: Fraction) -> Fraction:
     """arctan t to 1e-30: Euler's series, after one halving of the angle where t is large."""
     if t < 0:
