@@ -33,10 +33,10 @@ def main(arguments=None):
     parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")
     options = parser.parse_args(arguments)
     gc.disable()  # expressions live as long as the process; looking for garbage costs a tenth of its time
-    known = drives.catalogue()
+    known = drives.catalogue(options.drive or drives.FAMILIES)
     unknown = [name for name in options.drive if name not in known]
     if unknown:
-        print(f"no drive {unknown[0]!r}; known: {', '.join(known)}", file=sys.stderr)
+        print(f"no drive {unknown[0]!r}; known: {', '.join(drives.catalogue())}", file=sys.stderr)
         return 2
     if options.drive:
         try:

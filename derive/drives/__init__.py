@@ -1,10 +1,18 @@
-"""The drives: one module a family. A module offers ``catalogue()``: name → function that builds the drive."""
+"""The drives: one module a family, whose name the names of its drives begin with.
 
-from derive.drives import cylindrical_worm, face_worm, spherical
+A module offers ``catalogue()``: name → function that builds the drive.
+"""
 
-FAMILIES = (cylindrical_worm, spherical, face_worm)
+from importlib import import_module
+
+FAMILIES = ("cylindrical_worm", "spherical", "face_worm")
 
 
-def catalogue():
-    """Every drive by name, in the order of the families."""
-    return {name: build for family in FAMILIES for name, build in family.catalogue().items()}
+def catalogue(wanted=FAMILIES):
+    """Every drive by name, in the order of the families; with ``wanted`` names, of their families alone."""
+    families = [family for family in FAMILIES if any(name.startswith(family) for name in wanted)]
+    return {
+        name: build
+        for family in families
+        for name, build in import_module(f"derive.drives.{family}").catalogue().items()
+    }
