@@ -97,7 +97,7 @@ def explicit_angle(surface, angle, sign):
     *others, condition = surface.conditions
     a, b = _direction(condition, angle)
     origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
-    turn = sp.atan2(-sign * a, sign * b)
+    turn = v.arc(-sign * a, sign * b)
     named = surface.definitions.let(angle.name, turn, angle.meaning, angle.unit, origin=origin)
     remaining = tuple(p for p in surface.parameters if p != angle)
     return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
@@ -125,7 +125,7 @@ def _direction(condition, angle):
 def nearest_turn(condition, angle):
     """The root of a·cos + b·sin + c = 0 that is nearest 0; not a number where there is none."""
     a, b, c = in_turn(condition, angle)
-    return sp.atan2(b, a) - b / sp.Abs(b) * sp.acos(-c / sp.sqrt(a**2 + b**2))
+    return v.arc(b, a) - b / sp.Abs(b) * sp.acos(-c / v.radius(a, b))
 
 
 def _defined(surface, expression):

@@ -6,7 +6,7 @@ scheduled on the drive's tape and printed like a flank.
 
 from dataclasses import dataclass
 
-import sympy as sp
+from derive import vectors as v
 
 
 @dataclass(frozen=True)
@@ -35,5 +35,5 @@ class Function:
 
 def both_turns(a, b, c):
     """Both angles with a·cos + b·sin + c = 0; not a number where there is none (a² + b² < c²)."""
-    middle, half = sp.atan2(b, a), sp.atan2(sp.sqrt(a**2 + b**2 - c**2), -c)
+    middle, half = v.arc(b, a), v.arc(v.root(a**2 + b**2 - c**2), -c)
     return middle + half, middle - half

@@ -85,8 +85,7 @@ def second_type_angles(rack):
 def section_angle(rack, offset):
     """The rack angle ψ at which the profile point P(t) lies in the plane y = ``offset``, on the wheel's side."""
     x, y, _ = rack.flank.point
-    sine = offset / sp.sqrt(x**2 + y**2)
-    return sp.asin(sine) - sp.atan2(y, x)
+    return sp.asin(offset / v.radius(x, y)) - v.arc(y, x)
 
 
 def first_type(rack, placed, parameters):
@@ -116,7 +115,7 @@ def meshing_axes(rack):
     discriminant = b**2 - 4 * a * c
     axes = []
     for sign in (-1, 1):
-        root = {tau: (-b + sign * sp.sqrt(discriminant)) / (2 * a)}
+        root = {tau: (-b + sign * v.root(discriminant)) / (2 * a)}
         line = tuple(sp.sympify(d).xreplace(root) for d in direction)
         foot = v.cross(direction, velocity)[0].xreplace(root) / v.dot(line, line)
         axes.append(((foot, sp.Integer(0), sp.Integer(0)), line))

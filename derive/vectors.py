@@ -1,4 +1,8 @@
-"""Three-vectors of SymPy expressions as plain tuples: nothing is expanded, simplified or evaluated."""
+"""Three-vectors of SymPy expressions as plain tuples: nothing is expanded, simplified or evaluated.
+
+Roots and arcs are built here without the questions that SymPy asks (is it zero, finite, real): of gear
+parameters they have no answer, and the search for one takes longer than a derivation.
+"""
 
 import sympy as sp
 
@@ -43,7 +47,21 @@ def unit(a):
 
 
 def norm(a):
-    return sp.sqrt(dot(a, a))
+    return root(dot(a, a))
+
+
+def radius(x, y):
+    """√(x² + y²)."""
+    return root(x**2 + y**2)
+
+
+def root(a):
+    return sp.Pow(a, sp.Rational(1, 2), evaluate=not sp.sympify(a).is_Add)
+
+
+def arc(y, x):
+    """Angle of the direction (x, y)."""
+    return sp.atan2(y, x, evaluate=False)
 
 
 def circle_centre(a, b, c):

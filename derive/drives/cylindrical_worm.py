@@ -10,6 +10,7 @@ from functools import partial
 
 import sympy as sp
 
+from derive import vectors as v
 from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions
@@ -310,8 +311,8 @@ def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
     at_middle = {psi: sp.Integer(0)}
     worm_x, worm_y, _ = worm.flank.point
     hob_x, hob_y, _ = hob.flank.point
-    worm_radius = sp.sqrt(worm_x**2 + worm_y**2)
-    hob_radius_here = sp.sqrt(hob_x**2 + hob_y**2)
+    worm_radius = v.radius(worm_x, worm_y)
+    hob_radius_here = v.radius(hob_x, hob_y)
     return System(
         name="start",
         definitions=definitions,
@@ -319,7 +320,7 @@ def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
         residual=(worm_radius - r_1 - (hob_radius_here - r_h), phi_h - phi_1 * T_1 / T_h),
         outputs={
             t_w: t_w,
-            psi_w: sp.atan2(hob_y, hob_x) - phi_1 - sp.atan2(worm_y, worm_x),
+            psi_w: v.arc(hob_y, hob_x) - phi_1 - v.arc(worm_y, worm_x),
             t_h: t_h,
             psi: sp.Integer(0),
             error: sp.Integer(0),
@@ -330,7 +331,7 @@ def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
 
 def _worm_margins(point, worm):
     x, y, _ = point
-    radius = sp.sqrt(x**2 + y**2)
+    radius = v.radius(x, y)
     return (
         Margin("off_tip", "tip", worm_tip.symbol - radius),
         Margin("off_root", "root", radius - worm_root.symbol),
@@ -340,12 +341,12 @@ def _worm_margins(point, worm):
 
 def _wheel_margins(point, hob, psi, definitions):
     x, y, z = point
-    radius = sp.sqrt(x**2 + y**2)
+    radius = v.radius(x, y)
     height, throat = A - radius, A - wheel_throat.symbol
     n_x = Rz(psi).direction(hob.flank.normal)[0]
     return (
         Margin("off_tip", "tip", wheel_tip.symbol - radius),
-        Margin("off_tip", "throat", sp.sqrt(height**2 + z**2) - throat),
+        Margin("off_tip", "throat", v.radius(height, z) - throat),
         Margin("off_face", "face", face_width.symbol / 2 - sp.Abs(z)),
         Margin("off_tool", "tool_end", hob.tip_margin),
         Margin("spurious_sheet", "spurious_sheet", n_x, relative=True),

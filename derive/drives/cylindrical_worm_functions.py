@@ -1,7 +1,5 @@
 """What a cylindrical worm drive offers beside its contact: generation of the wheel, limit points, meshing axes."""
 
-import sympy as sp
-
 from derive import rack_and_pinion as rp
 from derive import vectors as v
 from derive.functions import Function, Result
@@ -31,7 +29,7 @@ def _profile(name, tool):
     t = tool.parameter
     x, y, z = flank.point
     growth = flank.definitions.derivative(x**2 + y**2, t)
-    axial = z - tool.screw_parameter * sp.atan2(y, x)
+    axial = z - tool.screw_parameter * v.arc(y, x)
     return Function(
         f"profile_{name}",
         f"profile of the {name} flank in its section frame; growth of the squared radius along it; axial section",

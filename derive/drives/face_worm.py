@@ -79,7 +79,7 @@ def hob_cut(definitions):
 def _pitch_cones():
     """Radius and height of the point where the pitch cones of worm and gear touch."""
     sine = -taper * E_m / (L + r_p * taper)
-    return sp.sqrt(L**2 + (E_m + r_p * sine) ** 2), -r_p * sp.sqrt(1 - sine**2)
+    return v.radius(L, E_m + r_p * sine), -r_p * sp.sqrt(1 - sine**2)
 
 
 def _pitch_point(reference):
@@ -91,7 +91,7 @@ def _pitch_point(reference):
         name="pitch_point",
         unknowns=(Unknown(reference.u, m_ax), Unknown(reference.theta), Unknown(reference.psi)),
         residual=(
-            cones * (sp.sqrt(x**2 + y**2) - radius) + (1 - cones) * reference.u,
+            cones * (v.radius(x, y) - radius) + (1 - cones) * reference.u,
             cones * (z - height) + (1 - cones) * m_ax * reference.theta,
             reference.meshing,
         ),
@@ -106,11 +106,11 @@ def _middle_line_point(reference, name, at, end, keys):
     """The point that the middle of the hob's profile cuts at the radius ``end``, followed from the section x = L."""
     x, y, _ = reference.surface.body_point()
     (x_0, y_0, _), _ = reference.at(0, 0, 0)
-    wanted = (1 - PATH) * sp.sqrt(x_0**2 + y_0**2) + PATH * end
+    wanted = (1 - PATH) * v.radius(x_0, y_0) + PATH * end
     return DesignSystem(
         name=name,
         unknowns=(Unknown(reference.theta), Unknown(reference.psi)),
-        residual=(sp.sqrt(x**2 + y**2) - wanted, reference.meshing),
+        residual=(v.radius(x, y) - wanted, reference.meshing),
         guess={reference.theta: 0, reference.psi: 0},
         fills=dict(zip(k.symbols(at), (reference.theta, reference.psi), strict=True)),
         message="the hob of the reference design undercuts the gear inside its face, or does not reach this radius",
@@ -317,7 +317,7 @@ def _mounting(phi_1):
 
 def _wheel_margins(point, u_g, cutter):
     x, y, _ = point
-    radius = sp.sqrt(x**2 + y**2)
+    radius = v.radius(x, y)
     return (
         Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in)),
         Margin("off_tip", "tip", k.addendum.symbol - u_g * sp.cos(alpha_g)),

@@ -11,6 +11,7 @@ from functools import partial
 
 import sympy as sp
 
+from derive import vectors as v
 from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions
@@ -159,7 +160,7 @@ def _margins(tooth):
     height = gear.tip_addendum.symbol
     tip_radius = gear.pitch_radius + height - tool.tip_drop(height, z)
     return (
-        Margin("off_tip", "tip", tip_radius - sp.sqrt(x**2 + y**2)),
+        Margin("off_tip", "tip", tip_radius - v.radius(x, y)),
         Margin("off_face", "face", gear.face_width.symbol / 2 - sp.Abs(z)),
         Margin("off_tool", "tool_end", tool.edge_length - tool.along),
         Margin("off_tool", "root", tool.along),
@@ -231,7 +232,7 @@ def _limit_radius(tooth, definitions):
     """Distance from the gear axis of the flank point that the root end of the edge cuts at mid face."""
     x, y, _ = tooth.surface.body_point()
     at_root = {tooth.tool.along: sp.Integer(0), tooth.tool.sweep: sp.Integer(0)}
-    return definitions.resolve(sp.sqrt(x**2 + y**2)).xreplace(at_root)
+    return v.radius(*(definitions.resolve(c).xreplace(at_root) for c in (x, y)))
 
 
 def catalogue():

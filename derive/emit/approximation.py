@@ -11,7 +11,7 @@ import mpmath
 
 def _fit(function, upper, terms):
     with mpmath.workdps(40):
-        highest_first = mpmath.chebyfit(function, [mpmath.mpf(10) ** -12, upper], terms)
+        highest_first = mpmath.chebyfit(cache(function), [mpmath.mpf(10) ** -12, upper], terms)
         return tuple(float(c) for c in reversed(highest_first))
 
 

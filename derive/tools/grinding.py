@@ -57,7 +57,7 @@ def ground_tool(body, flank, required=(), radicands=()):
     return WormTool(
         flank,
         pitch_point=sp.Integer(0),
-        tip_margin=reach(body, sp.sqrt(x**2 + y**2)),
+        tip_margin=reach(body, v.radius(x, y)),
         scale=body.module / body.grinding_wheel_radius,
         screw_parameter=body.screw_parameter,
         regular=regression(body.flank * (x**2 + y**2), along=flank.parameters[0]),

@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derive import vectors as v
 from derive.origin import Origin
 from derive.surface import helicoid
 from derive.symbols import Quantity
@@ -14,14 +15,14 @@ def involute(body, definitions):
     t = Quantity(f"t_{name}", "mm", "radius", name)
     base = definitions.let(
         f"r_b_{name}",
-        r / sp.sqrt(1 + (sp.tan(body.pressure_angle) / sp.sin(lead)) ** 2),
+        r / v.root(1 + (sp.tan(body.pressure_angle) / sp.sin(lead)) ** 2),
         "base radius",
         "mm",
         name,
     )
 
     def profile_angle(radius):
-        return sp.atan2(sp.sqrt((radius - base) * (radius + base)), base)
+        return v.arc(sp.sqrt((radius - base) * (radius + base)), base)
 
     origin = Origin("helicoids/zi-normal")
 

@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derive import vectors as v
 from derive.chain import Rx
 from derive.origin import Origin
 from derive.surface import helicoid
@@ -18,7 +19,7 @@ def straight_blade(body, definitions):
     half_groove = body.groove_width * sp.sin(body.lead_angle) / 2
     apex = definitions.let(
         f"r_t_{body.name}",
-        sp.sqrt(r**2 - half_groove**2) - body.groove_width / (2 * sp.tan(alpha)),
+        v.root(r**2 - half_groove**2) - body.groove_width / (2 * sp.tan(alpha)),
         "distance of the virtual apex from the axis",
         "mm",
         body.name,
