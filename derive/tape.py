@@ -335,8 +335,8 @@ class Tape:
     def evaluator(self, outputs, arithmetic=math):
         """Function: inputs (symbol → number) → values of ``outputs``, in any arithmetic that has the functions.
 
-        ``arithmetic`` is :mod:`math`, :mod:`mpmath`, :mod:`casadi` or alike: it supplies sqrt, sin, cos, atan2.
-        Constants have the precision of the moment.
+        ``arithmetic`` is :mod:`math`, :mod:`mpmath` or alike: it supplies sqrt, sin, cos, atan2 and, where numbers
+        have no operators or faster functions, add, sub, mul, div, neg. Constants have the precision of the moment.
         """
         order = self.needed(outputs)
         leaves = dict.fromkeys(a for i in order for a in self.nodes[i].args) | dict.fromkeys(outputs)
@@ -370,7 +370,7 @@ _ALGEBRA = {
 
 
 def _operation(op, arithmetic):
-    return _ALGEBRA.get(op) or getattr(arithmetic, op)
+    return getattr(arithmetic, op, None) or _ALGEBRA[op]
 
 
 class Lowering:
