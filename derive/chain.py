@@ -12,6 +12,7 @@ import sympy as sp
 
 from derive import vectors as v
 from derive.origin import joined
+from derive.replace import replaced
 
 _OTHERS = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
@@ -245,7 +246,7 @@ class Motion:
     def substitute(self, replacement):
         """The same motion with symbols replaced; rotations that become equal merge again."""
         def swap(expression):
-            return sp.sympify(expression).xreplace(replacement)
+            return replaced(expression, replacement)
 
         factors = []
         for f in self.factors:

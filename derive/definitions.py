@@ -7,6 +7,7 @@ earlier definitions; differentiation follows them.
 import sympy as sp
 
 from derive.differentiate import partial
+from derive.replace import replaced
 from derive.symbols import Quantity
 
 
@@ -70,7 +71,7 @@ class Definitions:
         """The expression with every definition put in, down to symbols that have none."""
         expression = sp.sympify(expression)
         while known := expression.free_symbols & self._values.keys():
-            expression = expression.xreplace({symbol: self._values[symbol] for symbol in known})
+            expression = replaced(expression, {symbol: self._values[symbol] for symbol in known})
         return expression
 
     def depends(self, expression, variable):

@@ -12,6 +12,7 @@ import sympy as sp
 from derive import vectors as v
 from derive.differentiate import partial
 from derive.origin import EXPLICIT, Origin
+from derive.replace import replaced
 from derive.symbols import Quantity
 
 
@@ -56,7 +57,7 @@ def substitute(surface, replacement):
     """The same surface with parameters replaced by expressions, everywhere but in definitions."""
 
     def swap(expression):
-        return sp.sympify(expression).xreplace(replacement)
+        return replaced(expression, replacement)
 
     return replace(
         surface,
@@ -80,7 +81,7 @@ def explicit(surface):
             continue
         if any(surface.definitions.depends(s, parameter) for s in _defined(surface, condition)):
             continue
-        solution = -condition.xreplace({parameter: sp.Integer(0)}) / slope
+        solution = -replaced(condition, {parameter: sp.Integer(0)}) / slope
         origin = Origin(EXPLICIT, f"slope of the equation of meshing in {parameter}")
         named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit, origin=origin)
         remaining = tuple(p for p in surface.parameters if p != parameter)
@@ -108,8 +109,8 @@ def explicit_angle(surface, angle, sign):
 def in_turn(condition, angle):
     """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
-    form = condition.xreplace({sp.cos(angle): cosine, sp.sin(angle): sine})
-    a, b, c = partial(form, cosine), partial(form, sine), form.xreplace({cosine: sp.Integer(0), sine: sp.Integer(0)})
+    form = replaced(condition, {sp.cos(angle): cosine, sp.sin(angle): sine})
+    a, b, c = partial(form, cosine), partial(form, sine), replaced(form, {cosine: sp.Integer(0), sine: sp.Integer(0)})
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
         raise ValueError("the equation is not linear in the cosine and sine of one angle")
     return a, b, c

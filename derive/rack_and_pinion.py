@@ -14,6 +14,7 @@ from derive import vectors as v
 from derive.chain import Rx, Rz, translation
 from derive.envelope import envelope, in_turn, merge_sum
 from derive.functions import both_turns
+from derive.replace import replaced
 from derive.surface import Surface
 from derive.symbols import Quantity
 
@@ -51,7 +52,7 @@ def meshing(rack, psi, turn):
     )
     generated = envelope(rack.flank, chain, phi)
     merged, total = merge_sum(generated, turn_of_flank, phi, "psi_rack", "rack angle")
-    return merged.conditions[-1].xreplace({total: psi, turn_of_flank: turn})
+    return replaced(merged.conditions[-1], {total: psi, turn_of_flank: turn})
 
 
 def placed_in_generation(rack, psi, turn):
@@ -116,7 +117,7 @@ def meshing_axes(rack):
     axes = []
     for sign in (-1, 1):
         root = {tau: (-b + sign * v.root(discriminant)) / (2 * a)}
-        line = tuple(sp.sympify(d).xreplace(root) for d in direction)
-        foot = v.cross(direction, velocity)[0].xreplace(root) / v.dot(line, line)
+        line = tuple(replaced(d, root) for d in direction)
+        foot = replaced(v.cross(direction, velocity)[0], root) / v.dot(line, line)
         axes.append(((foot, sp.Integer(0), sp.Integer(0)), line))
     return discriminant, tuple(axes)

@@ -9,13 +9,12 @@ A value is computed at the earliest stage that knows its inputs, and stored in t
 
 from dataclasses import dataclass, field
 
-import sympy as sp
-
 from derive import conditions, linearise, newton, pivots
 from derive.completion import ParameterTape, SystemTape, lower_system, on_parameters
 from derive.drive import Body, Drive, System
 from derive.limits import singular_function
 from derive.origin import STEP_SIZE, UNIT, Origin
+from derive.replace import replaced
 from derive.tape import Lowering, Stage, Tape
 
 
@@ -242,7 +241,7 @@ def _regular(plan, body):
 def _margin(plan, body, margin):
     """A margin in terms of surface parameters; body coordinates are replaced by the surface's own."""
     coordinates = dict(zip(body.point, body.surface.body_point(), strict=True))
-    node = plan.lower(sp.sympify(margin.positive).xreplace(coordinates))
+    node = plan.lower(replaced(margin.positive, coordinates))
     if margin.along is not None:
         node = plan.tape.derivative(node, plan.lower(margin.along))
     return _relative(plan, body, node) if margin.relative else node

@@ -19,6 +19,7 @@ from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System
 from derive.drives import face_worm_keys as k
 from derive.envelope import envelope, nearest_turn
 from derive.origin import Origin
+from derive.replace import replaced
 from derive.surface import Surface
 from derive.symbols import Guard, Quantity, Rule, Unknown
 from derive.tools.conical_hob import conical_hob
@@ -54,7 +55,7 @@ class HobCut:
         place = {self.u: sp.sympify(u), self.theta: sp.sympify(theta), self.psi: sp.sympify(psi)}
 
         def put(vector):
-            return tuple(sp.sympify(c).xreplace(place) for c in vector)
+            return tuple(replaced(c, place) for c in vector)
 
         return put(self.surface.body_point()), put(self.surface.body_normal())
 
@@ -295,7 +296,7 @@ def face_worm():
 def _hob_phase(reference):
     """The hob's phase at which its mid profile cuts in the section x = L at ψ = 0."""
     here = {reference.u: sp.Integer(0), reference.theta: sp.Integer(0), reference.psi: sp.Integer(0)}
-    return nearest_turn(reference.meshing.xreplace(here), k.hob_phase.symbol)
+    return nearest_turn(replaced(reference.meshing, here), k.hob_phase.symbol)
 
 
 def _cradle(psi):

@@ -19,6 +19,7 @@ from derive.drive import Body, Drive, Margin, Region, System, body_point
 from derive.drives import spherical_keys as k
 from derive.drives.spherical_keys import PINION, WHEEL, Gear
 from derive.envelope import envelope, explicit
+from derive.replace import replaced
 from derive.surface import Surface
 from derive.symbols import Guard, Quantity, Unknown
 from derive.tools.rack_section import SWEEPS, RackBody, RackTool
@@ -225,14 +226,14 @@ def _sizes(definitions, pinion, wheel):
 def _root_radius(tooth):
     """The cutter's rounding ends where its normal is radial."""
     (turn, _), (x, _, _) = tooth.tool.rounding.parameters, tooth.tool.rounding.point
-    return tooth.gear.pitch_radius + x.xreplace({turn: sp.pi / 2 - alpha})
+    return tooth.gear.pitch_radius + replaced(x, {turn: sp.pi / 2 - alpha})
 
 
 def _limit_radius(tooth, definitions):
     """Distance from the gear axis of the flank point that the root end of the edge cuts at mid face."""
     x, y, _ = tooth.surface.body_point()
     at_root = {tooth.tool.along: sp.Integer(0), tooth.tool.sweep: sp.Integer(0)}
-    return v.radius(*(definitions.resolve(c).xreplace(at_root) for c in (x, y)))
+    return v.radius(*(replaced(definitions.resolve(c), at_root) for c in (x, y)))
 
 
 def catalogue():
