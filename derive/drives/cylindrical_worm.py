@@ -14,7 +14,7 @@ from derive import vectors as v
 from derive.chain import Rx, Ry, Rz, translation
 from derive.contact import contact
 from derive.definitions import Definitions
-from derive.drive import Body, Drive, Margin, System, body_point
+from derive.drive import Body, Drive, Margin, Region, System, body_point
 from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.envelope import envelope, explicit, merge_sum
 from derive.rack_and_pinion import Rack
@@ -24,6 +24,7 @@ from derive.tools.grinding_arc import grinding_arc
 from derive.tools.grinding_disc import grinding_disc
 from derive.tools.involute import involute
 from derive.tools.straight_blade import straight_blade
+from derive.tools.tip_rounding import tip_rounding
 from derive.tools.worm_body import WormBody
 
 #: ISO 10828 letters and the tools that make them.
@@ -80,6 +81,14 @@ worm_root = parameter("worm_root_radius_mm", "rho_root", "root radius of the wor
 hob_tip = parameter(
     "hob_tip_addendum_mm", "h_hob", "end of the blade beyond the pitch line", table=Table.BLANK, domain=POSITIVE
 )
+hob_rounding = parameter(
+    "hob_tip_rounding_mm",
+    "rho_hob",
+    "rounding between flank and tip cylinder of the hob; it cuts the fillet of the wheel",
+    table=Table.BLANK,
+    domain=POSITIVE,
+    lower_included=True,
+)
 preset = parameter(
     "limits",
     "limits",
@@ -110,7 +119,7 @@ PARAMETERS = (
     hob_radius, hob_threads, wheel_radius, arc_radius, hob_pressure_angle, hob_wheel_radius, hob_arc_radius,
     hob_lead_angle, center_distance, cutting_distance, cutting_angle,
     error_distance, error_horizontal, error_vertical, error_axial,
-    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, preset, separation,
+    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, hob_rounding, preset, separation,
     allowance,
 )  # fmt: skip
 
@@ -198,6 +207,7 @@ def _threaded_body(name, radius, lead, angle, disc, arc):
         grinding_wheel_radius=disc.symbol,
         profile_arc_radius=arc.symbol,
         tip_addendum=hob_tip.symbol,
+        tip_rounding=hob_rounding.symbol,
     )
 
 
@@ -220,8 +230,11 @@ def mounting(phi_2):
 def helicoids(worm_profile, hob_profile, definitions):
     """The worm and the hob: flanks of the same kind, each with its own data."""
     worm = _threaded_body("worm", r_1, lam, alpha, wheel_radius, arc_radius)
-    hob = _threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius)
-    return TOOLS[worm_profile](worm, definitions), TOOLS[hob_profile](hob, definitions)
+    return TOOLS[worm_profile](worm, definitions), TOOLS[hob_profile](_hob(), definitions)
+
+
+def _hob():
+    return _threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius)
 
 
 #: Statements of the audit record about the wheel of any hob.
@@ -240,11 +253,11 @@ def cylindrical_worm(worm_profile, hob_profile):
 
     worm, hob = helicoids(worm_profile, hob_profile, definitions)
     phi_h = Quantity("phi_hob", "rad", "angle of the hob in cutting", "gen")
-    wheel = envelope(hob.flank, cutting(phi_h), phi_h)
+    wheel, psi = _hobbed(hob.flank, phi_h)
     psi_h = hob.flank.parameters[1]
-    wheel, psi = merge_sum(wheel, psi_h, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
-    wheel = explicit(wheel)[0].on("conventions/wheel-axis", *HOBBED)
     phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen")
+    rounding = tip_rounding(hob, _hob(), definitions)
+    fillet, _ = _hobbed(rounding.surface, Quantity("phi_round_hob", "rad", "angle of the hob in cutting", "gen"))
 
     t_w, psi_w = worm.flank.parameters
     t_h = hob.parameter
@@ -282,6 +295,9 @@ def cylindrical_worm(worm_profile, hob_profile):
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel_body,
+        regions=(
+            Region("wheel", "fillet", fillet, _fillet_regular(rounding), _fillet_margins(rounding), "axial"),
+        ),
         unknowns=unknowns,
         residual=contact(pinion.placed, wheel_body.placed),
         definitions=definitions,
@@ -302,6 +318,24 @@ def cylindrical_worm(worm_profile, hob_profile):
             (lead_angle.key, pitch_radius.key),
         ),
     )
+
+
+def _hobbed(cutter, phi_h):
+    """What a screw surface of the hob envelops on the wheel, explicit in its turn, and the rack angle Ψ."""
+    turn = cutter.parameters[-1]
+    wheel = envelope(cutter, cutting(phi_h), phi_h)
+    wheel, psi = merge_sum(wheel, turn, phi_h, "psi_fixed_hob", "angle of the hob profile in the fixed cutting frame")
+    return explicit(wheel)[0].on("conventions/wheel-axis", *HOBBED), psi
+
+
+def _fillet_regular(rounding):
+    """The condition on the ball grows or falls along the flank's parameter; its slope gives the sign."""
+    (condition,), t = rounding.surface.conditions, rounding.surface.parameters[1]
+    return s * rounding.surface.definitions.derivative(condition, t)
+
+
+def _fillet_margins(rounding):
+    return Margin("", "bottom", rounding.turn), Margin("", "junction", rounding.before_flank)
 
 
 def _start(worm, hob, psi, phi_1, phi_h, error, definitions):

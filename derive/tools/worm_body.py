@@ -25,6 +25,7 @@ class WormBody:
     grinding_wheel_radius: sp.Expr
     profile_arc_radius: sp.Expr
     tip_addendum: sp.Expr
+    tip_rounding: sp.Expr
 
 
 @dataclass(frozen=True)

@@ -129,6 +129,8 @@ class _Sheet:
     def line(self, along):
         """Parameters (M, k) at mid profile over the lengthwise coordinates, reached from the middle of the tooth."""
         (here,), _ = self.lengthwise(self.flank(self.start[None, :]))
+        if not np.isfinite(here):
+            raise UsageError(f"the {self.region} of the {self.member} is not defined: give its sizes in [blank]")
         q = np.tile(self.start, (len(along), 1))
         steps = max(8, math.ceil(np.abs(along - here).max() / (4.0 * STEP * self._lengthwise_size())))
         for share in np.linspace(0.0, 1.0, steps + 1)[1:]:

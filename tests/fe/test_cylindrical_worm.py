@@ -13,6 +13,7 @@ from meshwright.fe.grading import MeshDensity
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
+from tests.worm.hob_tip import Balls
 
 DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
 ANGLES = {"recess-action-full": np.radians(1200.0), "zk-zn-60": 0.2}
@@ -57,13 +58,33 @@ def test_teeth(drive_and_gear, member):
         assert distance_from_flank(source.flank(member), nodes @ about_z(-turn)[:3, :3].T, starts).max() < 1e-9
 
 
-def test_wheel_root_is_above_what_the_hob_reaches(drive_and_gear):
+def test_wheel_root_is_as_deep_as_the_hob_reaches(drive_and_gear):
     """In the middle plane: cutting distance less the hob's tip radius."""
     drive, gear, _ = drive_and_gear
     value = drive.design.value
     deepest = value("cutting_center_distance_mm") - value("hob_pitch_radius_mm") - value("hob_tip_addendum_mm", "blank")
-    root = gear.wheel.tooth(0.0).left.root_end(np.zeros(1))[0]
-    assert deepest - 1e-9 < np.hypot(*root[:2]) < drive.design.sizes["wheel_pitch_radius_mm"]
+    form = gear.wheel.tooth(0.0)
+    roots = np.concatenate([side.root_end(np.zeros(1)) for side in (form.left, form.right)])
+    assert np.hypot(*roots[:, :2].T) == pytest.approx([deepest, deepest], abs=1e-9)
+
+
+def test_wheel_tooth_is_what_the_tip_of_the_hob_leaves(drive_and_gear):
+    """Fillet nodes are a ball's radius from the nearest place that a ball of the hob's tip comes to, flank nodes not
+    less: the wheel of the recess-action drive, and the one at 60 degrees, which the hob undercuts.
+    """
+    drive, gear, angle = drive_and_gear
+    body, order = body_of(gear.wheel, angle * gear.ratio)
+    rounding = drive.design.value("hob_tip_rounding_mm", "blank")
+    other = drive.with_(flank="left" if drive.design.flank > 0 else "right")
+    sides = {gear.wheel.working: drive, ("right" if gear.wheel.working == "left" else "left"): other}
+    for side, source in sides.items():
+        balls, form = Balls(source, rounding), gear.wheel.tooth(0.0).side(side)
+        undercut = np.abs(form.flank.first(np.zeros(1)) - balls.t) > 1.0
+        assert undercut.all() == (drive.design.tables["name"] == "zk-zn-60")
+        fillet, flank = (body.mesh.nodes[body.nodes(order.index(0), f"{part}_{side}")] for part in ("fillet", "flank"))
+        away = [balls.nearest(point) for point in fillet]
+        assert away == pytest.approx([rounding] * len(fillet), abs=1e-7)
+        assert min(balls.nearest(point) for point in flank) > rounding - 1e-7
 
 
 def test_half_spaces_give_hertz(drive_and_gear):
@@ -87,3 +108,12 @@ def test_face_beyond_the_hob_is_refused(capsys):
     """At 90 degrees the hob's flank ends within a face of 23 mm."""
     assert main(["loaded", "zk-zn-90", "--torque-nm", "20", "--set", "blank.wheel_face_width_mm=23"]) == 2
     assert "blank.wheel_face_width_mm" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("rounding", [1.2, 30.0])
+def test_rounding_without_room_on_the_hob_is_refused(capsys, rounding):
+    """A fully round tip has 1.03 mm; a ball of 30 mm finds no place at all."""
+    size = f"blank.hob_tip_rounding_mm={rounding}"
+    assert main(["loaded", "recess-action-full", "--torque-nm", "20", "--set", size]) == 2
+    message = capsys.readouterr().err
+    assert "hob_tip_rounding_mm" in message and "face_width" not in message

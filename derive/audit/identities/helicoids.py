@@ -25,6 +25,9 @@ DOCUMENT = Document(
         "rho": ("ρ", "mm", "radius"),
         "xi": ("ξ", "rad", "angle on the arc of the grinding wheel"),
         "rho_c": ("ρc", "mm", "radius of that arc"),
+        "R": ("R", "mm", "distance of a ball's centre from the axis"),
+        "a": ("a", "rad", "azimuth of that centre"),
+        "h": ("h", "1/mm", "radius of the ball over the length of the flank's normal"),
     },
 )
 
@@ -106,6 +109,23 @@ n = vec(sin(xi)*cos(theta), 0, 0) - sin(xi)*sin(theta)*tau - s*cos(xi)*k_w
     signs=["s"],
 )
 
+ROUNDING = scope(
+    "helicoids.rounding",
+    """
+k = vec(0, 0, 1)
+P = vec(Px, Py, Pz)
+n = cross(d(P, t), cross(k, P) + p*k)
+centre = P - h*n
+T = cross(k, centre) + p*k
+C = Rz(psi)@centre + vec(0, 0, p*psi)
+radial = vec(cos(a), sin(a), 0)
+around = R*vec(-sin(a), cos(a), 0) + p*k
+N = cos(xi)*radial + sin(xi)*cross(radial, around)/sqrt(dot(around, around))
+tube = Rz(psi)@(R*radial + rho*N) + vec(0, 0, p*psi)
+""",
+    jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
+)
+
 CLAIMS = (
     identity(
         "helicoid",
@@ -120,6 +140,29 @@ CLAIMS = (
         "The normal is that of the section, turned by ψ: it need be formed only once.",
         "normal = Rz(psi)@section",
         GENERIC,
+    ),
+    identity(
+        "rounding-normal",
+        "hob tip",
+        "The tube around the helix of a ball's centre has the ball's radius as its normal, in both directions ...",
+        ["dot(N, N) = 1", "dot(Rz(psi)@N, d(tube, xi)) = 0", "dot(Rz(psi)@N, d(tube, psi)) = 0"],
+        ROUNDING,
+    ),
+    identity(
+        "rounding-join",
+        "hob tip",
+        "... it touches any flank from which the centre lies along the normal, which is square to the helix: the "
+        "tube's own normal there is the flank's.",
+        ["dot(n, T) = 0", "Rz(-psi)@(d(C, psi)) = T"],
+        ROUNDING,
+    ),
+    identity(
+        "rounding-tip",
+        "hob tip",
+        "At ξ = 0 the tube's normal is radial and its point the ball's radius farther out than the centre: it touches "
+        "the tip cylinder of that radius.",
+        ["R*radial + rho*radial = (R + rho)*vec(cos(a), sin(a), 0)", "dot(radial, around) = 0"],
+        ROUNDING,
     ),
     identity(
         "zn-width",

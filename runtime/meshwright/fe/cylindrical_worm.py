@@ -1,9 +1,11 @@
 """Cylindrical worm drives: the thread between two grooves of the worm, and the wheel tooth that fills a groove.
 
-Both flanks of either are generated. Sections of a wheel tooth are planes z = constant; its root is what the hob's tip
-cylinder leaves. What the blank leaves open takes the proportions of ISO/TR 10828: addendum one axial module, clearance
-0.2, rounding 0.3, the outside cylinder of a throated wheel half a module beyond its throat, and the wheel as wide as
-the chord that the worm's tip circle cuts from its pitch line, or less where the hob's flank does not reach so far.
+Both flanks of either are generated, and of the wheel the fillets, cut by the rounding of the hob's tip; sections of its
+tooth are planes z = constant, its root land is what the hob's tip cylinder leaves. The worm's flanks join its root by
+arcs. What the blank leaves open takes the proportions of ISO/TR 10828: addendum one axial module, clearance 0.2,
+rounding 0.3 or as much as clearance and hob allow, the outside cylinder of a throated wheel half a module beyond its
+throat, and the wheel as wide as the chord that the worm's tip circle cuts from its pitch line, or less where the hob's
+flank does not reach so far.
 """
 
 from __future__ import annotations
@@ -16,16 +18,16 @@ from meshwright.drive import Drive
 from meshwright.errors import DesignError
 from meshwright.fe.generated import about_z, region_surface
 from meshwright.fe.hexahedra import Floats
+from meshwright.fe.hobbed import hobbed_side
 from meshwright.fe.profile import Surface
 from meshwright.fe.rim import bore_radius, bored
-from meshwright.fe.rounding import Outline, Span, rounded_side
+from meshwright.fe.rounding import Span
 from meshwright.fe.thread import SideName, ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
 from meshwright.fe.tooth import Teeth, ToothForm
 
 _ADDENDUM, _CLEARANCE, _ROUNDING, _BEYOND_THROAT = 1.0, 0.2, 0.3, 0.5
 # Part used of the angle about the hob over which it cuts the wheel.
 _SHEET_USED = 0.6
-_NEWTON_STEPS = 30
 # A flank is followed so far beyond its tip, and stops so far before its deepest end, in parts of its half.
 _BEYOND_TIP, _BEFORE_ROOT = 0.05, 0.02
 
@@ -51,6 +53,7 @@ def completed(drive: Drive) -> tuple[Drive, dict[str, float]]:
         size("wheel_tip_radius_mm", throat + _BEYOND_THROAT * module)
     else:
         tip = size("wheel_tip_radius_mm", drive.design.sizes["wheel_pitch_radius_mm"] + _ADDENDUM * module - shift)
+    size("hob_tip_rounding_mm", _standard_rounding(drive, hob_tip))
     root = value("cutting_center_distance_mm") - hob - hob_tip
     size("worm_tip_radius_mm", distance - root - _CLEARANCE * module)
     size("worm_root_radius_mm", distance - tip - _CLEARANCE * module)
@@ -61,11 +64,27 @@ def completed(drive: Drive) -> tuple[Drive, dict[str, float]]:
     return drive.with_(blank=assumed), assumed
 
 
+def _standard_rounding(drive: Drive, hob_tip: float) -> float:
+    """Rounding of the hob's tip in mm: the standard one, or what clearance and hob allow if that is less.
+
+    On a straight-sided profile a rounding rho takes rho (1 - sin alpha) from the height, where the clearance is
+    (ISO 53), and rho (1 - sin alpha)/cos alpha from the land on either side.
+    """
+    value = drive.design.value
+    angle, module = value("hob_pressure_angle_deg"), value("axial_module_mm")
+    groove = drive.design.sizes["groove_width_mm"]
+    land = max(0.0, np.pi * value("normal_module_mm") - groove - 2.0 * hob_tip * np.tan(angle))
+    allowed = min(_CLEARANCE * module, 0.5 * land * np.cos(angle)) / (1.0 - np.sin(angle))
+    return min(_ROUNDING * module, allowed)
+
+
 def root_radii(drive: Drive) -> dict[str, float]:
     """Root radius in mm of each member of a drive with a whole blank, the wheel's in its middle plane."""
+    value = drive.design.value
+    hob_tip = value("hob_pitch_radius_mm") + value("hob_tip_addendum_mm", "blank")
     return {
-        "pinion": drive.design.value("worm_root_radius_mm", "blank"),
-        "wheel": float(_wheel_root(drive)(np.zeros(1))[0]),
+        "pinion": value("worm_root_radius_mm", "blank"),
+        "wheel": value("cutting_center_distance_mm") - hob_tip,
     }
 
 
@@ -129,65 +148,38 @@ def wheel_teeth(drive: Drive, rim_thickness: float) -> Teeth:
     """The wheel tooth of a drive with a whole blank; the rim ends at a bore below the root of the middle plane."""
     value = drive.design.value
     half = 0.5 * value("wheel_face_width_mm", "blank")
-    outline = Outline(_along_axis, _above(_wheel_root(drive)), _below_tip(drive), _ROUNDING * value("axial_module_mm"))
     point, normal = _contact(drive, "wheel")
     working: SideName = "left" if point[0] * normal[1] > point[1] * normal[0] else "right"
     try:
         sides = {
-            name: rounded_side(region_surface(d, "wheel", "flank"), _axial, _span(d, "wheel"), (-half, half), outline)
+            name: hobbed_side(d, _span(d, "wheel"), (-half, half), _below_tip(d))
             for name, d in ((working, drive), (opposite(working), _other(drive)))
         }
+    except DesignError:
+        raise
     except ValueError as error:
         raise DesignError(
             "blank.wheel_face_width_mm",
             2.0 * half,
-            f"the hob leaves no whole flank there: {error}",
+            f"the hob leaves no whole tooth there: {error}",
             "choose a smaller one",
         ) from error
     bore = bored(bore_radius(root_radii(drive)["wheel"], rim_thickness))
     next_tooth = about_z(-2.0 * np.pi / value("wheel_teeth"))
     form = ToothForm.repeated(sides["left"], sides["right"], (-half, half), next_tooth, bore)
+    _check_land(form, drive)
     return Teeth(lambda angle: form, working)
 
 
-def _wheel_root(drive: Drive) -> Callable[[Floats], Floats]:
-    """Radius (...,) of the wheel's root at axial positions (...,): the hob's tip cylinder, nearest to the wheel's axis.
-
-    With y across both axes and w along the common normal of z and the perpendicular, z sin S + w cos S = y.
-    """
-    value = drive.design.value
-    tip = value("hob_pitch_radius_mm") + value("hob_tip_addendum_mm", "blank")
-    distance, angle = value("cutting_center_distance_mm"), value("cutting_shaft_angle_deg")
-    sine, cosine = np.sin(angle), np.cos(angle)
-
-    def root(axial: Floats) -> Floats:
-        if np.any(np.abs(axial) * sine >= tip):
-            raise DesignError(
-                "blank.wheel_face_width_mm",
-                value("wheel_face_width_mm", "blank"),
-                f"the face reaches past the hob, whose tip radius is {tip:.4g} mm",
-                "choose a smaller face width",
-            )
-        w = np.zeros_like(axial)
-        for _ in range(_NEWTON_STEPS):
-            y = axial * sine + w * cosine
-            x = np.sqrt(tip**2 - y**2)
-            slope = (distance - x) * y * cosine / x + w
-            bend = cosine**2 * ((distance - x) * (1.0 / x + y**2 / x**3) + y**2 / x**2) + 1.0
-            w = w - slope / bend
-        y = axial * sine + w * cosine
-        return np.hypot(distance - np.sqrt(tip**2 - y**2), w)
-
-    return root
-
-
-def _above(root: Callable[[Floats], Floats]) -> Callable[[Floats], tuple[Floats, Floats]]:
-    def above_root(points: Floats) -> tuple[Floats, Floats]:
-        radius = np.hypot(points[..., 0], points[..., 1])
-        radial = np.stack([points[..., 0] / radius, points[..., 1] / radius, np.zeros_like(radius)], axis=-1)
-        return radius - root(points[..., 2]), radial
-
-    return above_root
+def _check_land(form: ToothForm, drive: Drive) -> None:
+    """Refuse a hob without land between its two roundings: then none is left at the root of the wheel either."""
+    middle = np.array([0.5 * sum(form.faces)])
+    right, cut = form.right.root_end(middle)[0], form.right_cut(middle)[0]
+    if right[0] * cut[1] - right[1] * cut[0] >= 0.0:
+        rounding = drive.design.value("hob_tip_rounding_mm", "blank")
+        raise DesignError(
+            "blank.hob_tip_rounding_mm", rounding, "the hob's tip has no land between its roundings", "choose less"
+        )
 
 
 def _below_tip(drive: Drive) -> Callable[[Floats], Floats]:
@@ -202,11 +194,3 @@ def _below_tip(drive: Drive) -> Callable[[Floats], Floats]:
         return np.fmin(outside - radius, to_throat)
 
     return below
-
-
-def _axial(points: Floats) -> Floats:
-    return points[..., 2]
-
-
-def _along_axis(points: Floats) -> Floats:
-    return np.broadcast_to([0.0, 0.0, 1.0], points.shape)

@@ -54,17 +54,25 @@ def rounded_side(
     values = np.linspace(*faces, _SAMPLES)
     whole = SectionCurves(surface, section, constant(span.root), constant(span.tip))
     arcs = _Arcs(whole, outline)
-    tip = _crossing(lambda u, s: outline.below_tip(_at(whole, s, u)[0]), values, (span.middle, span.tip))
+    tip = tip_line(whole, values, (span.middle, span.tip), outline.below_tip)
     joint = np.full_like(values, span.root)
     reaches = arcs.overlap(joint, values) < 0.0
     if reaches.any():
         joint[reaches] = _crossing(arcs.overlap, values[reaches], (span.root, span.middle))
-    if np.any(outline.below_tip(_at(whole, values, joint)[0]) <= 0.0):
-        raise ValueError("the flank is on another sheet in some section of its face")
     joint_of = CubicSpline(values, joint)
-    flank = SectionCurves(surface, section, joint_of, CubicSpline(values, tip))
+    flank = SectionCurves(surface, section, joint_of, tip)
     fillet = SectionCurves(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
     return ToothSide(fillet, flank)
+
+
+def tip_line(
+    flank: SectionCurves, values: Floats, ends: tuple[float, float], below_tip: Callable[[Floats], Floats]
+) -> CubicSpline:
+    """Profile parameter between ``ends`` where a section meets the tip, for sections between the ``values`` (K,).
+
+    below_tip: points (..., 3) to the height (...,) left. Raises ValueError where the flank does not reach the tip.
+    """
+    return CubicSpline(values, _crossing(lambda u, s: below_tip(_at(flank, s, u)[0]), values, ends))
 
 
 def _crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[float, float]) -> Floats:
