@@ -10,7 +10,6 @@ import numpy as np
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
-from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import ToothForm
 
 
@@ -37,10 +36,6 @@ class Member:
         """Origin and unit direction of the axis in the fixed frame, along +z of the body."""
         pose = self.pose(0.0)
         return pose[:3, 3], pose[:3, 2]
-
-    def working_flank(self, angle: float) -> SectionCurves:
-        """The flank in contact at a member angle of its own pair."""
-        return self.tooth(angle).side(self.working).flank
 
     def tooth_motion(self, pairs_later: int) -> Floats:
         """4 x 4 motion in the body frame from the reference tooth to the tooth that meets so many pairs later."""
