@@ -31,8 +31,15 @@ def _helicoid_condition(point, normal, parameter):
     return v.dot(normal, v.add(v.cross(v.K, point), v.scale(parameter, v.K)))
 
 
+def _behind(symbols, definitions):
+    """The symbols that are defined, and those behind their definitions."""
+    found = symbols & definitions.keys()
+    return found.union(*(_behind(definitions[k].free_symbols, definitions) for k in found))
+
+
 def _decide(expression, definitions, equal_to=0):
-    named = {str(k): parse(str(value), {}) for k, value in definitions.items() if not value.has(sp.atan2)}
+    needed = _behind(sp.sympify(expression).free_symbols, definitions)
+    named = {str(k): parse(str(definitions[k]), {}) for k in needed if not definitions[k].has(sp.atan2)}
     statement = Statement(
         "helicoid", parse(str(expression), {}), parse(str(equal_to), {}), named, {}, frozenset({"s"})
     )

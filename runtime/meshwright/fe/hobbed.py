@@ -22,7 +22,9 @@ from meshwright.fe.tooth import ToothSide
 from meshwright.surface import Flank, FlankPoints
 
 _SAMPLES = 17
-_STEPS, _BISECTIONS, _NEWTON_STEPS = 64, 50, 30
+# Steps from the middle of the flank to either end, or along the fillet.
+_STEPS = 64
+_BISECTIONS, _NEWTON_STEPS = 50, 30
 _ON_PLACE = 1e-10
 
 
@@ -35,12 +37,12 @@ def hobbed_side(
     height (...,) left to the tip.  Raises ValueError where the hob does not leave a whole side.
     """
     values = np.linspace(*faces, _SAMPLES)
-    wheel = Hobbed.of(drive, span)
+    wheel = _Hobbed.of(drive, span)
     inner, outer = (Line.follow(wheel.flank, values, span.middle, end, _STEPS) for end in (wheel.joint, span.tip))
     flank, fillet = inner.joined(outer), Line.follow(wheel.fillet, values, 0.0, wheel.turn, _STEPS)
     whole = SectionCurves(flank.surface, _axial, constant(wheel.joint), constant(span.tip))
     tip = tip_line(whole, values, (span.middle, span.tip), below_tip)
-    wheel.ends(values)
+    wheel.ends(values)  # now, rather than when a mesh asks for it
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),
         SectionCurves(flank.surface, _axial, lambda sections: wheel.ends(sections)[0], tip),
@@ -52,7 +54,7 @@ def _axial(points: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class Hobbed:
+class _Hobbed:
     """What a hob cuts: flank over (t, rack angle), fillet over (turn of the hob's normal from the land, rack angle).
 
     middle: t in the middle of the flank.  joint: t of the edge between the hob's flank and its rounding.  turn: that of
@@ -66,7 +68,7 @@ class Hobbed:
     turn: float
 
     @classmethod
-    def of(cls, drive: Drive, span: Span) -> Hobbed:
+    def of(cls, drive: Drive, span: Span) -> _Hobbed:
         """Raises DesignError where the rounding of the hob's tip finds no place on its flank."""
         flank, rounding = (drive.flank("wheel", region) for region in ("flank", "fillet"))
         joint, turn = _edge(rounding, span.root)
