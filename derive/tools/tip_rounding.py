@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import placement, screw
+from derive.chain import placement, screw, translation
 from derive.surface import Surface
 from derive.symbols import Quantity
 
@@ -54,7 +54,7 @@ def tip_rounding(tool, body, definitions):
         definitions.let_vector(f"e_{axis}_round_{name}", e, f"{meaning} of the helix of centres", "", name)
         for axis, (e, meaning) in axes.items()
     )
-    motion = advance @ placement(*frame, centre)
+    motion = advance @ translation(*centre) @ placement(*frame, (0, 0, 0))
     xi = Quantity(f"xi_round_{name}", "rad", f"turn of the rounding's normal from the radius of the {name}", name)
     outward = (sp.cos(xi), sp.Integer(0), -body.flank * sp.sin(xi))
     turning = definitions.derivative_vector(outward, xi)
