@@ -19,8 +19,8 @@ static inline void cylindrical_worm_zi_zn_derive_tangent(double *known, const do
     if (known[22] != known[22]) known[22] = p[22];
     if (known[23] != known[23]) known[23] = p[23];
     if (known[24] != known[24]) known[24] = p[24];
-    if (known[32] != known[32]) known[32] = p[32];
     if (known[33] != known[33]) known[33] = p[33];
+    if (known[34] != known[34]) known[34] = p[34];
     if (known[5] != known[5] && known[2] == known[2] && known[3] == known[3] && known[6] == known[6]) { /* lambda_worm */
         const double t0 = p[2] * 0.5;
         const double t1 = dp[2] * 0.5;
@@ -173,7 +173,7 @@ static inline void cylindrical_worm_zi_zn_derive_tangent(double *known, const do
         dp[20] = t1;
         known[20] = p[20];
     }
-    if (known[25] != known[25] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[31] == known[31]) { /* R_tip */
+    if (known[25] != known[25] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[32] == known[32]) { /* R_tip */
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         const double t2 = dp[1] * 0.5;
@@ -190,17 +190,17 @@ static inline void cylindrical_worm_zi_zn_derive_tangent(double *known, const do
         const double t13 = t3 * c6;
         const double t14 = t11 + t4;
         const double t15 = MW_FNMA(t11, t13, t10);
-        const double t16 = dp[31] * t14;
+        const double t16 = dp[32] * t14;
         const double t17 = MW_FMA(t12, t15, t5);
-        const double t18 = MW_FMA(p[31], t17, t16);
+        const double t18 = MW_FMA(p[32], t17, t16);
         dp[25] = t18;
         known[25] = p[25];
     }
-    if (known[30] != known[30] && known[1] == known[1] && known[9] == known[9] && known[31] == known[31]) { /* h_hob */
+    if (known[30] != known[30] && known[1] == known[1] && known[9] == known[9] && known[32] == known[32]) { /* h_hob */
         const double t0 = MW_FMA(dp[1], 2.0, dp[9]);
         const double t1 = MW_FMA(p[1], 2.0, p[9]);
-        const double t2 = p[31] * t0;
-        const double t3 = MW_FMA(dp[31], t1, t2);
+        const double t2 = p[32] * t0;
+        const double t3 = MW_FMA(dp[32], t1, t2);
         dp[30] = t3;
         known[30] = p[30];
     }

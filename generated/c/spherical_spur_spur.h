@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 193, set_phi 7, R 82, R and J 144, step 183, observe 247.
- * Equations (hash 15370a492701b9767bb5c866a887c673f0ff88a467ceef6124fbe76a68a52ed9):
+ * Equations (hash f1b48b989487bdc82bcba82fd568b4a4a2e1962877d12208be0562b3012af5c9):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
