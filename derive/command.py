@@ -9,9 +9,11 @@ import json
 import sys
 import time
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from derive import compiler, drives
+from derive.aside import aside, processors
 from derive.audit import check
 from derive.emit import tables
 from derive.files import replace_text
@@ -63,7 +65,7 @@ def _everything(known):
 
     with log("prove", "audit record"):
         ledger = record.ledger()
-    files = _of_drives(known, known, ledger.objects)
+    files = _of_drives([*known], known, ledger.objects)
     files |= tables.tables({name: json.loads(files[f"c/{name}.json"]) for name in known})
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
@@ -72,11 +74,23 @@ def _everything(known):
 
 
 def _of_drives(names, known, record):
+    """The files of several drives, every processor at its share of them; of one, at its share of the printing."""
+    if len(names) == 1:
+        return _of_share(names, known, record, aside)
+    shares = [names[k :: processors()] for k in range(processors())]
+    others = [aside(_of_share, share, known, record, partial) for share in shares[1:]]
+    files = _of_share(shares[0], known, record, partial)
+    for other in others:
+        files |= other()
+    return files
+
+
+def _of_share(names, known, record, begin):
     files = {}
     for name in names:
         with log("define", name):
             drive = known[name]()
-        files |= compiler.compile_drive(drive, record, log)
+        files |= compiler.compile_drive(drive, record, log, begin)
     return files
 
 

@@ -21,7 +21,7 @@ def report(drive):
         _, compiled = _compile(folder / "one" / "c", drive)
         _, checked = _timed(sys.executable, "-I", "-S", folder / "all" / "audit" / "check.py")
     total, single = _seconds(log), _seconds(own)
-    print(f"\nregeneration, seconds a stage: all drives, {drive} alone")
+    print(f"\nregeneration, seconds a stage on every processor: all drives, {drive} alone")
     for stage in total:
         print(f"  {stage:<9} {total[stage]:7.2f} {single[stage]:7.2f}")
     print("whole processes, seconds")
