@@ -89,10 +89,14 @@ def lane_points(case, width):
     return designs * n / seconds
 
 
-def _run(program, case, *arguments):
+def _numbers(program, case, *arguments):
     command = [str(program), *map(str, arguments)]
     done = subprocess.run(command, input=case.text(), capture_output=True, text=True, check=True)
-    return float(done.stdout.split()[0])
+    return [float(number) for number in done.stdout.split()]
+
+
+def _run(program, case, *arguments):
+    return _numbers(program, case, *arguments)[0]
 
 
 def _counted(program, case, folder, *options):
@@ -112,13 +116,16 @@ def scalar_program(case, folder, *options):
 
 
 def kernel_steps(case, folder):
-    """Newton steps a second of the widest lane kernel alone, without what a trace adds."""
+    """Newton steps a second of the widest lane kernel alone, without what a trace adds; and beside it, in turns, the
+    fused multiply-add peak of the core, floating-point operations a second."""
     name = case.name
     functions = {"SETUP": "setup_lanes", "SET_PHI": "set_phi_lanes", "STEP": "step_lanes"}
     defines = [f"-D{key}={name}_{function}" for key, function in functions.items()]
     defines += [f'-DHEADER="{name}_lanes.h"', f"-DMODEL_NX={name}_NX"]
-    program = compile_c([HERE / "lane_step.c"], folder / "step", f"-I{GENERATED}", *WIDEST, *defines)
-    return _run(program, case)
+    peak = compile_c([HERE / "peak.c"], folder / "peak.o", "-c", *WIDEST, "-ffp-contract=fast", "-funroll-loops")
+    program = compile_c([HERE / "lane_step.c", peak], folder / "step", f"-I{GENERATED}", *WIDEST, *defines)
+    steps, top, *_ = _numbers(program, case)
+    return steps, top
 
 
 def casadi_function(case):
@@ -169,27 +176,21 @@ def operations(plan):
     return sum(tape.nodes[i].op not in ("sin", "cos") for i in order) + SINCOS * len(turned)
 
 
-def peak(folder):
-    """Measured fused multiply-add peak of one core, floating-point operations a second."""
-    program = compile_c([HERE / "peak.c"], folder / "peak", *WIDEST, "-ffp-contract=fast", "-funroll-loops")
-    return float(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout.split()[0])
-
-
 def main():
     print(f"compiler {' '.join(compiler())}; one core; quote the ratios")
     print("products are fused into sums in lanes4 and lanes8 alone")
     growth = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        top = peak(folder)
         for design, first, step in CASES:
             case = case_of(design, first, step)
             rates, counts, plan = measure(case, folder)
             for kernel, rate in rates.items():
                 shown = f"{rate:.4g} points/s {rate / rates['scipy']:.1f}x SciPy" if rate else "not on this processor"
                 print(f"{case.name} {kernel} {shown}", flush=True)
+            steps, top = kernel_steps(case, folder)
             _remarks(rates, counts, operations(plan) / top)
-            share = kernel_steps(case, folder) * operations(plan) / top
+            share = steps * operations(plan) / top
             print(f"  lane kernel: {operations(plan)} operations a step, {100 * share:.0f} % of the peak {top:.3g}/s")
             growth.append((case.name, len(case.start), operations(plan), rates["scalar"]))
     print("\ncost over the number of unknowns: drive, unknowns, operations a step, ns a point, ns an unknown")
