@@ -29,6 +29,14 @@ def aside(function, *arguments):
     return partial(_value, process, reader)
 
 
+def shared(items):
+    """The items (at most 256), each for whichever process asks first: this one or one begun later."""
+    reader, writer = os.pipe()
+    os.write(writer, bytes(range(len(items))))
+    os.close(writer)
+    return (items[position[0]] for position in iter(partial(os.read, reader, 1), b""))
+
+
 def _work(writer, function, arguments):
     status = 1
     try:

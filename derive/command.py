@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 
 from derive import compiler, drives
-from derive.aside import aside, processors
+from derive.aside import aside, processors, shared
 from derive.audit import check
 from derive.emit import tables
 from derive.files import replace_text
@@ -77,9 +77,9 @@ def _of_drives(names, known, record):
     """The files of several drives, every processor at its share of them; of one, at its share of the printing."""
     if len(names) == 1:
         return _of_share(names, known, record, aside)
-    shares = [names[k :: processors()] for k in range(processors())]
-    others = [aside(_of_share, share, known, record, partial) for share in shares[1:]]
-    files = _of_share(shares[0], known, record, partial)
+    queue = shared(names[::-1])  # from the end: what takes longest is begun first
+    others = [aside(_of_share, queue, known, record, partial) for _ in names[1 : processors()]]
+    files = _of_share(queue, known, record, partial)
     for other in others:
         files |= other()
     return files
