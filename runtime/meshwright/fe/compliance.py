@@ -8,7 +8,7 @@ three-dimensional contact problem (1991).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,9 @@ from meshwright.fe.pair import Member
 
 _PATCH = 2
 _MOST_NEIGHBOURS = 2
-_DENSITY = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
+_TOOTH = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
+# The portion of a thread is several faces long: patches longer than the contact would tell too high a pressure.
+_THREAD = replace(_TOOTH, coarse_rows=(4, 12, 40))
 
 
 @dataclass(frozen=True)
@@ -64,17 +66,18 @@ def tooth_compliance(member: Member, neighbours: int = 1) -> ToothCompliance:
     Of a thread it is that of the portion at member angle 0.
     """
     order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
-    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _DENSITY)
+    density = _THREAD if member.tooth(0.0).cut_ends else _TOOTH
+    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], density)
     name = f"flank_{member.working}"
 
     def patches(later: int) -> Floats:
         tooth = body.teeth[order.index(later)]
-        return _patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), _DENSITY)
+        return _patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), density)
 
     forces = np.moveaxis(patches(0), 0, -1)
     moved = factorise(body.mesh, member.material, body.rim).displacements(-forces)
     whole, *later = (-np.einsum("pnd,ndq->pq", patches(k), moved) for k in range(neighbours + 1))
-    shape = (_DENSITY.coarse_rows[1] // _PATCH, _DENSITY.coarse_rows[2] // _PATCH)
+    shape = (density.coarse_rows[1] // _PATCH, density.coarse_rows[2] // _PATCH)
     corners = body.mesh.nodes[body.mesh.face_nodes(body.teeth[order.index(0)][name])]
     own = whole - _half_space(member, corners, shape)
     centres = [(np.arange(count) + 0.5) / count for count in shape]
