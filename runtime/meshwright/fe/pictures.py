@@ -10,6 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from meshwright.fe.hexahedra import FACES, Floats, HexMesh, Ints
@@ -19,6 +20,8 @@ from meshwright.fe.stress import Solution
 
 _DPI = 150
 _COLOURS = "viridis"
+# More would run into each other on an axis seen nearly end on.
+_TICKS = 4
 # Degrees above the horizon at least, or below it where the flanks are seen from below; what is level within this.
 _LEAST_ELEVATION, _LEVEL = 20.0, 1.0
 
@@ -79,6 +82,8 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     # An upright box would reach into the title.
     axes.set_box_aspect(high - low, zoom=0.85 if high[2] - low[2] >= (high - low)[:2].max() else 1.0)
     axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.set_major_locator(MaxNLocator(_TICKS))
     axes.view_init(*view(model, name))
     bar = figure.colorbar(colours, ax=axes, shrink=0.7, extend="max")
     bar.set_label(f"von Mises stress / MPa (largest on the surface {values.max():.0f})")
