@@ -8,12 +8,12 @@ import argparse
 import json
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 from derive import compiler, drives
-from derive.aside import aside, processors, shared
 from derive.audit import check
 from derive.emit import tables
 from derive.files import replace_text
@@ -40,7 +40,7 @@ def main(arguments=None):
         return 2
     if options.drive:
         try:
-            files = _some(options.drive, known)
+            files = _some(options.drive)
         except check.Rejected as error:
             print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
             return 2
@@ -52,11 +52,11 @@ def main(arguments=None):
     return 0
 
 
-def _some(names, known):
+def _some(names):
     """The files of the drives named."""
     with log("prove", "audit record, as written"):
         record = check.read_record(compiler.ROOT / "generated" / "audit")
-    return _of_drives(names, known, record)
+    return {path: text for name in names for path, text in _of_drive(record, name).items()}
 
 
 def _everything(known):
@@ -65,7 +65,7 @@ def _everything(known):
 
     with log("prove", "audit record"):
         ledger = record.ledger()
-    files = _of_drives([*known], known, ledger.objects)
+    files = _of_drives([*known], ledger.objects)
     files |= tables.tables({name: json.loads(files[f"c/{name}.json"]) for name in known})
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
@@ -73,25 +73,17 @@ def _everything(known):
     return files
 
 
-def _of_drives(names, known, record):
-    """The files of several drives, every processor at its share of them; of one, at its share of the printing."""
-    if len(names) == 1:
-        return _of_share(names, known, record, aside)
-    queue = shared(names[::-1])  # from the end: what takes longest is begun first
-    others = [aside(_of_share, queue, known, record, partial) for _ in names[1 : processors()]]
-    files = _of_share(queue, known, record, partial)
-    for other in others:
-        files |= other()
-    return files
+def _of_drives(names, record):
+    """The files of these drives, each made by whichever process is free; those that take longest come last."""
+    with ProcessPoolExecutor() as processes:
+        made = list(processes.map(partial(_of_drive, record), reversed(names)))
+    return {path: text for files in reversed(made) for path, text in files.items()}
 
 
-def _of_share(names, known, record, begin):
-    files = {}
-    for name in names:
-        with log("define", name):
-            drive = known[name]()
-        files |= compiler.compile_drive(drive, record, log, begin)
-    return files
+def _of_drive(record, name):
+    with log("define", name):
+        drive = drives.catalogue([name])[name]()
+    return compiler.compile_drive(drive, record, log)
 
 
 def _remove_superseded(folder, files):

@@ -18,22 +18,20 @@ from pathlib import Path
 
 from derive import conditions
 from derive.audit.provenance import provenance
-from derive.emit import c99, lanes, metadata, sensitivity
+from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
 MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
 
 
-def compile_drive(drive, record, log, begin):
+def compile_drive(drive, record, log):
     """All generated files of one drive: relative path → text.
 
-    ``record`` holds the objects of the audit record against which it is checked, by their hash. ``begin`` starts a
-    function that can wait and returns one for its value: :func:`~derive.aside.aside` or alike.
+    ``record`` holds the objects of the audit record against which it is checked, by their hash.
     """
     with log("schedule", drive.name):
         plan = schedule(drive)
-    casadi = begin(_casadi, plan)
     with log("prove", drive.name):
         origin = provenance(record, plan)
     with log("emit", drive.name):
@@ -42,19 +40,14 @@ def compile_drive(drive, record, log, begin):
             f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         }
-        # it adds the changes of the inputs to the tape
+        files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
+        # last: it adds the changes of the inputs to the tape
         tangents = sensitivity.tangents(plan)
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
         evaluated = [*conditions.functions(plan), *tangents.functions()]
         description["side_conditions"] = conditions.side_conditions(plan, evaluated)
         files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
-        return files | {f"casadi/{name}.casadi": text for name, text in casadi().items()}
-
-
-def _casadi(plan):
-    from derive.emit import casadi  # loads NumPy, which takes as long as the rest of the stage
-
-    return casadi.texts(plan)
+        return files
 
 
 def manifest(files):
