@@ -8,7 +8,6 @@ import argparse
 import json
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -75,6 +74,8 @@ def _everything(known):
 
 def _of_drives(names, record):
     """The files of these drives, each made by whichever process is free; those that take longest come last."""
+    from concurrent.futures import ProcessPoolExecutor
+
     with ProcessPoolExecutor() as processes:
         made = list(processes.map(partial(_of_drive, record), reversed(names)))
     return {path: text for files in reversed(made) for path, text in files.items()}

@@ -54,13 +54,18 @@ def estrin(name, variable, coefficients):
 
 
 class Printer:
-    """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read."""
+    """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read.
 
-    def __init__(self, tape, prefix, leaves, suffix=""):
+    What is computed ``seldom``, once for a design, calls sine and cosine instead of having them written out in place,
+    for the C compiler's sake.
+    """
+
+    def __init__(self, tape, prefix, leaves, suffix="", seldom=False):
         self.tape = tape
         self.prefix = prefix
         self.leaves = leaves
         self.suffix = suffix  # of local names
+        self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
     def body(self, outputs, known=None):
         """C that computes ``outputs``; ``known`` maps nodes to operands of earlier statements of the function.
@@ -131,7 +136,7 @@ class Printer:
                 operands[node] = f"{letter}{serial}"
         return [
             f"double s{serial}, c{serial};",
-            f"{self.prefix}_sincos({operand}, &s{serial}, &c{serial});",
+            f"{self.sincos}({operand}, &s{serial}, &c{serial});",
         ]
 
 
@@ -179,7 +184,7 @@ def header(plan: Schedule, description: dict, model_source: str):
     """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`)."""
     drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
     leaves = Leaves.of(plan)
-    design = Printer(tape, prefix, leaves.design)
+    design = Printer(tape, prefix, leaves.design, seldom=True)
     instant = Printer(tape, prefix, leaves.instant)
     iterate = Printer(tape, prefix, leaves.iterate)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
@@ -230,7 +235,8 @@ def _system(plan, drive):
     """A design system's C: functions of q, the parameters followed by the share of the path, and of y."""
     lower, count = plan.lower, len(drive.parameters)
     known = {lower(p.symbol): f"q[{k}]" for k, p in enumerate(drive.parameters)} | {lower(PATH): f"q[{count}]"}
-    printer = Printer(plan.tape, drive.name, known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)})
+    leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
+    printer = Printer(plan.tape, drive.name, leaves, seldom=True)
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
     residual, statements = printer.body(plan.residual)
     return {
@@ -274,4 +280,4 @@ def _tested(printer, groups, tests):
 def _from_parameters(drive, program):
     """A printer of expressions of the parameter vector alone."""
     leaves = {program.lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
-    return Printer(program.tape, drive.name, leaves)
+    return Printer(program.tape, drive.name, leaves, seldom=True)

@@ -163,6 +163,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -226,6 +231,12 @@ MW_INLINE void cylindrical_worm_za_za_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_za_za_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_za_za_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -307,19 +318,19 @@ static inline void cylindrical_worm_za_za_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_za_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_za_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_za_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -355,7 +366,7 @@ static inline void cylindrical_worm_za_za_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_za_za_sincos(t0, &s2, &c2);
+        cylindrical_worm_za_za_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -376,7 +387,7 @@ static inline void cylindrical_worm_za_za_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_za_za_sincos(t0, &s3, &c3);
+        cylindrical_worm_za_za_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -394,14 +405,14 @@ static inline void cylindrical_worm_za_za_derive(double *p)
 static inline void cylindrical_worm_za_za_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_za_za_sincos(p[5], &s0, &c0);
+    cylindrical_worm_za_za_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_za_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_za_za_sincos(p[7], &s5, &c5);
+    cylindrical_worm_za_za_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_za_sincos(t4, &s7, &c7);
+    cylindrical_worm_za_za_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -440,23 +451,23 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
         const double t2 = p[4] * p[4];
         const double t3 = p[6] * p[6];
         double s4, c4;
-        cylindrical_worm_za_za_sincos(p[7], &s4, &c4);
+        cylindrical_worm_za_za_seldom_sincos(p[7], &s4, &c4);
         const double t6 = 1.0 + t0;
         const double t7 = t1 + t6;
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_za_za_sincos(p[17], &s10, &c10);
+        cylindrical_worm_za_za_seldom_sincos(p[17], &s10, &c10);
         const double t12 = MW_FMA(p[3], p[3], t7);
         double s13, c13;
-        cylindrical_worm_za_za_sincos(p[14], &s13, &c13);
+        cylindrical_worm_za_za_seldom_sincos(p[14], &s13, &c13);
         const double t15 = t2 + t12;
         double s16, c16;
-        cylindrical_worm_za_za_sincos(p[20], &s16, &c16);
+        cylindrical_worm_za_za_seldom_sincos(p[20], &s16, &c16);
         const double t18 = MW_FMA(p[5], p[5], t15);
         const double t19 = t3 + t18;
         double s20, c20;
-        cylindrical_worm_za_za_sincos(p[5], &s20, &c20);
+        cylindrical_worm_za_za_seldom_sincos(p[5], &s20, &c20);
         const double t22 = MW_FMA(p[7], p[7], t19);
         const double t23 = MW_FMA(p[8], p[8], t22);
         const double t24 = p[1] * (-0.5);
@@ -516,13 +527,13 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
         if (!(t49 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_za_za_sincos(p[14], &s0, &c0);
+    cylindrical_worm_za_za_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_za_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_za_za_sincos(p[7], &s4, &c4);
+    cylindrical_worm_za_za_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_za_za_sincos(p[20], &s6, &c6);
+    cylindrical_worm_za_za_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = 1.0 / p[4];
     const double t10 = p[10] * p[11];
@@ -532,7 +543,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t14 = p[1] * 0.7853981633974483;
     const double t15 = p[10] - p[19];
     double s16, c16;
-    cylindrical_worm_za_za_sincos(p[5], &s16, &c16);
+    cylindrical_worm_za_za_seldom_sincos(p[5], &s16, &c16);
     const double t18 = p[11] * t11;
     const double t19 = s2 / c2;
     const double t20 = p[0] * t8;
@@ -549,14 +560,14 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t31 = p[19] * t25;
     const double t32 = s4 / c4;
     double s33, c33;
-    cylindrical_worm_za_za_sincos(p[23], &s33, &c33);
+    cylindrical_worm_za_za_seldom_sincos(p[23], &s33, &c33);
     const double t35 = s6 * t13;
     const double t36 = p[0] * s6;
     const double t37 = s6 * t31;
     const double t38 = p[11] * s6;
     const double t39 = s6 * s6;
     double s40, c40;
-    cylindrical_worm_za_za_sincos(t27, &s40, &c40);
+    cylindrical_worm_za_za_seldom_sincos(t27, &s40, &c40);
     const double t42 = t19 * t10;
     const double t43 = t19 * t12;
     const double t44 = p[0] * t26;
@@ -647,7 +658,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t129 = t114 * t119;
     const double t130 = t120 / p[11];
     double s131, c131;
-    cylindrical_worm_za_za_sincos(t125, &s131, &c131);
+    cylindrical_worm_za_za_seldom_sincos(t125, &s131, &c131);
     const double t133 = t90 - t102;
     const double t134 = t90 + t102;
     const double t135 = MW_FMA((-0.5), t102, t82);

@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_za_zc_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_za_zc_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_za_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_za_zc_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_za_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_za_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_za_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_za_zc_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_za_zc_sincos(t0, &s2, &c2);
+        cylindrical_worm_za_zc_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_za_zc_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+        cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_za_zc_derive(double *p)
 static inline void cylindrical_worm_za_zc_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_za_zc_sincos(p[5], &s0, &c0);
+    cylindrical_worm_za_zc_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zc_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_za_zc_sincos(p[7], &s5, &c5);
+    cylindrical_worm_za_zc_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zc_sincos(t4, &s7, &c7);
+    cylindrical_worm_za_zc_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,25 +455,25 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
         const double t0 = p[1] * p[1];
         const double t1 = MW_FMA(p[0], p[0], 1.0);
         double s2, c2;
-        cylindrical_worm_za_zc_sincos(p[7], &s2, &c2);
+        cylindrical_worm_za_zc_seldom_sincos(p[7], &s2, &c2);
         const double t4 = t0 + t1;
         double s5, c5;
-        cylindrical_worm_za_zc_sincos(p[17], &s5, &c5);
+        cylindrical_worm_za_zc_seldom_sincos(p[17], &s5, &c5);
         const double t7 = p[4] * p[4];
         const double t8 = MW_FMA(p[3], p[3], t4);
         const double t9 = p[6] * p[6];
         double s10, c10;
-        cylindrical_worm_za_zc_sincos(p[14], &s10, &c10);
+        cylindrical_worm_za_zc_seldom_sincos(p[14], &s10, &c10);
         const double t12 = t7 + t8;
         const double t13 = p[10] * p[10];
         const double t14 = MW_FMA(p[5], p[5], t12);
         const double t15 = p[11] * p[11];
         const double t16 = p[15] * p[15];
         double s17, c17;
-        cylindrical_worm_za_zc_sincos(p[20], &s17, &c17);
+        cylindrical_worm_za_zc_seldom_sincos(p[20], &s17, &c17);
         const double t19 = t9 + t14;
         double s20, c20;
-        cylindrical_worm_za_zc_sincos(p[5], &s20, &c20);
+        cylindrical_worm_za_zc_seldom_sincos(p[5], &s20, &c20);
         const double t22 = MW_FMA(p[7], p[7], t19);
         const double t23 = s2 / c2;
         const double t24 = p[1] * (-0.5);
@@ -548,17 +559,17 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
         if (!(t62 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_za_zc_sincos(p[7], &s0, &c0);
+    cylindrical_worm_za_zc_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zc_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_za_zc_sincos(p[14], &s4, &c4);
+    cylindrical_worm_za_zc_seldom_sincos(p[14], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[16];
     double s10, c10;
-    cylindrical_worm_za_zc_sincos(p[20], &s10, &c10);
+    cylindrical_worm_za_zc_seldom_sincos(p[20], &s10, &c10);
     const double t12 = s0 / c0;
     const double t13 = 1.0 / p[4];
     const double t14 = p[10] * p[11];
@@ -566,7 +577,7 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
     const double t16 = p[11] * p[19];
     const double t17 = p[10] + p[15];
     double s18, c18;
-    cylindrical_worm_za_zc_sincos(p[5], &s18, &c18);
+    cylindrical_worm_za_zc_seldom_sincos(p[5], &s18, &c18);
     const double t20 = p[0] * c2;
     const double t21 = p[11] * t15;
     const double t22 = s2 / c2;
@@ -583,7 +594,7 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
     const double t33 = p[8] + p[22];
     const double t34 = p[11] * p[11];
     double s35, c35;
-    cylindrical_worm_za_zc_sincos(p[23], &s35, &c35);
+    cylindrical_worm_za_zc_seldom_sincos(p[23], &s35, &c35);
     const double t37 = MW_FMA(p[16], s4, p[10]);
     const double t38 = s4 * c2;
     const double t39 = p[10] * t22;
@@ -647,7 +658,7 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
     const double t97 = c10 * t16;
     const double t98 = s10 * s10;
     double s99, c99;
-    cylindrical_worm_za_zc_sincos(t33, &s99, &c99);
+    cylindrical_worm_za_zc_seldom_sincos(t33, &s99, &c99);
     const double t101 = (-1.0) - t83;
     const double t102 = 0.5 * t90;
     const double t103 = t85 + t88;
@@ -723,9 +734,9 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
     const double t173 = c99 * t94;
     const double t174 = 0.5 * t67;
     double s175, c175;
-    cylindrical_worm_za_zc_sincos(t67, &s175, &c175);
+    cylindrical_worm_za_zc_seldom_sincos(t67, &s175, &c175);
     double s177, c177;
-    cylindrical_worm_za_zc_sincos(t174, &s177, &c177);
+    cylindrical_worm_za_zc_seldom_sincos(t174, &s177, &c177);
     const double t179 = t134 + t164;
     const double t180 = t129 + t162;
     const double t181 = s99 * t94;
@@ -860,7 +871,7 @@ static inline int cylindrical_worm_za_zc_setup(const double *p, double *s)
     const double t310 = t301 * t240;
     const double t311 = MW_FNMA(t39, t301, t264);
     double s312, c312;
-    cylindrical_worm_za_zc_sincos(t308, &s312, &c312);
+    cylindrical_worm_za_zc_seldom_sincos(t308, &s312, &c312);
     const double t314 = t228 * t309;
     const double t315 = MW_FMS(t70, t307, t310);
     const double t316 = MW_FMA(s10, t311, t269);

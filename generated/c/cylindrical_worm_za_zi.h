@@ -164,6 +164,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -227,6 +232,12 @@ MW_INLINE void cylindrical_worm_za_zi_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_za_zi_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_za_zi_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -308,19 +319,19 @@ static inline void cylindrical_worm_za_zi_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_za_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_za_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_za_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -356,7 +367,7 @@ static inline void cylindrical_worm_za_zi_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_za_zi_sincos(t0, &s2, &c2);
+        cylindrical_worm_za_zi_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -377,7 +388,7 @@ static inline void cylindrical_worm_za_zi_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_za_zi_sincos(t0, &s3, &c3);
+        cylindrical_worm_za_zi_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -395,14 +406,14 @@ static inline void cylindrical_worm_za_zi_derive(double *p)
 static inline void cylindrical_worm_za_zi_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_za_zi_sincos(p[5], &s0, &c0);
+    cylindrical_worm_za_zi_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zi_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_za_zi_sincos(p[7], &s5, &c5);
+    cylindrical_worm_za_zi_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zi_sincos(t4, &s7, &c7);
+    cylindrical_worm_za_zi_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -437,25 +448,25 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_za_zi_sincos(p[14], &s0, &c0);
+        cylindrical_worm_za_zi_seldom_sincos(p[14], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_za_zi_sincos(p[17], &s2, &c2);
+        cylindrical_worm_za_zi_seldom_sincos(p[17], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
         const double t7 = p[6] * p[6];
         double s8, c8;
-        cylindrical_worm_za_zi_sincos(p[7], &s8, &c8);
+        cylindrical_worm_za_zi_seldom_sincos(p[7], &s8, &c8);
         const double t10 = 1.0 + t4;
         const double t11 = t5 + t10;
         const double t12 = p[10] * p[10];
         const double t13 = p[11] * p[11];
         const double t14 = MW_FMA(p[3], p[3], t11);
         double s15, c15;
-        cylindrical_worm_za_zi_sincos(p[20], &s15, &c15);
+        cylindrical_worm_za_zi_seldom_sincos(p[20], &s15, &c15);
         const double t17 = t6 + t14;
         double s18, c18;
-        cylindrical_worm_za_zi_sincos(p[5], &s18, &c18);
+        cylindrical_worm_za_zi_seldom_sincos(p[5], &s18, &c18);
         const double t20 = s0 / c0;
         const double t21 = MW_FMA(p[5], p[5], t17);
         const double t22 = p[1] * (-0.5);
@@ -512,7 +523,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
         const double t73 = MW_FMA(t63, t63, t72);
         const double t74 = t73 * t73;
         double s75, c75;
-        cylindrical_worm_za_zi_sincos(t71, &s75, &c75);
+        cylindrical_worm_za_zi_seldom_sincos(t71, &s75, &c75);
         const double t77 = c75 * c75;
         if (!(t62 > 0.0)) failed = 26;
         if (!(t74 > 0.0)) failed = 25;
@@ -542,13 +553,13 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
         if (!(t47 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_za_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_za_zi_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zi_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_za_zi_sincos(p[7], &s4, &c4);
+    cylindrical_worm_za_zi_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_za_zi_sincos(p[20], &s6, &c6);
+    cylindrical_worm_za_zi_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -559,7 +570,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     const double t15 = p[11] * p[19];
     const double t16 = p[10] - p[19];
     double s17, c17;
-    cylindrical_worm_za_zi_sincos(p[5], &s17, &c17);
+    cylindrical_worm_za_zi_seldom_sincos(p[5], &s17, &c17);
     const double t19 = s2 * s2;
     const double t20 = p[11] * t14;
     const double t21 = p[19] * t20;
@@ -575,7 +586,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     const double t31 = t25 * t16;
     const double t32 = p[19] * t26;
     double s33, c33;
-    cylindrical_worm_za_zi_sincos(p[23], &s33, &c33);
+    cylindrical_worm_za_zi_seldom_sincos(p[23], &s33, &c33);
     const double t35 = s2 / c2;
     const double t36 = s6 * t15;
     const double t37 = p[0] * s6;
@@ -583,7 +594,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     const double t39 = p[11] * s6;
     const double t40 = s6 * s6;
     double s41, c41;
-    cylindrical_worm_za_zi_sincos(t27, &s41, &c41);
+    cylindrical_worm_za_zi_seldom_sincos(t27, &s41, &c41);
     const double t43 = MW_FMA(t23, t10, t9);
     const double t44 = 1.0 + t28;
     const double t45 = t36 / p[4];
@@ -778,7 +789,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     const double t234 = -t232;
     const double t235 = -t233;
     double s236, c236;
-    cylindrical_worm_za_zi_sincos(t164, &s236, &c236);
+    cylindrical_worm_za_zi_seldom_sincos(t164, &s236, &c236);
     const double t238 = s236 * t218;
     const double t239 = s236 / c236;
     const double t240 = 1.0 / c236;
@@ -826,7 +837,7 @@ static inline int cylindrical_worm_za_zi_setup(const double *p, double *s)
     const double t282 = MW_FMA(t58, t275, t277);
     const double t283 = MW_FNMA(t59, t275, t264);
     double s284, c284;
-    cylindrical_worm_za_zi_sincos(t280, &s284, &c284);
+    cylindrical_worm_za_zi_seldom_sincos(t280, &s284, &c284);
     const double t286 = MW_FMS(t85, t279, t281);
     const double t287 = t262 * t282;
     const double t288 = s6 * t283;

@@ -167,6 +167,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -230,6 +235,12 @@ MW_INLINE void cylindrical_worm_za_zk_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_za_zk_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_za_zk_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -311,19 +322,19 @@ static inline void cylindrical_worm_za_zk_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_za_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_za_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_za_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -359,7 +370,7 @@ static inline void cylindrical_worm_za_zk_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_za_zk_sincos(t0, &s2, &c2);
+        cylindrical_worm_za_zk_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -380,7 +391,7 @@ static inline void cylindrical_worm_za_zk_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+        cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -398,14 +409,14 @@ static inline void cylindrical_worm_za_zk_derive(double *p)
 static inline void cylindrical_worm_za_zk_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_za_zk_sincos(p[5], &s0, &c0);
+    cylindrical_worm_za_zk_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zk_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_za_zk_sincos(p[7], &s5, &c5);
+    cylindrical_worm_za_zk_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zk_sincos(t4, &s7, &c7);
+    cylindrical_worm_za_zk_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,24 +455,24 @@ static inline int cylindrical_worm_za_zk_setup(const double *p, double *s)
         const double t2 = p[4] * p[4];
         const double t3 = p[6] * p[6];
         double s4, c4;
-        cylindrical_worm_za_zk_sincos(p[7], &s4, &c4);
+        cylindrical_worm_za_zk_seldom_sincos(p[7], &s4, &c4);
         const double t6 = t0 + 1.0;
         const double t7 = t1 + t6;
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         const double t10 = p[15] * p[15];
         double s11, c11;
-        cylindrical_worm_za_zk_sincos(p[17], &s11, &c11);
+        cylindrical_worm_za_zk_seldom_sincos(p[17], &s11, &c11);
         const double t13 = MW_FMA(p[3], p[3], t7);
         double s14, c14;
-        cylindrical_worm_za_zk_sincos(p[20], &s14, &c14);
+        cylindrical_worm_za_zk_seldom_sincos(p[20], &s14, &c14);
         const double t16 = t2 + t13;
         const double t17 = MW_FMA(p[5], p[5], t16);
         double s18, c18;
-        cylindrical_worm_za_zk_sincos(p[5], &s18, &c18);
+        cylindrical_worm_za_zk_seldom_sincos(p[5], &s18, &c18);
         const double t20 = t3 + t17;
         double s21, c21;
-        cylindrical_worm_za_zk_sincos(p[14], &s21, &c21);
+        cylindrical_worm_za_zk_seldom_sincos(p[14], &s21, &c21);
         const double t23 = MW_FMA(p[7], p[7], t20);
         const double t24 = p[1] * (-0.5);
         const double t25 = 3.141592653589793 - p[8];
@@ -521,13 +532,13 @@ static inline int cylindrical_worm_za_zk_setup(const double *p, double *s)
         if (!(t48 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_za_zk_sincos(p[17], &s0, &c0);
+    cylindrical_worm_za_zk_seldom_sincos(p[17], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zk_sincos(p[7], &s2, &c2);
+    cylindrical_worm_za_zk_seldom_sincos(p[7], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_za_zk_sincos(p[14], &s4, &c4);
+    cylindrical_worm_za_zk_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_za_zk_sincos(p[20], &s6, &c6);
+    cylindrical_worm_za_zk_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 0.7853981633974483;
     const double t10 = p[0] * p[0];
@@ -538,7 +549,7 @@ static inline int cylindrical_worm_za_zk_setup(const double *p, double *s)
     const double t15 = p[11] * p[19];
     const double t16 = p[0] * c0;
     double s17, c17;
-    cylindrical_worm_za_zk_sincos(p[5], &s17, &c17);
+    cylindrical_worm_za_zk_seldom_sincos(p[5], &s17, &c17);
     const double t19 = p[11] * t14;
     const double t20 = s0 * t10;
     const double t21 = s2 / c2;
@@ -618,11 +629,11 @@ static inline int cylindrical_worm_za_zk_setup(const double *p, double *s)
     const double t95 = p[11] * p[11];
     const double t96 = s6 * s6;
     double s97, c97;
-    cylindrical_worm_za_zk_sincos(p[23], &s97, &c97);
+    cylindrical_worm_za_zk_seldom_sincos(p[23], &s97, &c97);
     const double t99 = t68 + t91;
     const double t100 = t85 + t79;
     double s101, c101;
-    cylindrical_worm_za_zk_sincos(t89, &s101, &c101);
+    cylindrical_worm_za_zk_seldom_sincos(t89, &s101, &c101);
     const double t103 = MW_FNMA(s4, t80, t60);
     const double t104 = MW_FNMA(c4, t80, p[10]);
     const double t105 = MW_FMA(t99, t99, t63);
@@ -707,7 +718,7 @@ static inline int cylindrical_worm_za_zk_setup(const double *p, double *s)
     const double t184 = t176 / p[4];
     const double t185 = MW_FMA(c6, t175, t155);
     double s186, c186;
-    cylindrical_worm_za_zk_sincos(t180, &s186, &c186);
+    cylindrical_worm_za_zk_seldom_sincos(t180, &s186, &c186);
     const double t188 = (-1.0) + t166;
     const double t189 = t51 * t181;
     const double t190 = t167 + t108;

@@ -166,6 +166,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -229,6 +234,12 @@ MW_INLINE void cylindrical_worm_za_zn_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_za_zn_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_za_zn_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -310,19 +321,19 @@ static inline void cylindrical_worm_za_zn_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_za_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_za_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_za_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_za_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -358,7 +369,7 @@ static inline void cylindrical_worm_za_zn_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_za_zn_sincos(t0, &s2, &c2);
+        cylindrical_worm_za_zn_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -379,7 +390,7 @@ static inline void cylindrical_worm_za_zn_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_za_zn_sincos(t0, &s3, &c3);
+        cylindrical_worm_za_zn_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -397,14 +408,14 @@ static inline void cylindrical_worm_za_zn_derive(double *p)
 static inline void cylindrical_worm_za_zn_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_za_zn_sincos(p[5], &s0, &c0);
+    cylindrical_worm_za_zn_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zn_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_zn_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_za_zn_sincos(p[7], &s5, &c5);
+    cylindrical_worm_za_zn_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zn_sincos(t4, &s7, &c7);
+    cylindrical_worm_za_zn_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -442,25 +453,25 @@ static inline int cylindrical_worm_za_zn_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_za_zn_sincos(p[7], &s3, &c3);
+        cylindrical_worm_za_zn_seldom_sincos(p[7], &s3, &c3);
         const double t5 = 1.0 + t0;
         const double t6 = t1 + t5;
         const double t7 = p[6] * p[6];
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_za_zn_sincos(p[17], &s10, &c10);
+        cylindrical_worm_za_zn_seldom_sincos(p[17], &s10, &c10);
         const double t12 = MW_FMA(p[3], p[3], t6);
         double s13, c13;
-        cylindrical_worm_za_zn_sincos(p[14], &s13, &c13);
+        cylindrical_worm_za_zn_seldom_sincos(p[14], &s13, &c13);
         const double t15 = t2 + t12;
         const double t16 = MW_FMA(p[5], p[5], t15);
         const double t17 = t7 + t16;
         double s18, c18;
-        cylindrical_worm_za_zn_sincos(p[20], &s18, &c18);
+        cylindrical_worm_za_zn_seldom_sincos(p[20], &s18, &c18);
         const double t20 = MW_FMA(p[7], p[7], t17);
         double s21, c21;
-        cylindrical_worm_za_zn_sincos(p[5], &s21, &c21);
+        cylindrical_worm_za_zn_seldom_sincos(p[5], &s21, &c21);
         const double t23 = MW_FMA(p[8], p[8], t20);
         const double t24 = s3 / c3;
         const double t25 = p[1] * (-0.5);
@@ -523,13 +534,13 @@ static inline int cylindrical_worm_za_zn_setup(const double *p, double *s)
         if (!(t51 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_za_zn_sincos(p[7], &s0, &c0);
+    cylindrical_worm_za_zn_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_zn_sincos(p[14], &s2, &c2);
+    cylindrical_worm_za_zn_seldom_sincos(p[14], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_za_zn_sincos(p[17], &s4, &c4);
+    cylindrical_worm_za_zn_seldom_sincos(p[17], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_za_zn_sincos(p[20], &s6, &c6);
+    cylindrical_worm_za_zn_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -539,7 +550,7 @@ static inline int cylindrical_worm_za_zn_setup(const double *p, double *s)
     const double t14 = p[10] * (-4.0);
     const double t15 = p[11] * p[19];
     double s16, c16;
-    cylindrical_worm_za_zn_sincos(p[5], &s16, &c16);
+    cylindrical_worm_za_zn_seldom_sincos(p[5], &s16, &c16);
     const double t18 = p[10] * c2;
     const double t19 = p[11] * t14;
     const double t20 = s2 / c2;
@@ -664,12 +675,12 @@ static inline int cylindrical_worm_za_zn_setup(const double *p, double *s)
     const double t139 = t39 * t38;
     const double t140 = s6 * s6;
     double s141, c141;
-    cylindrical_worm_za_zn_sincos(p[23], &s141, &c141);
+    cylindrical_worm_za_zn_seldom_sincos(p[23], &s141, &c141);
     const double t143 = t124 * t135;
     const double t144 = MW_FMA(t78, t122, t136);
     const double t145 = t137 - t132;
     double s146, c146;
-    cylindrical_worm_za_zn_sincos(t45, &s146, &c146);
+    cylindrical_worm_za_zn_seldom_sincos(t45, &s146, &c146);
     const double t148 = t143 / t116;
     const double t149 = t129 - t144;
     const double t150 = t124 * t145;
@@ -689,7 +700,7 @@ static inline int cylindrical_worm_za_zn_setup(const double *p, double *s)
     const double t164 = t156 / t81;
     const double t165 = t157 / t81;
     double s166, c166;
-    cylindrical_worm_za_zn_sincos(t162, &s166, &c166);
+    cylindrical_worm_za_zn_seldom_sincos(t162, &s166, &c166);
     const double t168 = t125 * t163;
     const double t169 = MW_FNMA(t67, t148, t150);
     const double t170 = t97 + t158;

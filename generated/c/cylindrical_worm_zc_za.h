@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_zc_za_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zc_za_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zc_za_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_zc_za_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zc_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zc_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zc_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_zc_za_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zc_za_sincos(t0, &s2, &c2);
+        cylindrical_worm_zc_za_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_zc_za_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+        cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_zc_za_derive(double *p)
 static inline void cylindrical_worm_zc_za_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zc_za_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zc_za_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_za_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zc_za_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zc_za_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_za_sincos(t4, &s7, &c7);
+    cylindrical_worm_zc_za_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,11 +455,11 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
         const double t0 = p[0] * p[0];
         const double t1 = p[1] * p[1];
         double s2, c2;
-        cylindrical_worm_zc_za_sincos(p[7], &s2, &c2);
+        cylindrical_worm_zc_za_seldom_sincos(p[7], &s2, &c2);
         const double t4 = 1.0 + t0;
         const double t5 = t1 + t4;
         double s6, c6;
-        cylindrical_worm_zc_za_sincos(p[5], &s6, &c6);
+        cylindrical_worm_zc_za_seldom_sincos(p[5], &s6, &c6);
         const double t8 = p[4] * p[4];
         const double t9 = MW_FMA(p[3], p[3], t5);
         const double t10 = p[6] * p[6];
@@ -456,13 +467,13 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
         const double t12 = p[11] * p[11];
         const double t13 = p[12] * p[12];
         double s14, c14;
-        cylindrical_worm_zc_za_sincos(p[17], &s14, &c14);
+        cylindrical_worm_zc_za_seldom_sincos(p[17], &s14, &c14);
         const double t16 = t8 + t9;
         double s17, c17;
-        cylindrical_worm_zc_za_sincos(p[14], &s17, &c17);
+        cylindrical_worm_zc_za_seldom_sincos(p[14], &s17, &c17);
         const double t19 = MW_FMA(p[5], p[5], t16);
         double s20, c20;
-        cylindrical_worm_zc_za_sincos(p[20], &s20, &c20);
+        cylindrical_worm_zc_za_seldom_sincos(p[20], &s20, &c20);
         const double t22 = t10 + t19;
         const double t23 = MW_FMA(p[7], p[7], t22);
         const double t24 = MW_FMA(p[8], p[8], t23);
@@ -554,24 +565,24 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
         if (!(t70 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zc_za_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zc_za_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_za_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zc_za_seldom_sincos(p[5], &s2, &c2);
     const double t4 = p[1] * 1.5707963267948966;
     const double t5 = p[9] * (-2.0);
     double s6, c6;
-    cylindrical_worm_zc_za_sincos(p[14], &s6, &c6);
+    cylindrical_worm_zc_za_seldom_sincos(p[14], &s6, &c6);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[13];
     double s10, c10;
-    cylindrical_worm_zc_za_sincos(p[17], &s10, &c10);
+    cylindrical_worm_zc_za_seldom_sincos(p[17], &s10, &c10);
     const double t12 = p[13] * s0;
     const double t13 = s0 / c0;
     const double t14 = p[0] * c0;
     const double t15 = p[6] + t12;
     const double t16 = c0 * t9;
     double s17, c17;
-    cylindrical_worm_zc_za_sincos(p[20], &s17, &c17);
+    cylindrical_worm_zc_za_seldom_sincos(p[20], &s17, &c17);
     const double t19 = s0 * c2;
     const double t20 = p[0] * c2;
     const double t21 = s2 / c2;
@@ -607,7 +618,7 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
     const double t51 = (-2.0) * t40;
     const double t52 = 2.0 * t40;
     double s53, c53;
-    cylindrical_worm_zc_za_sincos(p[23], &s53, &c53);
+    cylindrical_worm_zc_za_seldom_sincos(p[23], &s53, &c53);
     const double t55 = p[6] * t21;
     const double t56 = p[11] * t25;
     const double t57 = s10 / c10;
@@ -618,7 +629,7 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
     const double t62 = t22 * t55;
     const double t63 = t23 * t55;
     double s64, c64;
-    cylindrical_worm_zc_za_sincos(t46, &s64, &c64);
+    cylindrical_worm_zc_za_seldom_sincos(t46, &s64, &c64);
     const double t66 = MW_FMS(t15, t23, t59);
     const double t67 = MW_FNMA(s0, t48, t60);
     const double t68 = p[0] * t38;
@@ -727,16 +738,16 @@ static inline int cylindrical_worm_zc_za_setup(const double *p, double *s)
     const double t171 = t57 * t57;
     const double t172 = p[0] * p[6];
     double s173, c173;
-    cylindrical_worm_zc_za_sincos(t165, &s173, &c173);
+    cylindrical_worm_zc_za_seldom_sincos(t165, &s173, &c173);
     const double t175 = t131 - t139;
     const double t176 = t131 + t139;
     const double t177 = MW_FMA((-0.5), t139, t123);
     const double t178 = t111 * t166;
     const double t179 = 0.5 * t78;
     double s180, c180;
-    cylindrical_worm_zc_za_sincos(t78, &s180, &c180);
+    cylindrical_worm_zc_za_seldom_sincos(t78, &s180, &c180);
     double s182, c182;
-    cylindrical_worm_zc_za_sincos(t179, &s182, &c182);
+    cylindrical_worm_zc_za_seldom_sincos(t179, &s182, &c182);
     const double t184 = 0.5 * t175;
     const double t185 = 0.5 * t176;
     const double t186 = t106 + t177;

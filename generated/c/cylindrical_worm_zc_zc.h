@@ -166,6 +166,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -229,6 +234,12 @@ MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zc_zc_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zc_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -310,19 +321,19 @@ static inline void cylindrical_worm_zc_zc_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zc_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zc_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zc_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -358,7 +369,7 @@ static inline void cylindrical_worm_zc_zc_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zc_zc_sincos(t0, &s2, &c2);
+        cylindrical_worm_zc_zc_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -379,7 +390,7 @@ static inline void cylindrical_worm_zc_zc_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+        cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -397,14 +408,14 @@ static inline void cylindrical_worm_zc_zc_derive(double *p)
 static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zc_zc_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zc_zc_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zc_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zc_zc_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zc_zc_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zc_sincos(t4, &s7, &c7);
+    cylindrical_worm_zc_zc_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -442,26 +453,26 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
         const double t1 = MW_FMA(p[0], p[0], 1.0);
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zc_zc_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zc_zc_seldom_sincos(p[7], &s3, &c3);
         const double t5 = t0 + t1;
         const double t6 = MW_FMA(p[3], p[3], t5);
         const double t7 = p[6] * p[6];
         double s8, c8;
-        cylindrical_worm_zc_zc_sincos(p[5], &s8, &c8);
+        cylindrical_worm_zc_zc_seldom_sincos(p[5], &s8, &c8);
         const double t10 = t2 + t6;
         double s11, c11;
-        cylindrical_worm_zc_zc_sincos(p[17], &s11, &c11);
+        cylindrical_worm_zc_zc_seldom_sincos(p[17], &s11, &c11);
         const double t13 = MW_FMA(p[5], p[5], t10);
         const double t14 = p[10] * p[10];
         const double t15 = p[11] * p[11];
         double s16, c16;
-        cylindrical_worm_zc_zc_sincos(p[14], &s16, &c16);
+        cylindrical_worm_zc_zc_seldom_sincos(p[14], &s16, &c16);
         const double t18 = t7 + t13;
         const double t19 = p[12] * p[12];
         const double t20 = MW_FMA(p[7], p[7], t18);
         const double t21 = p[15] * p[15];
         double s22, c22;
-        cylindrical_worm_zc_zc_sincos(p[20], &s22, &c22);
+        cylindrical_worm_zc_zc_seldom_sincos(p[20], &s22, &c22);
         const double t24 = MW_FMA(p[8], p[8], t20);
         const double t25 = s3 / c3;
         const double t26 = p[1] * (-0.5);
@@ -574,23 +585,23 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
         if (!(t75 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zc_zc_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zc_zc_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zc_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zc_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zc_zc_seldom_sincos(p[14], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[16];
     double s10, c10;
-    cylindrical_worm_zc_zc_sincos(p[5], &s10, &c10);
+    cylindrical_worm_zc_zc_seldom_sincos(p[5], &s10, &c10);
     const double t12 = s0 / c0;
     const double t13 = p[13] * s0;
     const double t14 = p[0] * c0;
     const double t15 = p[0] * p[13];
     double s16, c16;
-    cylindrical_worm_zc_zc_sincos(p[20], &s16, &c16);
+    cylindrical_worm_zc_zc_seldom_sincos(p[20], &s16, &c16);
     const double t18 = p[0] * c2;
     const double t19 = p[6] + t13;
     const double t20 = c0 * t15;
@@ -634,7 +645,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t58 = c10 * t39;
     const double t59 = 2.0 * t42;
     double s60, c60;
-    cylindrical_worm_zc_zc_sincos(p[23], &s60, &c60);
+    cylindrical_worm_zc_zc_seldom_sincos(p[23], &s60, &c60);
     const double t62 = p[10] * t21;
     const double t63 = s10 / c10;
     const double t64 = s10 * t14;
@@ -708,7 +719,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t132 = t126 + t110;
     const double t133 = s16 * s16;
     double s134, c134;
-    cylindrical_worm_zc_zc_sincos(t53, &s134, &c134);
+    cylindrical_worm_zc_zc_seldom_sincos(t53, &s134, &c134);
     const double t136 = t129 / t124;
     const double t137 = t121 + t132;
     const double t138 = (-1.0) - t125;
@@ -741,18 +752,18 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t165 = p[3] / p[4];
     const double t166 = 0.5 * t88;
     double s167, c167;
-    cylindrical_worm_zc_zc_sincos(t88, &s167, &c167);
+    cylindrical_worm_zc_zc_seldom_sincos(t88, &s167, &c167);
     double s169, c169;
-    cylindrical_worm_zc_zc_sincos(t166, &s169, &c169);
+    cylindrical_worm_zc_zc_seldom_sincos(t166, &s169, &c169);
     const double t171 = (-1.0) + t153;
     const double t172 = t154 + t138;
     const double t173 = t162 / p[11];
     const double t174 = 1.0 / t146;
     const double t175 = 0.5 * t114;
     double s176, c176;
-    cylindrical_worm_zc_zc_sincos(t114, &s176, &c176);
+    cylindrical_worm_zc_zc_seldom_sincos(t114, &s176, &c176);
     double s178, c178;
-    cylindrical_worm_zc_zc_sincos(t175, &s178, &c178);
+    cylindrical_worm_zc_zc_seldom_sincos(t175, &s178, &c178);
     const double t180 = p[10] * s167;
     const double t181 = t22 * s167;
     const double t182 = t22 * c167;
@@ -882,7 +893,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t306 = MW_FMS(c178, t291, t292);
     const double t307 = MW_FMA(t33, t272, t294);
     double s308, c308;
-    cylindrical_worm_zc_zc_sincos(t300, &s308, &c308);
+    cylindrical_worm_zc_zc_seldom_sincos(t300, &s308, &c308);
     const double t310 = t229 * t301;
     const double t311 = MW_FMS(t93, t286, t302);
     const double t312 = MW_FMA(s16, t303, t227);

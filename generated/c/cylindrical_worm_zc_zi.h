@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_zc_zi_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zc_zi_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zc_zi_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_zc_zi_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zc_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zc_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zc_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_zc_zi_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zc_zi_sincos(t0, &s2, &c2);
+        cylindrical_worm_zc_zi_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_zc_zi_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zc_zi_sincos(t0, &s3, &c3);
+        cylindrical_worm_zc_zi_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_zc_zi_derive(double *p)
 static inline void cylindrical_worm_zc_zi_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zc_zi_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zc_zi_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zi_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zc_zi_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zc_zi_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zi_sincos(t4, &s7, &c7);
+    cylindrical_worm_zc_zi_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -442,17 +453,17 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zc_zi_sincos(p[14], &s0, &c0);
+        cylindrical_worm_zc_zi_seldom_sincos(p[14], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zc_zi_sincos(p[17], &s2, &c2);
+        cylindrical_worm_zc_zi_seldom_sincos(p[17], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         double s6, c6;
-        cylindrical_worm_zc_zi_sincos(p[7], &s6, &c6);
+        cylindrical_worm_zc_zi_seldom_sincos(p[7], &s6, &c6);
         const double t8 = 1.0 + t4;
         const double t9 = t5 + t8;
         double s10, c10;
-        cylindrical_worm_zc_zi_sincos(p[5], &s10, &c10);
+        cylindrical_worm_zc_zi_seldom_sincos(p[5], &s10, &c10);
         const double t12 = p[4] * p[4];
         const double t13 = MW_FMA(p[3], p[3], t9);
         const double t14 = p[6] * p[6];
@@ -462,7 +473,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
         const double t18 = s0 / c0;
         const double t19 = t12 + t13;
         double s20, c20;
-        cylindrical_worm_zc_zi_sincos(p[20], &s20, &c20);
+        cylindrical_worm_zc_zi_seldom_sincos(p[20], &s20, &c20);
         const double t22 = s2 * s2;
         const double t23 = MW_FMA(p[5], p[5], t19);
         const double t24 = p[1] * (-0.5);
@@ -546,7 +557,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
         const double t102 = MW_FMA(t91, t91, t101);
         const double t103 = t102 * t102;
         double s104, c104;
-        cylindrical_worm_zc_zi_sincos(t100, &s104, &c104);
+        cylindrical_worm_zc_zi_seldom_sincos(t100, &s104, &c104);
         const double t106 = c104 * c104;
         if (!(t92 > 0.0)) failed = 29;
         if (!(t103 > 0.0)) failed = 28;
@@ -579,20 +590,20 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
         if (!(t61 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zc_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zc_zi_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zi_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zi_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zc_zi_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zc_zi_sincos(p[5], &s6, &c6);
+    cylindrical_worm_zc_zi_seldom_sincos(p[5], &s6, &c6);
     const double t8 = p[1] * 1.5707963267948966;
     const double t9 = p[9] * (-2.0);
     const double t10 = p[0] * 0.5;
     const double t11 = p[0] * p[13];
     const double t12 = s0 / c0;
     double s13, c13;
-    cylindrical_worm_zc_zi_sincos(p[20], &s13, &c13);
+    cylindrical_worm_zc_zi_seldom_sincos(p[20], &s13, &c13);
     const double t15 = s2 * s2;
     const double t16 = p[13] * s4;
     const double t17 = 1.0 / p[4];
@@ -621,7 +632,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     const double t40 = p[8] + p[22];
     const double t41 = p[11] * p[11];
     double s42, c42;
-    cylindrical_worm_zc_zi_sincos(p[23], &s42, &c42);
+    cylindrical_worm_zc_zi_seldom_sincos(p[23], &s42, &c42);
     const double t44 = s6 / c6;
     const double t45 = s6 * t23;
     const double t46 = s4 * s6;
@@ -630,7 +641,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     const double t49 = c6 * t36;
     const double t50 = MW_FMA(t22, t9, t8);
     double s51, c51;
-    cylindrical_worm_zc_zi_sincos(t40, &s51, &c51);
+    cylindrical_worm_zc_zi_seldom_sincos(t40, &s51, &c51);
     const double t53 = 1.0 + t32;
     const double t54 = t50 * t10;
     const double t55 = t25 * t45;
@@ -770,9 +781,9 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     const double t189 = p[11] * t19;
     const double t190 = 0.5 * t94;
     double s191, c191;
-    cylindrical_worm_zc_zi_sincos(t94, &s191, &c191);
+    cylindrical_worm_zc_zi_seldom_sincos(t94, &s191, &c191);
     double s193, c193;
-    cylindrical_worm_zc_zi_sincos(t190, &s193, &c193);
+    cylindrical_worm_zc_zi_seldom_sincos(t190, &s193, &c193);
     const double t195 = t151 * t182;
     const double t196 = (-1.0) + t166;
     const double t197 = t167 + t122;
@@ -829,7 +840,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     const double t248 = p[6] * t240;
     const double t249 = t44 * t208;
     double s250, c250;
-    cylindrical_worm_zc_zi_sincos(t143, &s250, &c250);
+    cylindrical_worm_zc_zi_seldom_sincos(t143, &s250, &c250);
     const double t252 = s193 * s193;
     const double t253 = c193 * t148;
     const double t254 = t71 * s193;
@@ -947,7 +958,7 @@ static inline int cylindrical_worm_zc_zi_setup(const double *p, double *s)
     const double t366 = MW_FMA(t88, t359, t361);
     const double t367 = MW_FNMA(t89, t359, t348);
     double s368, c368;
-    cylindrical_worm_zc_zi_sincos(t364, &s368, &c368);
+    cylindrical_worm_zc_zi_seldom_sincos(t364, &s368, &c368);
     const double t370 = MW_FMS(t128, t363, t365);
     const double t371 = t346 * t366;
     const double t372 = s13 * t367;

@@ -168,6 +168,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -231,6 +236,12 @@ MW_INLINE void cylindrical_worm_zc_zk_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zc_zk_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zc_zk_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -312,19 +323,19 @@ static inline void cylindrical_worm_zc_zk_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zc_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zc_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zc_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -360,7 +371,7 @@ static inline void cylindrical_worm_zc_zk_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zc_zk_sincos(t0, &s2, &c2);
+        cylindrical_worm_zc_zk_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -381,7 +392,7 @@ static inline void cylindrical_worm_zc_zk_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+        cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -399,14 +410,14 @@ static inline void cylindrical_worm_zc_zk_derive(double *p)
 static inline void cylindrical_worm_zc_zk_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zc_zk_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zc_zk_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zk_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zc_zk_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zc_zk_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zk_sincos(t4, &s7, &c7);
+    cylindrical_worm_zc_zk_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,11 +455,11 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zc_zk_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zc_zk_seldom_sincos(p[7], &s3, &c3);
         const double t5 = 1.0 + t0;
         const double t6 = t1 + t5;
         double s7, c7;
-        cylindrical_worm_zc_zk_sincos(p[5], &s7, &c7);
+        cylindrical_worm_zc_zk_seldom_sincos(p[5], &s7, &c7);
         const double t9 = MW_FMA(p[3], p[3], t6);
         const double t10 = t2 + t9;
         const double t11 = p[6] * p[6];
@@ -457,14 +468,14 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
         const double t14 = p[12] * p[12];
         const double t15 = p[15] * p[15];
         double s16, c16;
-        cylindrical_worm_zc_zk_sincos(p[17], &s16, &c16);
+        cylindrical_worm_zc_zk_seldom_sincos(p[17], &s16, &c16);
         const double t18 = MW_FMA(p[5], p[5], t10);
         double s19, c19;
-        cylindrical_worm_zc_zk_sincos(p[20], &s19, &c19);
+        cylindrical_worm_zc_zk_seldom_sincos(p[20], &s19, &c19);
         const double t21 = t11 + t18;
         const double t22 = MW_FMA(p[7], p[7], t21);
         double s23, c23;
-        cylindrical_worm_zc_zk_sincos(p[14], &s23, &c23);
+        cylindrical_worm_zc_zk_seldom_sincos(p[14], &s23, &c23);
         const double t25 = MW_FMA(p[8], p[8], t22);
         const double t26 = s3 / c3;
         const double t27 = p[1] * (-0.5);
@@ -554,24 +565,24 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
         if (!(t67 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zc_zk_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zc_zk_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zk_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zc_zk_seldom_sincos(p[5], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zk_sincos(p[17], &s4, &c4);
+    cylindrical_worm_zc_zk_seldom_sincos(p[17], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[13];
     double s10, c10;
-    cylindrical_worm_zc_zk_sincos(p[14], &s10, &c10);
+    cylindrical_worm_zc_zk_seldom_sincos(p[14], &s10, &c10);
     const double t12 = p[13] * s0;
     const double t13 = s0 / c0;
     const double t14 = p[0] * c0;
     const double t15 = p[6] + t12;
     const double t16 = c0 * t9;
     double s17, c17;
-    cylindrical_worm_zc_zk_sincos(p[20], &s17, &c17);
+    cylindrical_worm_zc_zk_seldom_sincos(p[20], &s17, &c17);
     const double t19 = s0 * c2;
     const double t20 = p[0] * c2;
     const double t21 = s2 / c2;
@@ -619,7 +630,7 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
     const double t63 = p[6] * t21;
     const double t64 = t54 * c4;
     double s65, c65;
-    cylindrical_worm_zc_zk_sincos(p[23], &s65, &c65);
+    cylindrical_worm_zc_zk_seldom_sincos(p[23], &s65, &c65);
     const double t67 = t19 * t63;
     const double t68 = MW_FMS(t24, t63, t29);
     const double t69 = p[10] * t36;
@@ -731,7 +742,7 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
     const double t175 = 0.5 * t135;
     const double t176 = t167 - t168;
     double s177, c177;
-    cylindrical_worm_zc_zk_sincos(t59, &s177, &c177);
+    cylindrical_worm_zc_zk_seldom_sincos(t59, &s177, &c177);
     const double t179 = MW_FNMA(t85, t171, t169);
     const double t180 = t127 * t176;
     const double t181 = t170 + t122;
@@ -745,7 +756,7 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
     const double t189 = t130 + t181;
     const double t190 = MW_FNMA(t69, t166, t134);
     double s191, c191;
-    cylindrical_worm_zc_zk_sincos(t183, &s191, &c191);
+    cylindrical_worm_zc_zk_seldom_sincos(t183, &s191, &c191);
     const double t193 = 0.5 * t184;
     const double t194 = 0.5 * t185;
     const double t195 = t123 * t186;
@@ -754,9 +765,9 @@ static inline int cylindrical_worm_zc_zk_setup(const double *p, double *s)
     const double t198 = MW_FMA(0.5, t153, t189);
     const double t199 = 0.5 * t89;
     double s200, c200;
-    cylindrical_worm_zc_zk_sincos(t89, &s200, &c200);
+    cylindrical_worm_zc_zk_seldom_sincos(t89, &s200, &c200);
     double s202, c202;
-    cylindrical_worm_zc_zk_sincos(t199, &s202, &c202);
+    cylindrical_worm_zc_zk_seldom_sincos(t199, &s202, &c202);
     const double t204 = t193 / t69;
     const double t205 = t194 / t69;
     const double t206 = t77 * t195;

@@ -171,6 +171,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -234,6 +239,12 @@ MW_INLINE void cylindrical_worm_zc_zn_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zc_zn_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zc_zn_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -315,19 +326,19 @@ static inline void cylindrical_worm_zc_zn_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zc_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zc_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zc_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zc_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -363,7 +374,7 @@ static inline void cylindrical_worm_zc_zn_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zc_zn_sincos(t0, &s2, &c2);
+        cylindrical_worm_zc_zn_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -384,7 +395,7 @@ static inline void cylindrical_worm_zc_zn_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+        cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -402,14 +413,14 @@ static inline void cylindrical_worm_zc_zn_derive(double *p)
 static inline void cylindrical_worm_zc_zn_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zc_zn_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zc_zn_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zn_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zc_zn_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zc_zn_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zc_zn_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zn_sincos(t4, &s7, &c7);
+    cylindrical_worm_zc_zn_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -446,11 +457,11 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
         const double t0 = p[0] * p[0];
         const double t1 = p[1] * p[1];
         double s2, c2;
-        cylindrical_worm_zc_zn_sincos(p[7], &s2, &c2);
+        cylindrical_worm_zc_zn_seldom_sincos(p[7], &s2, &c2);
         const double t4 = 1.0 + t0;
         const double t5 = t1 + t4;
         double s6, c6;
-        cylindrical_worm_zc_zn_sincos(p[5], &s6, &c6);
+        cylindrical_worm_zc_zn_seldom_sincos(p[5], &s6, &c6);
         const double t8 = p[4] * p[4];
         const double t9 = MW_FMA(p[3], p[3], t5);
         const double t10 = p[6] * p[6];
@@ -458,15 +469,15 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
         const double t12 = p[11] * p[11];
         const double t13 = p[12] * p[12];
         double s14, c14;
-        cylindrical_worm_zc_zn_sincos(p[17], &s14, &c14);
+        cylindrical_worm_zc_zn_seldom_sincos(p[17], &s14, &c14);
         const double t16 = t8 + t9;
         double s17, c17;
-        cylindrical_worm_zc_zn_sincos(p[14], &s17, &c17);
+        cylindrical_worm_zc_zn_seldom_sincos(p[14], &s17, &c17);
         const double t19 = MW_FMA(p[5], p[5], t16);
         const double t20 = t10 + t19;
         const double t21 = MW_FMA(p[7], p[7], t20);
         double s22, c22;
-        cylindrical_worm_zc_zn_sincos(p[20], &s22, &c22);
+        cylindrical_worm_zc_zn_seldom_sincos(p[20], &s22, &c22);
         const double t24 = MW_FMA(p[8], p[8], t21);
         const double t25 = s2 / c2;
         const double t26 = p[1] * (-0.5);
@@ -560,24 +571,24 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
         if (!(t72 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zc_zn_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zc_zn_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zc_zn_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zc_zn_seldom_sincos(p[5], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zn_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zc_zn_seldom_sincos(p[14], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[13];
     double s10, c10;
-    cylindrical_worm_zc_zn_sincos(p[17], &s10, &c10);
+    cylindrical_worm_zc_zn_seldom_sincos(p[17], &s10, &c10);
     const double t12 = p[13] * s0;
     const double t13 = s0 / c0;
     const double t14 = p[0] * c0;
     const double t15 = p[6] + t12;
     const double t16 = c0 * t9;
     double s17, c17;
-    cylindrical_worm_zc_zn_sincos(p[20], &s17, &c17);
+    cylindrical_worm_zc_zn_seldom_sincos(p[20], &s17, &c17);
     const double t19 = s0 * c2;
     const double t20 = p[0] * c2;
     const double t21 = s2 / c2;
@@ -623,7 +634,7 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
     const double t61 = p[6] * t21;
     const double t62 = s4 * t53;
     double s63, c63;
-    cylindrical_worm_zc_zn_sincos(p[23], &s63, &c63);
+    cylindrical_worm_zc_zn_seldom_sincos(p[23], &s63, &c63);
     const double t65 = t19 * t61;
     const double t66 = MW_FMS(t24, t61, t28);
     const double t67 = s10 / c10;
@@ -741,7 +752,7 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
     const double t179 = t170 - t171;
     const double t180 = MW_FMA(t165, t115, t172);
     double s181, c181;
-    cylindrical_worm_zc_zn_sincos(t57, &s181, &c181);
+    cylindrical_worm_zc_zn_seldom_sincos(t57, &s181, &c181);
     const double t183 = t79 * t152;
     const double t184 = t140 * t176;
     const double t185 = t179 - t180;
@@ -749,7 +760,7 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
     const double t187 = t154 + t174;
     const double t188 = (-1.0) - t155;
     double s189, c189;
-    cylindrical_worm_zc_zn_sincos(t183, &s189, &c189);
+    cylindrical_worm_zc_zn_seldom_sincos(t183, &s189, &c189);
     const double t191 = t144 - t157;
     const double t192 = t144 + t157;
     const double t193 = MW_FNMA(t99, t152, t184);
@@ -758,9 +769,9 @@ static inline int cylindrical_worm_zc_zn_setup(const double *p, double *s)
     const double t196 = MW_FMA(0.5, t157, t187);
     const double t197 = 0.5 * t83;
     double s198, c198;
-    cylindrical_worm_zc_zn_sincos(t83, &s198, &c198);
+    cylindrical_worm_zc_zn_seldom_sincos(t83, &s198, &c198);
     double s200, c200;
-    cylindrical_worm_zc_zn_sincos(t197, &s200, &c200);
+    cylindrical_worm_zc_zn_seldom_sincos(t197, &s200, &c200);
     const double t202 = 0.5 * t191;
     const double t203 = 0.5 * t192;
     const double t204 = t143 * t193;

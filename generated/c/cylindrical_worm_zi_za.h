@@ -164,6 +164,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -227,6 +232,12 @@ MW_INLINE void cylindrical_worm_zi_za_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zi_za_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zi_za_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -308,19 +319,19 @@ static inline void cylindrical_worm_zi_za_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zi_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zi_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zi_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -356,7 +367,7 @@ static inline void cylindrical_worm_zi_za_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zi_za_sincos(t0, &s2, &c2);
+        cylindrical_worm_zi_za_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -377,7 +388,7 @@ static inline void cylindrical_worm_zi_za_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zi_za_sincos(t0, &s3, &c3);
+        cylindrical_worm_zi_za_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -395,14 +406,14 @@ static inline void cylindrical_worm_zi_za_derive(double *p)
 static inline void cylindrical_worm_zi_za_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zi_za_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zi_za_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_za_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zi_za_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zi_za_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_za_sincos(t4, &s7, &c7);
+    cylindrical_worm_zi_za_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -437,9 +448,9 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zi_za_sincos(p[7], &s0, &c0);
+        cylindrical_worm_zi_za_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zi_za_sincos(p[5], &s2, &c2);
+        cylindrical_worm_zi_za_seldom_sincos(p[5], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
@@ -447,13 +458,13 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_zi_za_sincos(p[17], &s10, &c10);
+        cylindrical_worm_zi_za_seldom_sincos(p[17], &s10, &c10);
         const double t12 = 1.0 + t4;
         double s13, c13;
-        cylindrical_worm_zi_za_sincos(p[14], &s13, &c13);
+        cylindrical_worm_zi_za_seldom_sincos(p[14], &s13, &c13);
         const double t15 = t5 + t12;
         double s16, c16;
-        cylindrical_worm_zi_za_sincos(p[20], &s16, &c16);
+        cylindrical_worm_zi_za_seldom_sincos(p[20], &s16, &c16);
         const double t18 = MW_FMA(p[3], p[3], t15);
         const double t19 = t6 + t18;
         const double t20 = s0 / c0;
@@ -513,7 +524,7 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
         const double t74 = MW_FMA(t64, t64, t73);
         const double t75 = t74 * t74;
         double s76, c76;
-        cylindrical_worm_zi_za_sincos(t72, &s76, &c76);
+        cylindrical_worm_zi_za_seldom_sincos(t72, &s76, &c76);
         const double t78 = c76 * c76;
         if (!(t63 > 0.0)) failed = 28;
         if (!(t75 > 0.0)) failed = 27;
@@ -545,15 +556,15 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
         if (!(t50 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zi_za_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zi_za_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_za_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zi_za_seldom_sincos(p[5], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zi_za_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zi_za_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zi_za_sincos(p[17], &s6, &c6);
+    cylindrical_worm_zi_za_seldom_sincos(p[17], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zi_za_sincos(p[20], &s8, &c8);
+    cylindrical_worm_zi_za_seldom_sincos(p[20], &s8, &c8);
     const double t10 = s0 / c0;
     const double t11 = s2 * s2;
     const double t12 = 1.0 / p[4];
@@ -576,10 +587,10 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
     const double t29 = p[8] + p[22];
     const double t30 = p[11] * p[11];
     double s31, c31;
-    cylindrical_worm_zi_za_sincos(p[23], &s31, &c31);
+    cylindrical_worm_zi_za_seldom_sincos(p[23], &s31, &c31);
     const double t33 = p[11] * t12;
     double s34, c34;
-    cylindrical_worm_zi_za_sincos(t29, &s34, &c34);
+    cylindrical_worm_zi_za_seldom_sincos(t29, &s34, &c34);
     const double t36 = s6 / c6;
     const double t37 = p[0] * t23;
     const double t38 = 1.0 / c6;
@@ -694,7 +705,7 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
     const double t147 = t140 / c2;
     const double t148 = p[3] / p[4];
     double s149, c149;
-    cylindrical_worm_zi_za_sincos(t143, &s149, &c149);
+    cylindrical_worm_zi_za_seldom_sincos(t143, &s149, &c149);
     const double t151 = cylindrical_worm_zi_za_atan2(t116, t77);
     const double t152 = 0.5 / t116;
     const double t153 = t98 - t114;
@@ -840,7 +851,7 @@ static inline int cylindrical_worm_zi_za_setup(const double *p, double *s)
     const double t293 = -t218;
     const double t294 = -t137;
     double s295, c295;
-    cylindrical_worm_zi_za_sincos(t151, &s295, &c295);
+    cylindrical_worm_zi_za_seldom_sincos(t151, &s295, &c295);
     const double t297 = -t280;
     const double t298 = -t276;
     const double t299 = s295 * t204;

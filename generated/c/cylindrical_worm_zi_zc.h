@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_zi_zc_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zi_zc_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zi_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_zi_zc_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zi_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zi_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zi_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_zi_zc_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zi_zc_sincos(t0, &s2, &c2);
+        cylindrical_worm_zi_zc_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_zi_zc_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zi_zc_sincos(t0, &s3, &c3);
+        cylindrical_worm_zi_zc_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_zi_zc_derive(double *p)
 static inline void cylindrical_worm_zi_zc_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zi_zc_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zi_zc_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zc_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zi_zc_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zi_zc_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_zc_sincos(t4, &s7, &c7);
+    cylindrical_worm_zi_zc_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -442,26 +453,26 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zi_zc_sincos(p[7], &s0, &c0);
+        cylindrical_worm_zi_zc_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zi_zc_sincos(p[5], &s2, &c2);
+        cylindrical_worm_zi_zc_seldom_sincos(p[5], &s2, &c2);
         const double t4 = p[1] * p[1];
         const double t5 = MW_FMA(p[0], p[0], 1.0);
         double s6, c6;
-        cylindrical_worm_zi_zc_sincos(p[17], &s6, &c6);
+        cylindrical_worm_zi_zc_seldom_sincos(p[17], &s6, &c6);
         const double t8 = t4 + t5;
         const double t9 = p[4] * p[4];
         const double t10 = MW_FMA(p[3], p[3], t8);
         const double t11 = p[6] * p[6];
         double s12, c12;
-        cylindrical_worm_zi_zc_sincos(p[14], &s12, &c12);
+        cylindrical_worm_zi_zc_seldom_sincos(p[14], &s12, &c12);
         const double t14 = t9 + t10;
         const double t15 = p[10] * p[10];
         const double t16 = MW_FMA(p[5], p[5], t14);
         const double t17 = p[11] * p[11];
         const double t18 = p[15] * p[15];
         double s19, c19;
-        cylindrical_worm_zi_zc_sincos(p[20], &s19, &c19);
+        cylindrical_worm_zi_zc_seldom_sincos(p[20], &s19, &c19);
         const double t21 = s0 / c0;
         const double t22 = t11 + t16;
         const double t23 = s2 * s2;
@@ -544,7 +555,7 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
         const double t100 = MW_FMA(t90, t90, t99);
         const double t101 = t100 * t100;
         double s102, c102;
-        cylindrical_worm_zi_zc_sincos(t98, &s102, &c102);
+        cylindrical_worm_zi_zc_seldom_sincos(t98, &s102, &c102);
         const double t104 = c102 * c102;
         if (!(t89 > 0.0)) failed = 28;
         if (!(t86 > 0.0)) failed = 27;
@@ -576,19 +587,19 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
         if (!(t66 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zi_zc_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zi_zc_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zc_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zi_zc_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zi_zc_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zi_zc_sincos(p[5], &s6, &c6);
+    cylindrical_worm_zi_zc_seldom_sincos(p[5], &s6, &c6);
     const double t8 = p[1] * 1.5707963267948966;
     const double t9 = p[9] * (-2.0);
     const double t10 = p[0] * 0.5;
     const double t11 = p[0] * p[16];
     double s12, c12;
-    cylindrical_worm_zi_zc_sincos(p[20], &s12, &c12);
+    cylindrical_worm_zi_zc_seldom_sincos(p[20], &s12, &c12);
     const double t14 = s0 / c0;
     const double t15 = p[0] * c2;
     const double t16 = 1.0 / p[4];
@@ -609,7 +620,7 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     const double t31 = p[11] * p[11];
     const double t32 = t24 * t10;
     double s33, c33;
-    cylindrical_worm_zi_zc_sincos(p[23], &s33, &c33);
+    cylindrical_worm_zi_zc_seldom_sincos(p[23], &s33, &c33);
     const double t35 = MW_FMA(p[16], s4, p[10]);
     const double t36 = s4 * c2;
     const double t37 = s4 * s2;
@@ -675,7 +686,7 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     const double t97 = c12 * t19;
     const double t98 = s12 * s12;
     double s99, c99;
-    cylindrical_worm_zi_zc_sincos(t29, &s99, &c99);
+    cylindrical_worm_zi_zc_seldom_sincos(t29, &s99, &c99);
     const double t101 = t80 + t86;
     const double t102 = t88 + t93;
     const double t103 = (-1.0) - t91;
@@ -764,10 +775,10 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     const double t186 = t24 * t147;
     const double t187 = 0.5 * t78;
     double s188, c188;
-    cylindrical_worm_zi_zc_sincos(t78, &s188, &c188);
+    cylindrical_worm_zi_zc_seldom_sincos(t78, &s188, &c188);
     const double t190 = cylindrical_worm_zi_zc_atan2(t145, t104);
     double s191, c191;
-    cylindrical_worm_zi_zc_sincos(t187, &s191, &c191);
+    cylindrical_worm_zi_zc_seldom_sincos(t187, &s191, &c191);
     const double t193 = 0.5 / t145;
     const double t194 = MW_FMA(t145, t145, t132);
     const double t195 = t145 * t146;
@@ -880,7 +891,7 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     const double t302 = MW_FMA(t260, t289, t294);
     const double t303 = t183 + t218;
     double s304, c304;
-    cylindrical_worm_zi_zc_sincos(t190, &s304, &c304);
+    cylindrical_worm_zi_zc_seldom_sincos(t190, &s304, &c304);
     const double t306 = t299 / t223;
     const double t307 = MW_FMA(t223, t296, t284);
     const double t308 = c12 * t296;
@@ -898,7 +909,7 @@ static inline int cylindrical_worm_zi_zc_setup(const double *p, double *s)
     const double t320 = t306 * t245;
     const double t321 = MW_FNMA(t51, t306, t269);
     double s322, c322;
-    cylindrical_worm_zi_zc_sincos(t318, &s322, &c322);
+    cylindrical_worm_zi_zc_seldom_sincos(t318, &s322, &c322);
     const double t324 = t233 * t319;
     const double t325 = MW_FMS(t81, t317, t320);
     const double t326 = MW_FMA(s12, t321, t274);

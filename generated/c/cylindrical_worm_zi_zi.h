@@ -163,6 +163,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -226,6 +231,12 @@ MW_INLINE void cylindrical_worm_zi_zi_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zi_zi_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zi_zi_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -307,19 +318,19 @@ static inline void cylindrical_worm_zi_zi_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zi_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zi_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zi_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -355,7 +366,7 @@ static inline void cylindrical_worm_zi_zi_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zi_zi_sincos(t0, &s2, &c2);
+        cylindrical_worm_zi_zi_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -376,7 +387,7 @@ static inline void cylindrical_worm_zi_zi_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zi_zi_sincos(t0, &s3, &c3);
+        cylindrical_worm_zi_zi_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -394,14 +405,14 @@ static inline void cylindrical_worm_zi_zi_derive(double *p)
 static inline void cylindrical_worm_zi_zi_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zi_zi_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zi_zi_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zi_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zi_zi_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zi_zi_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_zi_sincos(t4, &s7, &c7);
+    cylindrical_worm_zi_zi_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -436,13 +447,13 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zi_zi_sincos(p[7], &s0, &c0);
+        cylindrical_worm_zi_zi_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zi_zi_sincos(p[14], &s2, &c2);
+        cylindrical_worm_zi_zi_seldom_sincos(p[14], &s2, &c2);
         double s4, c4;
-        cylindrical_worm_zi_zi_sincos(p[17], &s4, &c4);
+        cylindrical_worm_zi_zi_seldom_sincos(p[17], &s4, &c4);
         double s6, c6;
-        cylindrical_worm_zi_zi_sincos(p[5], &s6, &c6);
+        cylindrical_worm_zi_zi_seldom_sincos(p[5], &s6, &c6);
         const double t8 = p[0] * p[0];
         const double t9 = p[1] * p[1];
         const double t10 = p[4] * p[4];
@@ -451,7 +462,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
         const double t13 = p[11] * p[11];
         const double t14 = 1.0 + t8;
         double s15, c15;
-        cylindrical_worm_zi_zi_sincos(p[20], &s15, &c15);
+        cylindrical_worm_zi_zi_seldom_sincos(p[20], &s15, &c15);
         const double t17 = s0 / c0;
         const double t18 = t9 + t14;
         const double t19 = MW_FMA(p[3], p[3], t18);
@@ -528,9 +539,9 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
         const double t90 = t88 * t88;
         const double t91 = t89 * t89;
         double s92, c92;
-        cylindrical_worm_zi_zi_sincos(t84, &s92, &c92);
+        cylindrical_worm_zi_zi_seldom_sincos(t84, &s92, &c92);
         double s94, c94;
-        cylindrical_worm_zi_zi_sincos(t85, &s94, &c94);
+        cylindrical_worm_zi_zi_seldom_sincos(t85, &s94, &c94);
         const double t96 = c92 * c92;
         const double t97 = c94 * c94;
         if (!(t67 > 0.0)) failed = 34;
@@ -569,15 +580,15 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
         if (!(t49 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zi_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zi_zi_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zi_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zi_zi_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zi_zi_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zi_zi_sincos(p[5], &s6, &c6);
+    cylindrical_worm_zi_zi_seldom_sincos(p[5], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zi_zi_sincos(p[20], &s8, &c8);
+    cylindrical_worm_zi_zi_seldom_sincos(p[20], &s8, &c8);
     const double t10 = s0 / c0;
     const double t11 = s2 * s2;
     const double t12 = p[1] * 1.5707963267948966;
@@ -600,11 +611,11 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t29 = p[11] * p[11];
     const double t30 = p[19] * t24;
     double s31, c31;
-    cylindrical_worm_zi_zi_sincos(p[23], &s31, &c31);
+    cylindrical_worm_zi_zi_seldom_sincos(p[23], &s31, &c31);
     const double t33 = s6 * s6;
     const double t34 = p[11] * t14;
     double s35, c35;
-    cylindrical_worm_zi_zi_sincos(t25, &s35, &c35);
+    cylindrical_worm_zi_zi_seldom_sincos(t25, &s35, &c35);
     const double t37 = s2 / c2;
     const double t38 = t23 * t23;
     const double t39 = MW_FMA(t23, t13, t12);
@@ -812,11 +823,11 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t241 = t239 / t219;
     const double t242 = t240 / t220;
     double s243, c243;
-    cylindrical_worm_zi_zi_sincos(t155, &s243, &c243);
+    cylindrical_worm_zi_zi_seldom_sincos(t155, &s243, &c243);
     const double t245 = -t241;
     const double t246 = -t242;
     double s247, c247;
-    cylindrical_worm_zi_zi_sincos(t163, &s247, &c247);
+    cylindrical_worm_zi_zi_seldom_sincos(t163, &s247, &c247);
     const double t249 = s243 * t174;
     const double t250 = s243 / c243;
     const double t251 = 1.0 / c243;
@@ -880,7 +891,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t309 = MW_FMA(t59, t295, t297);
     const double t310 = MW_FNMA(t60, t295, t279);
     double s311, c311;
-    cylindrical_worm_zi_zi_sincos(t307, &s311, &c311);
+    cylindrical_worm_zi_zi_seldom_sincos(t307, &s311, &c311);
     const double t313 = MW_FMS(t96, t303, t308);
     const double t314 = t277 * t309;
     const double t315 = s8 * t310;

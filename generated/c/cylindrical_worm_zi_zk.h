@@ -167,6 +167,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -230,6 +235,12 @@ MW_INLINE void cylindrical_worm_zi_zk_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zi_zk_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zi_zk_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -311,19 +322,19 @@ static inline void cylindrical_worm_zi_zk_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zi_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zi_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zi_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -359,7 +370,7 @@ static inline void cylindrical_worm_zi_zk_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zi_zk_sincos(t0, &s2, &c2);
+        cylindrical_worm_zi_zk_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -380,7 +391,7 @@ static inline void cylindrical_worm_zi_zk_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+        cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -398,14 +409,14 @@ static inline void cylindrical_worm_zi_zk_derive(double *p)
 static inline void cylindrical_worm_zi_zk_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zi_zk_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zi_zk_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zk_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zi_zk_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zi_zk_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_zk_sincos(t4, &s7, &c7);
+    cylindrical_worm_zi_zk_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -440,9 +451,9 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zi_zk_sincos(p[7], &s0, &c0);
+        cylindrical_worm_zi_zk_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zi_zk_sincos(p[5], &s2, &c2);
+        cylindrical_worm_zi_zk_seldom_sincos(p[5], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
@@ -451,15 +462,15 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
         const double t9 = p[11] * p[11];
         const double t10 = p[15] * p[15];
         double s11, c11;
-        cylindrical_worm_zi_zk_sincos(p[17], &s11, &c11);
+        cylindrical_worm_zi_zk_seldom_sincos(p[17], &s11, &c11);
         const double t13 = t4 + 1.0;
         double s14, c14;
-        cylindrical_worm_zi_zk_sincos(p[20], &s14, &c14);
+        cylindrical_worm_zi_zk_seldom_sincos(p[20], &s14, &c14);
         const double t16 = t5 + t13;
         const double t17 = MW_FMA(p[3], p[3], t16);
         const double t18 = t6 + t17;
         double s19, c19;
-        cylindrical_worm_zi_zk_sincos(p[14], &s19, &c19);
+        cylindrical_worm_zi_zk_seldom_sincos(p[14], &s19, &c19);
         const double t21 = s0 / c0;
         const double t22 = MW_FMA(p[5], p[5], t18);
         const double t23 = p[1] * (-0.5);
@@ -517,7 +528,7 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
         const double t75 = MW_FMA(t65, t65, t74);
         const double t76 = t75 * t75;
         double s77, c77;
-        cylindrical_worm_zi_zk_sincos(t73, &s77, &c77);
+        cylindrical_worm_zi_zk_seldom_sincos(t73, &s77, &c77);
         const double t79 = c77 * c77;
         if (!(t64 > 0.0)) failed = 28;
         if (!(t76 > 0.0)) failed = 27;
@@ -549,15 +560,15 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
         if (!(t49 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zi_zk_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zi_zk_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zk_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zi_zk_seldom_sincos(p[5], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zi_zk_sincos(p[17], &s4, &c4);
+    cylindrical_worm_zi_zk_seldom_sincos(p[17], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zi_zk_sincos(p[14], &s6, &c6);
+    cylindrical_worm_zi_zk_seldom_sincos(p[14], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zi_zk_sincos(p[20], &s8, &c8);
+    cylindrical_worm_zi_zk_seldom_sincos(p[20], &s8, &c8);
     const double t10 = s0 / c0;
     const double t11 = s2 * s2;
     const double t12 = p[1] * 0.7853981633974483;
@@ -588,7 +599,7 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
     const double t37 = c4 * t29;
     const double t38 = p[11] * t30;
     double s39, c39;
-    cylindrical_worm_zi_zk_sincos(p[23], &s39, &c39);
+    cylindrical_worm_zi_zk_seldom_sincos(p[23], &s39, &c39);
     const double t41 = s4 * t34;
     const double t42 = t34 * c4;
     const double t43 = t13 * s6;
@@ -650,7 +661,7 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
     const double t99 = c8 * t17;
     const double t100 = s8 * s8;
     double s101, c101;
-    cylindrical_worm_zi_zk_sincos(t33, &s101, &c101);
+    cylindrical_worm_zi_zk_seldom_sincos(t33, &s101, &c101);
     const double t103 = p[6] / t64;
     const double t104 = MW_FNMA(s6, t71, t25);
     const double t105 = MW_FNMA(c6, t71, p[10]);
@@ -730,7 +741,7 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
     const double t179 = MW_FNMA(t52, t149, t111);
     const double t180 = t91 + t169;
     double s181, c181;
-    cylindrical_worm_zi_zk_sincos(t175, &s181, &c181);
+    cylindrical_worm_zi_zk_seldom_sincos(t175, &s181, &c181);
     const double t183 = cylindrical_worm_zi_zk_atan2(t148, t103);
     const double t184 = 0.5 / t148;
     const double t185 = MW_FMA(t148, t148, t135);
@@ -865,7 +876,7 @@ static inline int cylindrical_worm_zi_zk_setup(const double *p, double *s)
     const double t314 = -t233;
     const double t315 = -t239;
     double s316, c316;
-    cylindrical_worm_zi_zk_sincos(t183, &s316, &c316);
+    cylindrical_worm_zi_zk_seldom_sincos(t183, &s316, &c316);
     const double t318 = s316 * t231;
     const double t319 = s316 / c316;
     const double t320 = 1.0 / c316;

@@ -166,6 +166,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -229,6 +234,12 @@ MW_INLINE void cylindrical_worm_zi_zn_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zi_zn_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zi_zn_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -310,19 +321,19 @@ static inline void cylindrical_worm_zi_zn_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zi_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zi_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zi_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zi_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -358,7 +369,7 @@ static inline void cylindrical_worm_zi_zn_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zi_zn_sincos(t0, &s2, &c2);
+        cylindrical_worm_zi_zn_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -379,7 +390,7 @@ static inline void cylindrical_worm_zi_zn_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zi_zn_sincos(t0, &s3, &c3);
+        cylindrical_worm_zi_zn_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -397,14 +408,14 @@ static inline void cylindrical_worm_zi_zn_derive(double *p)
 static inline void cylindrical_worm_zi_zn_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zi_zn_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zi_zn_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zn_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zn_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zi_zn_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zi_zn_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_zn_sincos(t4, &s7, &c7);
+    cylindrical_worm_zi_zn_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -439,9 +450,9 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zi_zn_sincos(p[7], &s0, &c0);
+        cylindrical_worm_zi_zn_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zi_zn_sincos(p[5], &s2, &c2);
+        cylindrical_worm_zi_zn_seldom_sincos(p[5], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
@@ -449,15 +460,15 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_zi_zn_sincos(p[17], &s10, &c10);
+        cylindrical_worm_zi_zn_seldom_sincos(p[17], &s10, &c10);
         const double t12 = 1.0 + t4;
         double s13, c13;
-        cylindrical_worm_zi_zn_sincos(p[14], &s13, &c13);
+        cylindrical_worm_zi_zn_seldom_sincos(p[14], &s13, &c13);
         const double t15 = t5 + t12;
         const double t16 = MW_FMA(p[3], p[3], t15);
         const double t17 = t6 + t16;
         double s18, c18;
-        cylindrical_worm_zi_zn_sincos(p[20], &s18, &c18);
+        cylindrical_worm_zi_zn_seldom_sincos(p[20], &s18, &c18);
         const double t20 = s0 / c0;
         const double t21 = MW_FMA(p[5], p[5], t17);
         const double t22 = s2 * s2;
@@ -518,7 +529,7 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
         const double t77 = MW_FMA(t67, t67, t76);
         const double t78 = t77 * t77;
         double s79, c79;
-        cylindrical_worm_zi_zn_sincos(t75, &s79, &c79);
+        cylindrical_worm_zi_zn_seldom_sincos(t75, &s79, &c79);
         const double t81 = c79 * c79;
         if (!(t66 > 0.0)) failed = 29;
         if (!(t78 > 0.0)) failed = 28;
@@ -551,15 +562,15 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
         if (!(t53 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zi_zn_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zi_zn_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zn_sincos(p[5], &s2, &c2);
+    cylindrical_worm_zi_zn_seldom_sincos(p[5], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zi_zn_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zi_zn_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zi_zn_sincos(p[17], &s6, &c6);
+    cylindrical_worm_zi_zn_seldom_sincos(p[17], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zi_zn_sincos(p[20], &s8, &c8);
+    cylindrical_worm_zi_zn_seldom_sincos(p[20], &s8, &c8);
     const double t10 = s0 / c0;
     const double t11 = s2 * s2;
     const double t12 = p[1] * 1.5707963267948966;
@@ -594,7 +605,7 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
     const double t41 = s4 * t35;
     const double t42 = p[11] * t15;
     double s43, c43;
-    cylindrical_worm_zi_zn_sincos(p[23], &s43, &c43);
+    cylindrical_worm_zi_zn_seldom_sincos(p[23], &s43, &c43);
     const double t45 = MW_FMA(t34, t38, t14);
     const double t46 = s6 / c6;
     const double t47 = c6 * t25;
@@ -709,7 +720,7 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
     const double t156 = c8 * t18;
     const double t157 = s8 * s8;
     double s158, c158;
-    cylindrical_worm_zi_zn_sincos(t37, &s158, &c158);
+    cylindrical_worm_zi_zn_seldom_sincos(t37, &s158, &c158);
     const double t160 = sqrt(t153);
     const double t161 = t153 + t148;
     const double t162 = t132 * t151;
@@ -722,7 +733,7 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
     const double t169 = MW_FMA(0.5, t145, t141);
     const double t170 = MW_FMA(t85, t150, t140);
     double s171, c171;
-    cylindrical_worm_zi_zn_sincos(t163, &s171, &c171);
+    cylindrical_worm_zi_zn_seldom_sincos(t163, &s171, &c171);
     const double t173 = cylindrical_worm_zi_zn_atan2(t160, t104);
     const double t174 = 0.5 / t160;
     const double t175 = 0.5 * t164;
@@ -867,7 +878,7 @@ static inline int cylindrical_worm_zi_zn_setup(const double *p, double *s)
     const double t314 = t281 * t105;
     const double t315 = t66 * t281;
     double s316, c316;
-    cylindrical_worm_zi_zn_sincos(t173, &s316, &c316);
+    cylindrical_worm_zi_zn_seldom_sincos(t173, &s316, &c316);
     const double t318 = s8 * s43;
     const double t319 = c43 * s8;
     const double t320 = p[26] - p[18];

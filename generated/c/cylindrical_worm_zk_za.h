@@ -167,6 +167,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -230,6 +235,12 @@ MW_INLINE void cylindrical_worm_zk_za_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zk_za_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zk_za_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -311,19 +322,19 @@ static inline void cylindrical_worm_zk_za_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zk_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zk_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zk_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -359,7 +370,7 @@ static inline void cylindrical_worm_zk_za_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zk_za_sincos(t0, &s2, &c2);
+        cylindrical_worm_zk_za_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -380,7 +391,7 @@ static inline void cylindrical_worm_zk_za_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zk_za_sincos(t0, &s3, &c3);
+        cylindrical_worm_zk_za_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -398,14 +409,14 @@ static inline void cylindrical_worm_zk_za_derive(double *p)
 static inline void cylindrical_worm_zk_za_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zk_za_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zk_za_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_za_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zk_za_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zk_za_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_za_sincos(t4, &s7, &c7);
+    cylindrical_worm_zk_za_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,24 +455,24 @@ static inline int cylindrical_worm_zk_za_setup(const double *p, double *s)
         const double t2 = p[4] * p[4];
         const double t3 = p[6] * p[6];
         double s4, c4;
-        cylindrical_worm_zk_za_sincos(p[7], &s4, &c4);
+        cylindrical_worm_zk_za_seldom_sincos(p[7], &s4, &c4);
         const double t6 = t0 + 1.0;
         const double t7 = t1 + t6;
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         const double t10 = p[12] * p[12];
         double s11, c11;
-        cylindrical_worm_zk_za_sincos(p[5], &s11, &c11);
+        cylindrical_worm_zk_za_seldom_sincos(p[5], &s11, &c11);
         const double t13 = MW_FMA(p[3], p[3], t7);
         const double t14 = t2 + t13;
         double s15, c15;
-        cylindrical_worm_zk_za_sincos(p[17], &s15, &c15);
+        cylindrical_worm_zk_za_seldom_sincos(p[17], &s15, &c15);
         const double t17 = MW_FMA(p[5], p[5], t14);
         double s18, c18;
-        cylindrical_worm_zk_za_sincos(p[14], &s18, &c18);
+        cylindrical_worm_zk_za_seldom_sincos(p[14], &s18, &c18);
         const double t20 = t3 + t17;
         double s21, c21;
-        cylindrical_worm_zk_za_sincos(p[20], &s21, &c21);
+        cylindrical_worm_zk_za_seldom_sincos(p[20], &s21, &c21);
         const double t23 = MW_FMA(p[7], p[7], t20);
         const double t24 = MW_FMA(p[8], p[8], t23);
         const double t25 = MW_FMA(p[9], p[9], t24);
@@ -532,19 +543,19 @@ static inline int cylindrical_worm_zk_za_setup(const double *p, double *s)
         if (!(t59 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zk_za_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zk_za_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_za_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_za_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zk_za_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_za_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zk_za_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = 1.0 / p[4];
     const double t10 = p[10] * p[11];
     const double t11 = p[10] * (-4.0);
     double s12, c12;
-    cylindrical_worm_zk_za_sincos(p[5], &s12, &c12);
+    cylindrical_worm_zk_za_seldom_sincos(p[5], &s12, &c12);
     const double t14 = s2 / c2;
     const double t15 = 1.0 / c2;
     const double t16 = p[0] * p[10];
@@ -569,7 +580,7 @@ static inline int cylindrical_worm_zk_za_setup(const double *p, double *s)
     const double t35 = p[8] + p[22];
     const double t36 = p[11] * p[11];
     double s37, c37;
-    cylindrical_worm_zk_za_sincos(p[23], &s37, &c37);
+    cylindrical_worm_zk_za_seldom_sincos(p[23], &s37, &c37);
     const double t39 = s6 * t17;
     const double t40 = t14 * t10;
     const double t41 = t14 * t16;
@@ -657,7 +668,7 @@ static inline int cylindrical_worm_zk_za_setup(const double *p, double *s)
     const double t123 = t102 * t114;
     const double t124 = s6 * s6;
     double s125, c125;
-    cylindrical_worm_zk_za_sincos(t35, &s125, &c125);
+    cylindrical_worm_zk_za_seldom_sincos(t35, &s125, &c125);
     const double t127 = MW_FMS(t31, t86, t122);
     const double t128 = MW_FMA(p[6], t109, t123);
     const double t129 = t21 * t104;
@@ -667,7 +678,7 @@ static inline int cylindrical_worm_zk_za_setup(const double *p, double *s)
     const double t133 = MW_FMA(t41, t104, t107);
     const double t134 = MW_FMA((-0.5), t105, t97);
     double s135, c135;
-    cylindrical_worm_zk_za_sincos(t129, &s135, &c135);
+    cylindrical_worm_zk_za_seldom_sincos(t129, &s135, &c135);
     const double t137 = 0.5 * t131;
     const double t138 = 0.5 * t132;
     const double t139 = MW_FNMA(t54, t104, t115);

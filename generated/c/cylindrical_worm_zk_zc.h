@@ -168,6 +168,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -231,6 +236,12 @@ MW_INLINE void cylindrical_worm_zk_zc_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zk_zc_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zk_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -312,19 +323,19 @@ static inline void cylindrical_worm_zk_zc_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zk_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zk_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zk_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -360,7 +371,7 @@ static inline void cylindrical_worm_zk_zc_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zk_zc_sincos(t0, &s2, &c2);
+        cylindrical_worm_zk_zc_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -381,7 +392,7 @@ static inline void cylindrical_worm_zk_zc_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+        cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -399,14 +410,14 @@ static inline void cylindrical_worm_zk_zc_derive(double *p)
 static inline void cylindrical_worm_zk_zc_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zk_zc_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zk_zc_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zc_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zc_sincos(t4, &s7, &c7);
+    cylindrical_worm_zk_zc_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -444,28 +455,28 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zk_zc_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zk_zc_seldom_sincos(p[7], &s3, &c3);
         const double t5 = t0 + 1.0;
         const double t6 = t1 + t5;
         double s7, c7;
-        cylindrical_worm_zk_zc_sincos(p[17], &s7, &c7);
+        cylindrical_worm_zk_zc_seldom_sincos(p[17], &s7, &c7);
         const double t9 = MW_FMA(p[3], p[3], t6);
         const double t10 = t2 + t9;
         const double t11 = p[6] * p[6];
         const double t12 = p[10] * p[10];
         double s13, c13;
-        cylindrical_worm_zk_zc_sincos(p[14], &s13, &c13);
+        cylindrical_worm_zk_zc_seldom_sincos(p[14], &s13, &c13);
         const double t15 = MW_FMA(p[5], p[5], t10);
         const double t16 = p[11] * p[11];
         const double t17 = t11 + t15;
         const double t18 = p[12] * p[12];
         const double t19 = p[15] * p[15];
         double s20, c20;
-        cylindrical_worm_zk_zc_sincos(p[5], &s20, &c20);
+        cylindrical_worm_zk_zc_seldom_sincos(p[5], &s20, &c20);
         const double t22 = MW_FMA(p[7], p[7], t17);
         const double t23 = MW_FMA(p[8], p[8], t22);
         double s24, c24;
-        cylindrical_worm_zk_zc_sincos(p[20], &s24, &c24);
+        cylindrical_worm_zk_zc_seldom_sincos(p[20], &s24, &c24);
         const double t26 = MW_FMA(p[9], p[9], t23);
         const double t27 = s3 / c3;
         const double t28 = p[1] * (-0.5);
@@ -560,23 +571,23 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
         if (!(t74 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zk_zc_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zk_zc_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zc_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zc_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zk_zc_seldom_sincos(p[14], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[16];
     double s10, c10;
-    cylindrical_worm_zk_zc_sincos(p[20], &s10, &c10);
+    cylindrical_worm_zk_zc_seldom_sincos(p[20], &s10, &c10);
     const double t12 = s0 / c0;
     const double t13 = 1.0 / p[4];
     const double t14 = p[10] * p[11];
     const double t15 = p[10] * (-4.0);
     double s16, c16;
-    cylindrical_worm_zk_zc_sincos(p[5], &s16, &c16);
+    cylindrical_worm_zk_zc_seldom_sincos(p[5], &s16, &c16);
     const double t18 = p[0] * c2;
     const double t19 = s2 / c2;
     const double t20 = p[0] * c4;
@@ -613,7 +624,7 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
     const double t51 = t42 - p[6];
     const double t52 = p[11] * p[11];
     double s53, c53;
-    cylindrical_worm_zk_zc_sincos(p[23], &s53, &c53);
+    cylindrical_worm_zk_zc_seldom_sincos(p[23], &s53, &c53);
     const double t55 = p[10] * t19;
     const double t56 = t19 * t14;
     const double t57 = s10 * t22;
@@ -678,7 +689,7 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
     const double t116 = MW_FMA(t91, t91, t80);
     const double t117 = s10 * s10;
     double s118, c118;
-    cylindrical_worm_zk_zc_sincos(t47, &s118, &c118);
+    cylindrical_worm_zk_zc_seldom_sincos(t47, &s118, &c118);
     const double t120 = sqrt(t116);
     const double t121 = p[6] * t86;
     const double t122 = t95 + t112;
@@ -751,9 +762,9 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
     const double t189 = s2 * t172;
     const double t190 = 0.5 * t79;
     double s191, c191;
-    cylindrical_worm_zk_zc_sincos(t79, &s191, &c191);
+    cylindrical_worm_zk_zc_seldom_sincos(t79, &s191, &c191);
     double s193, c193;
-    cylindrical_worm_zk_zc_sincos(t190, &s193, &c193);
+    cylindrical_worm_zk_zc_seldom_sincos(t190, &s193, &c193);
     const double t195 = t188 * t114;
     const double t196 = t114 * t183;
     const double t197 = t162 * t182;
@@ -909,7 +920,7 @@ static inline int cylindrical_worm_zk_zc_setup(const double *p, double *s)
     const double t347 = t334 * t282;
     const double t348 = MW_FNMA(t55, t334, t296);
     double s349, c349;
-    cylindrical_worm_zk_zc_sincos(t345, &s349, &c349);
+    cylindrical_worm_zk_zc_seldom_sincos(t345, &s349, &c349);
     const double t351 = t274 * t346;
     const double t352 = MW_FMS(t83, t344, t347);
     const double t353 = MW_FMA(s10, t348, t301);

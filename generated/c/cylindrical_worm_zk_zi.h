@@ -167,6 +167,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -230,6 +235,12 @@ MW_INLINE void cylindrical_worm_zk_zi_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zk_zi_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zk_zi_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -311,19 +322,19 @@ static inline void cylindrical_worm_zk_zi_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zk_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zk_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zk_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -359,7 +370,7 @@ static inline void cylindrical_worm_zk_zi_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zk_zi_sincos(t0, &s2, &c2);
+        cylindrical_worm_zk_zi_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -380,7 +391,7 @@ static inline void cylindrical_worm_zk_zi_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zk_zi_sincos(t0, &s3, &c3);
+        cylindrical_worm_zk_zi_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -398,14 +409,14 @@ static inline void cylindrical_worm_zk_zi_derive(double *p)
 static inline void cylindrical_worm_zk_zi_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zk_zi_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zk_zi_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zi_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zk_zi_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zk_zi_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zi_sincos(t4, &s7, &c7);
+    cylindrical_worm_zk_zi_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -440,28 +451,28 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zk_zi_sincos(p[14], &s0, &c0);
+        cylindrical_worm_zk_zi_seldom_sincos(p[14], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zk_zi_sincos(p[17], &s2, &c2);
+        cylindrical_worm_zk_zi_seldom_sincos(p[17], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
         const double t7 = p[6] * p[6];
         double s8, c8;
-        cylindrical_worm_zk_zi_sincos(p[7], &s8, &c8);
+        cylindrical_worm_zk_zi_seldom_sincos(p[7], &s8, &c8);
         const double t10 = t4 + 1.0;
         const double t11 = t5 + t10;
         const double t12 = p[10] * p[10];
         const double t13 = p[11] * p[11];
         const double t14 = p[12] * p[12];
         double s15, c15;
-        cylindrical_worm_zk_zi_sincos(p[5], &s15, &c15);
+        cylindrical_worm_zk_zi_seldom_sincos(p[5], &s15, &c15);
         const double t17 = MW_FMA(p[3], p[3], t11);
         const double t18 = t6 + t17;
         const double t19 = s0 / c0;
         const double t20 = MW_FMA(p[5], p[5], t18);
         double s21, c21;
-        cylindrical_worm_zk_zi_sincos(p[20], &s21, &c21);
+        cylindrical_worm_zk_zi_seldom_sincos(p[20], &s21, &c21);
         const double t23 = s2 * s2;
         const double t24 = t7 + t20;
         const double t25 = p[1] * (-0.5);
@@ -525,7 +536,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
         const double t83 = MW_FMA(t73, t73, t82);
         const double t84 = t83 * t83;
         double s85, c85;
-        cylindrical_worm_zk_zi_sincos(t81, &s85, &c85);
+        cylindrical_worm_zk_zi_seldom_sincos(t81, &s85, &c85);
         const double t87 = c85 * c85;
         if (!(t72 > 0.0)) failed = 28;
         if (!(t84 > 0.0)) failed = 27;
@@ -557,13 +568,13 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
         if (!(t55 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zk_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zk_zi_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zi_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zi_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zk_zi_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_zi_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zk_zi_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -572,7 +583,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     const double t13 = p[0] * p[10];
     const double t14 = p[10] * (-4.0);
     double s15, c15;
-    cylindrical_worm_zk_zi_sincos(p[5], &s15, &c15);
+    cylindrical_worm_zk_zi_seldom_sincos(p[5], &s15, &c15);
     const double t17 = s2 * s2;
     const double t18 = p[11] * p[19];
     const double t19 = p[11] * t14;
@@ -595,7 +606,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     const double t36 = p[8] + p[22];
     const double t37 = p[11] * p[11];
     double s38, c38;
-    cylindrical_worm_zk_zi_sincos(p[23], &s38, &c38);
+    cylindrical_worm_zk_zi_seldom_sincos(p[23], &s38, &c38);
     const double t40 = s6 * t18;
     const double t41 = p[0] * s6;
     const double t42 = s6 * t30;
@@ -604,7 +615,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     const double t45 = p[11] * s6;
     const double t46 = s6 * s6;
     double s47, c47;
-    cylindrical_worm_zk_zi_sincos(t36, &s47, &c47);
+    cylindrical_worm_zk_zi_seldom_sincos(t36, &s47, &c47);
     const double t49 = 1.0 + t28;
     const double t50 = MW_FMA(t23, t10, t9);
     const double t51 = t40 / p[4];
@@ -831,7 +842,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     const double t272 = -t270;
     const double t273 = -t271;
     double s274, c274;
-    cylindrical_worm_zk_zi_sincos(t166, &s274, &c274);
+    cylindrical_worm_zk_zi_seldom_sincos(t166, &s274, &c274);
     const double t276 = s274 * t216;
     const double t277 = s274 / c274;
     const double t278 = 1.0 / c274;
@@ -879,7 +890,7 @@ static inline int cylindrical_worm_zk_zi_setup(const double *p, double *s)
     const double t320 = MW_FMA(t53, t313, t315);
     const double t321 = MW_FNMA(t54, t313, t302);
     double s322, c322;
-    cylindrical_worm_zk_zi_sincos(t318, &s322, &c322);
+    cylindrical_worm_zk_zi_seldom_sincos(t318, &s322, &c322);
     const double t324 = MW_FMS(t99, t317, t319);
     const double t325 = t300 * t320;
     const double t326 = s6 * t321;

@@ -164,6 +164,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -227,6 +232,12 @@ MW_INLINE void cylindrical_worm_zk_zk_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zk_zk_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zk_zk_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -308,19 +319,19 @@ static inline void cylindrical_worm_zk_zk_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zk_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zk_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zk_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -356,7 +367,7 @@ static inline void cylindrical_worm_zk_zk_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zk_zk_sincos(t0, &s2, &c2);
+        cylindrical_worm_zk_zk_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -377,7 +388,7 @@ static inline void cylindrical_worm_zk_zk_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+        cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -395,14 +406,14 @@ static inline void cylindrical_worm_zk_zk_derive(double *p)
 static inline void cylindrical_worm_zk_zk_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zk_zk_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zk_zk_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zk_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zk_sincos(t4, &s7, &c7);
+    cylindrical_worm_zk_zk_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -441,26 +452,26 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
         const double t2 = p[4] * p[4];
         const double t3 = p[6] * p[6];
         double s4, c4;
-        cylindrical_worm_zk_zk_sincos(p[7], &s4, &c4);
+        cylindrical_worm_zk_zk_seldom_sincos(p[7], &s4, &c4);
         const double t6 = t0 + 1.0;
         const double t7 = t1 + t6;
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         const double t10 = p[12] * p[12];
         double s11, c11;
-        cylindrical_worm_zk_zk_sincos(p[5], &s11, &c11);
+        cylindrical_worm_zk_zk_seldom_sincos(p[5], &s11, &c11);
         const double t13 = MW_FMA(p[3], p[3], t7);
         const double t14 = p[15] * p[15];
         const double t15 = t2 + t13;
         double s16, c16;
-        cylindrical_worm_zk_zk_sincos(p[17], &s16, &c16);
+        cylindrical_worm_zk_zk_seldom_sincos(p[17], &s16, &c16);
         const double t18 = MW_FMA(p[5], p[5], t15);
         double s19, c19;
-        cylindrical_worm_zk_zk_sincos(p[20], &s19, &c19);
+        cylindrical_worm_zk_zk_seldom_sincos(p[20], &s19, &c19);
         const double t21 = t3 + t18;
         const double t22 = MW_FMA(p[7], p[7], t21);
         double s23, c23;
-        cylindrical_worm_zk_zk_sincos(p[14], &s23, &c23);
+        cylindrical_worm_zk_zk_seldom_sincos(p[14], &s23, &c23);
         const double t25 = MW_FMA(p[8], p[8], t22);
         const double t26 = p[1] * (-0.5);
         const double t27 = s4 / c4;
@@ -530,13 +541,13 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
         if (!(t58 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zk_zk_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zk_zk_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zk_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zk_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zk_zk_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_zk_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zk_zk_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 0.7853981633974483;
     const double t10 = p[0] * p[0];
@@ -544,7 +555,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t12 = p[10] * p[11];
     const double t13 = p[10] * (-4.0);
     double s14, c14;
-    cylindrical_worm_zk_zk_sincos(p[5], &s14, &c14);
+    cylindrical_worm_zk_zk_seldom_sincos(p[5], &s14, &c14);
     const double t16 = s2 / c2;
     const double t17 = p[0] * s2;
     const double t18 = p[11] * p[19];
@@ -645,7 +656,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t113 = c14 * t105;
     const double t114 = s6 * s6;
     double s115, c115;
-    cylindrical_worm_zk_zk_sincos(p[23], &s115, &c115);
+    cylindrical_worm_zk_zk_seldom_sincos(p[23], &s115, &c115);
     const double t117 = MW_FNMA(s4, t78, t21);
     const double t118 = MW_FNMA(c4, t78, p[10]);
     const double t119 = MW_FMA(t110, t110, t77);
@@ -688,7 +699,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t156 = t103 * t122;
     const double t157 = (-1.0) - t85;
     double s158, c158;
-    cylindrical_worm_zk_zk_sincos(t98, &s158, &c158);
+    cylindrical_worm_zk_zk_seldom_sincos(t98, &s158, &c158);
     const double t160 = t152 / t37;
     const double t161 = t153 - t145;
     const double t162 = MW_FMS(s6, t148, t154);
@@ -711,7 +722,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t179 = t58 * s6;
     const double t180 = t172 / t58;
     double s181, c181;
-    cylindrical_worm_zk_zk_sincos(t174, &s181, &c181);
+    cylindrical_worm_zk_zk_seldom_sincos(t174, &s181, &c181);
     const double t183 = t173 / t58;
     const double t184 = t47 * t175;
     const double t185 = t47 * t176;

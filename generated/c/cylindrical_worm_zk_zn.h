@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_zk_zn_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zk_zn_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zk_zn_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_zk_zn_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zk_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zk_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zk_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zk_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_zk_zn_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zk_zn_sincos(t0, &s2, &c2);
+        cylindrical_worm_zk_zn_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_zk_zn_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zk_zn_sincos(t0, &s3, &c3);
+        cylindrical_worm_zk_zn_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_zk_zn_derive(double *p)
 static inline void cylindrical_worm_zk_zn_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zk_zn_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zk_zn_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zn_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zk_zn_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zk_zn_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zk_zn_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zn_sincos(t4, &s7, &c7);
+    cylindrical_worm_zk_zn_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -445,7 +456,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zk_zn_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zk_zn_seldom_sincos(p[7], &s3, &c3);
         const double t5 = t0 + 1.0;
         const double t6 = t1 + t5;
         const double t7 = p[6] * p[6];
@@ -453,19 +464,19 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
         const double t9 = p[11] * p[11];
         const double t10 = p[12] * p[12];
         double s11, c11;
-        cylindrical_worm_zk_zn_sincos(p[5], &s11, &c11);
+        cylindrical_worm_zk_zn_seldom_sincos(p[5], &s11, &c11);
         const double t13 = MW_FMA(p[3], p[3], t6);
         double s14, c14;
-        cylindrical_worm_zk_zn_sincos(p[17], &s14, &c14);
+        cylindrical_worm_zk_zn_seldom_sincos(p[17], &s14, &c14);
         const double t16 = t2 + t13;
         const double t17 = MW_FMA(p[5], p[5], t16);
         double s18, c18;
-        cylindrical_worm_zk_zn_sincos(p[14], &s18, &c18);
+        cylindrical_worm_zk_zn_seldom_sincos(p[14], &s18, &c18);
         const double t20 = t7 + t17;
         const double t21 = MW_FMA(p[7], p[7], t20);
         const double t22 = MW_FMA(p[8], p[8], t21);
         double s23, c23;
-        cylindrical_worm_zk_zn_sincos(p[20], &s23, &c23);
+        cylindrical_worm_zk_zn_seldom_sincos(p[20], &s23, &c23);
         const double t25 = MW_FMA(p[9], p[9], t22);
         const double t26 = s3 / c3;
         const double t27 = p[1] * (-0.5);
@@ -538,13 +549,13 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
         if (!(t61 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zk_zn_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zk_zn_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zk_zn_sincos(p[14], &s2, &c2);
+    cylindrical_worm_zk_zn_seldom_sincos(p[14], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zn_sincos(p[17], &s4, &c4);
+    cylindrical_worm_zk_zn_seldom_sincos(p[17], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_zn_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zk_zn_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -553,7 +564,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t13 = p[10] * p[11];
     const double t14 = p[10] * (-4.0);
     double s15, c15;
-    cylindrical_worm_zk_zn_sincos(p[5], &s15, &c15);
+    cylindrical_worm_zk_zn_seldom_sincos(p[5], &s15, &c15);
     const double t17 = p[10] * c2;
     const double t18 = s2 / c2;
     const double t19 = p[0] * s2;
@@ -712,7 +723,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t172 = p[11] * p[11];
     const double t173 = s6 * s6;
     double s174, c174;
-    cylindrical_worm_zk_zn_sincos(p[23], &s174, &c174);
+    cylindrical_worm_zk_zn_seldom_sincos(p[23], &s174, &c174);
     const double t176 = t121 - t138;
     const double t177 = t121 + t138;
     const double t178 = MW_FMA((-0.5), t138, t146);
@@ -721,9 +732,9 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t181 = MW_FNMA(t67, t149, t155);
     const double t182 = MW_FMA(0.5, t138, t162);
     double s183, c183;
-    cylindrical_worm_zk_zn_sincos(t164, &s183, &c183);
+    cylindrical_worm_zk_zn_seldom_sincos(t164, &s183, &c183);
     double s185, c185;
-    cylindrical_worm_zk_zn_sincos(t179, &s185, &c185);
+    cylindrical_worm_zk_zn_seldom_sincos(t179, &s185, &c185);
     const double t187 = 0.5 * t176;
     const double t188 = 0.5 * t177;
     const double t189 = t126 * t180;

@@ -166,6 +166,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -229,6 +234,12 @@ MW_INLINE void cylindrical_worm_zn_za_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zn_za_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zn_za_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -310,19 +321,19 @@ static inline void cylindrical_worm_zn_za_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zn_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zn_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zn_za_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_za_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -358,7 +369,7 @@ static inline void cylindrical_worm_zn_za_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zn_za_sincos(t0, &s2, &c2);
+        cylindrical_worm_zn_za_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -379,7 +390,7 @@ static inline void cylindrical_worm_zn_za_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zn_za_sincos(t0, &s3, &c3);
+        cylindrical_worm_zn_za_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -397,14 +408,14 @@ static inline void cylindrical_worm_zn_za_derive(double *p)
 static inline void cylindrical_worm_zn_za_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_za_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zn_za_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zn_za_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_za_sincos(t4, &s7, &c7);
+    cylindrical_worm_zn_za_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -442,23 +453,23 @@ static inline int cylindrical_worm_zn_za_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zn_za_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zn_za_seldom_sincos(p[7], &s3, &c3);
         const double t5 = 1.0 + t0;
         const double t6 = t1 + t5;
         const double t7 = p[6] * p[6];
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_zn_za_sincos(p[5], &s10, &c10);
+        cylindrical_worm_zn_za_seldom_sincos(p[5], &s10, &c10);
         const double t12 = MW_FMA(p[3], p[3], t6);
         double s13, c13;
-        cylindrical_worm_zn_za_sincos(p[17], &s13, &c13);
+        cylindrical_worm_zn_za_seldom_sincos(p[17], &s13, &c13);
         const double t15 = t2 + t12;
         double s16, c16;
-        cylindrical_worm_zn_za_sincos(p[14], &s16, &c16);
+        cylindrical_worm_zn_za_seldom_sincos(p[14], &s16, &c16);
         const double t18 = MW_FMA(p[5], p[5], t15);
         double s19, c19;
-        cylindrical_worm_zn_za_sincos(p[20], &s19, &c19);
+        cylindrical_worm_zn_za_seldom_sincos(p[20], &s19, &c19);
         const double t21 = t7 + t18;
         const double t22 = MW_FMA(p[7], p[7], t21);
         const double t23 = MW_FMA(p[8], p[8], t22);
@@ -526,13 +537,13 @@ static inline int cylindrical_worm_zn_za_setup(const double *p, double *s)
         if (!(t54 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_za_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_za_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zn_za_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zn_za_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zn_za_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = 1.0 / p[4];
     const double t10 = p[10] * p[11];
@@ -542,7 +553,7 @@ static inline int cylindrical_worm_zn_za_setup(const double *p, double *s)
     const double t14 = p[1] * 0.7853981633974483;
     const double t15 = p[10] - p[19];
     double s16, c16;
-    cylindrical_worm_zn_za_sincos(p[5], &s16, &c16);
+    cylindrical_worm_zn_za_seldom_sincos(p[5], &s16, &c16);
     const double t18 = p[11] * t11;
     const double t19 = s2 / c2;
     const double t20 = p[0] * t8;
@@ -562,12 +573,12 @@ static inline int cylindrical_worm_zn_za_setup(const double *p, double *s)
     const double t34 = p[8] + p[22];
     const double t35 = p[11] * p[11];
     double s36, c36;
-    cylindrical_worm_zn_za_sincos(p[23], &s36, &c36);
+    cylindrical_worm_zn_za_seldom_sincos(p[23], &s36, &c36);
     const double t38 = s6 * t13;
     const double t39 = p[0] * s6;
     const double t40 = s6 * t31;
     double s41, c41;
-    cylindrical_worm_zn_za_sincos(t34, &s41, &c41);
+    cylindrical_worm_zn_za_seldom_sincos(t34, &s41, &c41);
     const double t43 = t19 * t10;
     const double t44 = t19 * t12;
     const double t45 = p[0] * t26;
@@ -650,7 +661,7 @@ static inline int cylindrical_worm_zn_za_setup(const double *p, double *s)
     const double t122 = t35 * t115;
     const double t123 = p[0] * s4;
     double s124, c124;
-    cylindrical_worm_zn_za_sincos(t116, &s124, &c124);
+    cylindrical_worm_zn_za_seldom_sincos(t116, &s124, &c124);
     const double t126 = t94 - t106;
     const double t127 = t94 + t106;
     const double t128 = MW_FMA((-0.5), t106, t89);

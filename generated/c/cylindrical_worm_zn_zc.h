@@ -171,6 +171,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -234,6 +239,12 @@ MW_INLINE void cylindrical_worm_zn_zc_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zn_zc_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zn_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -315,19 +326,19 @@ static inline void cylindrical_worm_zn_zc_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zn_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zn_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zn_zc_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zc_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -363,7 +374,7 @@ static inline void cylindrical_worm_zn_zc_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zn_zc_sincos(t0, &s2, &c2);
+        cylindrical_worm_zn_zc_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -384,7 +395,7 @@ static inline void cylindrical_worm_zn_zc_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zn_zc_sincos(t0, &s3, &c3);
+        cylindrical_worm_zn_zc_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -402,14 +413,14 @@ static inline void cylindrical_worm_zn_zc_derive(double *p)
 static inline void cylindrical_worm_zn_zc_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zn_zc_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zn_zc_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zc_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zn_zc_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zn_zc_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_zc_sincos(t4, &s7, &c7);
+    cylindrical_worm_zn_zc_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -446,25 +457,25 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
         const double t0 = p[1] * p[1];
         const double t1 = MW_FMA(p[0], p[0], 1.0);
         double s2, c2;
-        cylindrical_worm_zn_zc_sincos(p[7], &s2, &c2);
+        cylindrical_worm_zn_zc_seldom_sincos(p[7], &s2, &c2);
         const double t4 = t0 + t1;
         double s5, c5;
-        cylindrical_worm_zn_zc_sincos(p[17], &s5, &c5);
+        cylindrical_worm_zn_zc_seldom_sincos(p[17], &s5, &c5);
         const double t7 = p[4] * p[4];
         const double t8 = MW_FMA(p[3], p[3], t4);
         const double t9 = p[6] * p[6];
         double s10, c10;
-        cylindrical_worm_zn_zc_sincos(p[14], &s10, &c10);
+        cylindrical_worm_zn_zc_seldom_sincos(p[14], &s10, &c10);
         const double t12 = t7 + t8;
         const double t13 = p[10] * p[10];
         const double t14 = MW_FMA(p[5], p[5], t12);
         const double t15 = p[11] * p[11];
         const double t16 = p[15] * p[15];
         double s17, c17;
-        cylindrical_worm_zn_zc_sincos(p[5], &s17, &c17);
+        cylindrical_worm_zn_zc_seldom_sincos(p[5], &s17, &c17);
         const double t19 = t9 + t14;
         double s20, c20;
-        cylindrical_worm_zn_zc_sincos(p[20], &s20, &c20);
+        cylindrical_worm_zn_zc_seldom_sincos(p[20], &s20, &c20);
         const double t22 = MW_FMA(p[7], p[7], t19);
         const double t23 = MW_FMA(p[8], p[8], t22);
         const double t24 = s2 / c2;
@@ -557,17 +568,17 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
         if (!(t71 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zn_zc_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zn_zc_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zc_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zc_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_zc_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zn_zc_seldom_sincos(p[14], &s4, &c4);
     const double t6 = p[1] * 1.5707963267948966;
     const double t7 = p[9] * (-2.0);
     const double t8 = p[0] * 0.5;
     const double t9 = p[0] * p[16];
     double s10, c10;
-    cylindrical_worm_zn_zc_sincos(p[20], &s10, &c10);
+    cylindrical_worm_zn_zc_seldom_sincos(p[20], &s10, &c10);
     const double t12 = s0 / c0;
     const double t13 = 1.0 / p[4];
     const double t14 = p[10] * p[11];
@@ -575,7 +586,7 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
     const double t16 = p[11] * p[19];
     const double t17 = p[10] + p[15];
     double s18, c18;
-    cylindrical_worm_zn_zc_sincos(p[5], &s18, &c18);
+    cylindrical_worm_zn_zc_seldom_sincos(p[5], &s18, &c18);
     const double t20 = p[0] * c2;
     const double t21 = p[11] * t15;
     const double t22 = s2 / c2;
@@ -655,7 +666,7 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
     const double t96 = sqrt(t90);
     const double t97 = MW_FMA(t91, t42, t30);
     double s98, c98;
-    cylindrical_worm_zn_zc_sincos(t93, &s98, &c98);
+    cylindrical_worm_zn_zc_seldom_sincos(t93, &s98, &c98);
     const double t100 = sqrt(t97);
     const double t101 = t56 + t81;
     const double t102 = t50 * s10;
@@ -664,7 +675,7 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
     const double t105 = p[11] * p[11];
     const double t106 = s10 * s10;
     double s107, c107;
-    cylindrical_worm_zn_zc_sincos(p[23], &s107, &c107);
+    cylindrical_worm_zn_zc_seldom_sincos(p[23], &s107, &c107);
     const double t109 = 0.5 * t95;
     const double t110 = t87 + t101;
     const double t111 = (-1.0) - t88;
@@ -733,9 +744,9 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
     const double t174 = MW_FNMA(t162, t163, t167);
     const double t175 = 0.5 * t74;
     double s176, c176;
-    cylindrical_worm_zn_zc_sincos(t74, &s176, &c176);
+    cylindrical_worm_zn_zc_seldom_sincos(t74, &s176, &c176);
     double s178, c178;
-    cylindrical_worm_zn_zc_sincos(t175, &s178, &c178);
+    cylindrical_worm_zn_zc_seldom_sincos(t175, &s178, &c178);
     const double t180 = t171 / p[4];
     const double t181 = t128 + t172;
     const double t182 = 1.0 / t135;
@@ -894,7 +905,7 @@ static inline int cylindrical_worm_zn_zc_setup(const double *p, double *s)
     const double t335 = t321 * t259;
     const double t336 = MW_FNMA(t50, t321, t283);
     double s337, c337;
-    cylindrical_worm_zn_zc_sincos(t333, &s337, &c337);
+    cylindrical_worm_zn_zc_seldom_sincos(t333, &s337, &c337);
     const double t339 = t247 * t334;
     const double t340 = MW_FMS(t77, t332, t335);
     const double t341 = MW_FMA(s10, t336, t288);

@@ -166,6 +166,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -229,6 +234,12 @@ MW_INLINE void cylindrical_worm_zn_zi_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zn_zi_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zn_zi_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -310,19 +321,19 @@ static inline void cylindrical_worm_zn_zi_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zn_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zn_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zn_zi_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zi_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -358,7 +369,7 @@ static inline void cylindrical_worm_zn_zi_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zn_zi_sincos(t0, &s2, &c2);
+        cylindrical_worm_zn_zi_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -379,7 +390,7 @@ static inline void cylindrical_worm_zn_zi_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zn_zi_sincos(t0, &s3, &c3);
+        cylindrical_worm_zn_zi_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -397,14 +408,14 @@ static inline void cylindrical_worm_zn_zi_derive(double *p)
 static inline void cylindrical_worm_zn_zi_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zn_zi_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zn_zi_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zi_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zn_zi_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zn_zi_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_zi_sincos(t4, &s7, &c7);
+    cylindrical_worm_zn_zi_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -439,25 +450,25 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        cylindrical_worm_zn_zi_sincos(p[14], &s0, &c0);
+        cylindrical_worm_zn_zi_seldom_sincos(p[14], &s0, &c0);
         double s2, c2;
-        cylindrical_worm_zn_zi_sincos(p[17], &s2, &c2);
+        cylindrical_worm_zn_zi_seldom_sincos(p[17], &s2, &c2);
         const double t4 = p[0] * p[0];
         const double t5 = p[1] * p[1];
         const double t6 = p[4] * p[4];
         double s7, c7;
-        cylindrical_worm_zn_zi_sincos(p[7], &s7, &c7);
+        cylindrical_worm_zn_zi_seldom_sincos(p[7], &s7, &c7);
         const double t9 = 1.0 + t4;
         const double t10 = t5 + t9;
         const double t11 = p[6] * p[6];
         const double t12 = p[10] * p[10];
         const double t13 = p[11] * p[11];
         double s14, c14;
-        cylindrical_worm_zn_zi_sincos(p[5], &s14, &c14);
+        cylindrical_worm_zn_zi_seldom_sincos(p[5], &s14, &c14);
         const double t16 = MW_FMA(p[3], p[3], t10);
         const double t17 = t6 + t16;
         double s18, c18;
-        cylindrical_worm_zn_zi_sincos(p[20], &s18, &c18);
+        cylindrical_worm_zn_zi_seldom_sincos(p[20], &s18, &c18);
         const double t20 = s0 / c0;
         const double t21 = MW_FMA(p[5], p[5], t17);
         const double t22 = s2 * s2;
@@ -519,7 +530,7 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
         const double t78 = MW_FMA(t68, t68, t77);
         const double t79 = t78 * t78;
         double s80, c80;
-        cylindrical_worm_zn_zi_sincos(t76, &s80, &c80);
+        cylindrical_worm_zn_zi_seldom_sincos(t76, &s80, &c80);
         const double t82 = c80 * c80;
         if (!(t67 > 0.0)) failed = 28;
         if (!(t79 > 0.0)) failed = 27;
@@ -551,13 +562,13 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
         if (!(t49 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zn_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zn_zi_seldom_sincos(p[14], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zi_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_zi_sincos(p[7], &s4, &c4);
+    cylindrical_worm_zn_zi_seldom_sincos(p[7], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zn_zi_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zn_zi_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -568,7 +579,7 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
     const double t15 = p[11] * p[19];
     const double t16 = p[10] - p[19];
     double s17, c17;
-    cylindrical_worm_zn_zi_sincos(p[5], &s17, &c17);
+    cylindrical_worm_zn_zi_seldom_sincos(p[5], &s17, &c17);
     const double t19 = s2 * s2;
     const double t20 = p[11] * t14;
     const double t21 = p[19] * t20;
@@ -586,14 +597,14 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
     const double t33 = p[11] * p[11];
     const double t34 = s2 / c2;
     double s35, c35;
-    cylindrical_worm_zn_zi_sincos(t29, &s35, &c35);
+    cylindrical_worm_zn_zi_seldom_sincos(t29, &s35, &c35);
     const double t37 = s6 * t15;
     const double t38 = p[0] * s6;
     const double t39 = s6 * t32;
     const double t40 = p[11] * s6;
     const double t41 = s6 * s6;
     double s42, c42;
-    cylindrical_worm_zn_zi_sincos(p[23], &s42, &c42);
+    cylindrical_worm_zn_zi_seldom_sincos(p[23], &s42, &c42);
     const double t44 = 1.0 + t28;
     const double t45 = MW_FMA(t23, t10, t9);
     const double t46 = t37 / p[4];
@@ -811,7 +822,7 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
     const double t258 = -t256;
     const double t259 = -t257;
     double s260, c260;
-    cylindrical_worm_zn_zi_sincos(t159, &s260, &c260);
+    cylindrical_worm_zn_zi_seldom_sincos(t159, &s260, &c260);
     const double t262 = s260 * t211;
     const double t263 = s260 / c260;
     const double t264 = 1.0 / c260;
@@ -859,7 +870,7 @@ static inline int cylindrical_worm_zn_zi_setup(const double *p, double *s)
     const double t306 = MW_FMA(t52, t299, t301);
     const double t307 = MW_FNMA(t53, t299, t288);
     double s308, c308;
-    cylindrical_worm_zn_zi_sincos(t304, &s308, &c308);
+    cylindrical_worm_zn_zi_seldom_sincos(t304, &s308, &c308);
     const double t310 = MW_FMS(t90, t303, t305);
     const double t311 = t286 * t306;
     const double t312 = s6 * t307;

@@ -169,6 +169,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -232,6 +237,12 @@ MW_INLINE void cylindrical_worm_zn_zk_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zn_zk_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zn_zk_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -313,19 +324,19 @@ static inline void cylindrical_worm_zn_zk_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zn_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zn_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zn_zk_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zk_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -361,7 +372,7 @@ static inline void cylindrical_worm_zn_zk_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zn_zk_sincos(t0, &s2, &c2);
+        cylindrical_worm_zn_zk_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -382,7 +393,7 @@ static inline void cylindrical_worm_zn_zk_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+        cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -400,14 +411,14 @@ static inline void cylindrical_worm_zn_zk_derive(double *p)
 static inline void cylindrical_worm_zn_zk_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zn_zk_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zn_zk_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zk_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zn_zk_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zn_zk_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_zk_sincos(t4, &s7, &c7);
+    cylindrical_worm_zn_zk_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -445,7 +456,7 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zn_zk_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zn_zk_seldom_sincos(p[7], &s3, &c3);
         const double t5 = 1.0 + t0;
         const double t6 = t1 + t5;
         const double t7 = p[6] * p[6];
@@ -453,18 +464,18 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
         const double t9 = p[11] * p[11];
         const double t10 = p[15] * p[15];
         double s11, c11;
-        cylindrical_worm_zn_zk_sincos(p[5], &s11, &c11);
+        cylindrical_worm_zn_zk_seldom_sincos(p[5], &s11, &c11);
         const double t13 = MW_FMA(p[3], p[3], t6);
         double s14, c14;
-        cylindrical_worm_zn_zk_sincos(p[17], &s14, &c14);
+        cylindrical_worm_zn_zk_seldom_sincos(p[17], &s14, &c14);
         const double t16 = t2 + t13;
         double s17, c17;
-        cylindrical_worm_zn_zk_sincos(p[20], &s17, &c17);
+        cylindrical_worm_zn_zk_seldom_sincos(p[20], &s17, &c17);
         const double t19 = MW_FMA(p[5], p[5], t16);
         const double t20 = t7 + t19;
         const double t21 = MW_FMA(p[7], p[7], t20);
         double s22, c22;
-        cylindrical_worm_zn_zk_sincos(p[14], &s22, &c22);
+        cylindrical_worm_zn_zk_seldom_sincos(p[14], &s22, &c22);
         const double t24 = MW_FMA(p[8], p[8], t21);
         const double t25 = s3 / c3;
         const double t26 = p[1] * (-0.5);
@@ -530,13 +541,13 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
         if (!(t53 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zn_zk_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zn_zk_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zk_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zk_seldom_sincos(p[17], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_zk_sincos(p[14], &s4, &c4);
+    cylindrical_worm_zn_zk_seldom_sincos(p[14], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zn_zk_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zn_zk_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 0.7853981633974483;
     const double t10 = p[0] * p[0];
@@ -545,7 +556,7 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
     const double t13 = p[10] * (-4.0);
     const double t14 = p[11] * p[19];
     double s15, c15;
-    cylindrical_worm_zn_zk_sincos(p[5], &s15, &c15);
+    cylindrical_worm_zn_zk_seldom_sincos(p[5], &s15, &c15);
     const double t17 = p[11] * t13;
     const double t18 = p[0] * c2;
     const double t19 = s2 / c2;
@@ -635,7 +646,7 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
     const double t103 = t97 / s0;
     const double t104 = p[4] * t76;
     double s105, c105;
-    cylindrical_worm_zn_zk_sincos(t100, &s105, &c105);
+    cylindrical_worm_zn_zk_seldom_sincos(t100, &s105, &c105);
     const double t107 = MW_FNMA(s4, t79, t22);
     const double t108 = MW_FNMA(c4, t79, p[10]);
     const double t109 = t77 + t89;
@@ -673,7 +684,7 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
     const double t141 = MW_FMA(t129, t91, t133);
     const double t142 = MW_FMA(t117, t94, t134);
     double s143, c143;
-    cylindrical_worm_zn_zk_sincos(p[23], &s143, &c143);
+    cylindrical_worm_zn_zk_seldom_sincos(p[23], &s143, &c143);
     const double t145 = t104 * t138;
     const double t146 = MW_FMA(t37, t139, t136);
     const double t147 = c6 * t139;
@@ -710,7 +721,7 @@ static inline int cylindrical_worm_zn_zk_setup(const double *p, double *s)
     const double t178 = t169 * c15;
     const double t179 = t59 * c6;
     double s180, c180;
-    cylindrical_worm_zn_zk_sincos(t172, &s180, &c180);
+    cylindrical_worm_zn_zk_seldom_sincos(t172, &s180, &c180);
     const double t182 = (-1.0) + t165;
     const double t183 = t48 * t173;
     const double t184 = t25 * t174;

@@ -165,6 +165,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -228,6 +233,12 @@ MW_INLINE void cylindrical_worm_zn_zn_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void cylindrical_worm_zn_zn_seldom_sincos(double a, double *sine, double *cosine)
+{
+    cylindrical_worm_zn_zn_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -309,19 +320,19 @@ static inline void cylindrical_worm_zn_zn_derive(double *p)
     }
     if (p[1] != p[1]) { /* m_n */
         double s0, c0;
-        cylindrical_worm_zn_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[2] * c0;
         p[1] = t1;
     }
     if (p[2] != p[2]) { /* m_x */
         double s0, c0;
-        cylindrical_worm_zn_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] / c0;
         p[2] = t1;
     }
     if (p[6] != p[6]) { /* r_worm */
         double s0, c0;
-        cylindrical_worm_zn_zn_sincos(p[5], &s0, &c0);
+        cylindrical_worm_zn_zn_seldom_sincos(p[5], &s0, &c0);
         const double t1 = p[1] * 0.5;
         const double t2 = p[3] * t1;
         const double t3 = t2 / s0;
@@ -357,7 +368,7 @@ static inline void cylindrical_worm_zn_zn_derive(double *p)
         const double t0 = p[5] + p[8];
         const double t1 = p[1] * 0.5;
         double s2, c2;
-        cylindrical_worm_zn_zn_sincos(t0, &s2, &c2);
+        cylindrical_worm_zn_zn_seldom_sincos(t0, &s2, &c2);
         const double t3 = p[4] * t1;
         const double t4 = t3 / s2;
         const double t5 = p[6] + t4;
@@ -378,7 +389,7 @@ static inline void cylindrical_worm_zn_zn_derive(double *p)
         const double t1 = p[1] * 0.5;
         const double t2 = MW_FMS(p[1], 2.0, p[9]);
         double s3, c3;
-        cylindrical_worm_zn_zn_sincos(t0, &s3, &c3);
+        cylindrical_worm_zn_zn_seldom_sincos(t0, &s3, &c3);
         const double t4 = p[4] * t1;
         const double t5 = t4 / s3;
         const double t6 = t5 + t2;
@@ -396,14 +407,14 @@ static inline void cylindrical_worm_zn_zn_derive(double *p)
 static inline void cylindrical_worm_zn_zn_size(const double *p, double *d)
 {
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(p[5], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(p[5], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zn_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zn_zn_seldom_sincos(p[17], &s2, &c2);
     const double t4 = p[5] + p[8];
     double s5, c5;
-    cylindrical_worm_zn_zn_sincos(p[7], &s5, &c5);
+    cylindrical_worm_zn_zn_seldom_sincos(p[7], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_zn_sincos(t4, &s7, &c7);
+    cylindrical_worm_zn_zn_seldom_sincos(t4, &s7, &c7);
     const double t8 = p[1] * 0.5;
     const double t9 = 3.141592653589793 / 2.0;
     const double t10 = p[3] / p[4];
@@ -441,25 +452,25 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
         const double t1 = p[1] * p[1];
         const double t2 = p[4] * p[4];
         double s3, c3;
-        cylindrical_worm_zn_zn_sincos(p[7], &s3, &c3);
+        cylindrical_worm_zn_zn_seldom_sincos(p[7], &s3, &c3);
         const double t5 = 1.0 + t0;
         const double t6 = t1 + t5;
         const double t7 = p[6] * p[6];
         const double t8 = p[10] * p[10];
         const double t9 = p[11] * p[11];
         double s10, c10;
-        cylindrical_worm_zn_zn_sincos(p[5], &s10, &c10);
+        cylindrical_worm_zn_zn_seldom_sincos(p[5], &s10, &c10);
         const double t12 = MW_FMA(p[3], p[3], t6);
         double s13, c13;
-        cylindrical_worm_zn_zn_sincos(p[17], &s13, &c13);
+        cylindrical_worm_zn_zn_seldom_sincos(p[17], &s13, &c13);
         const double t15 = t2 + t12;
         double s16, c16;
-        cylindrical_worm_zn_zn_sincos(p[14], &s16, &c16);
+        cylindrical_worm_zn_zn_seldom_sincos(p[14], &s16, &c16);
         const double t18 = MW_FMA(p[5], p[5], t15);
         const double t19 = t7 + t18;
         const double t20 = MW_FMA(p[7], p[7], t19);
         double s21, c21;
-        cylindrical_worm_zn_zn_sincos(p[20], &s21, &c21);
+        cylindrical_worm_zn_zn_seldom_sincos(p[20], &s21, &c21);
         const double t23 = MW_FMA(p[8], p[8], t20);
         const double t24 = MW_FMA(p[9], p[9], t23);
         const double t25 = s3 / c3;
@@ -527,13 +538,13 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
         if (!(t54 > 0.0)) failed = 1;
     }
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(p[7], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zn_sincos(p[14], &s2, &c2);
+    cylindrical_worm_zn_zn_seldom_sincos(p[14], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_zn_sincos(p[17], &s4, &c4);
+    cylindrical_worm_zn_zn_seldom_sincos(p[17], &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zn_zn_sincos(p[20], &s6, &c6);
+    cylindrical_worm_zn_zn_seldom_sincos(p[20], &s6, &c6);
     const double t8 = s0 / c0;
     const double t9 = p[1] * 1.5707963267948966;
     const double t10 = p[9] * (-2.0);
@@ -543,7 +554,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t14 = p[10] * (-4.0);
     const double t15 = p[11] * p[19];
     double s16, c16;
-    cylindrical_worm_zn_zn_sincos(p[5], &s16, &c16);
+    cylindrical_worm_zn_zn_seldom_sincos(p[5], &s16, &c16);
     const double t18 = p[10] * c2;
     const double t19 = p[11] * t14;
     const double t20 = s2 / c2;
@@ -665,7 +676,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t136 = t129 - t130;
     const double t137 = t95 + t111;
     double s138, c138;
-    cylindrical_worm_zn_zn_sincos(t67, &s138, &c138);
+    cylindrical_worm_zn_zn_seldom_sincos(t67, &s138, &c138);
     const double t140 = t123 * t134;
     const double t141 = MW_FMA(t76, t121, t135);
     const double t142 = t136 - t131;
@@ -679,7 +690,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t150 = t123 * t142;
     const double t151 = s6 * s6;
     double s152, c152;
-    cylindrical_worm_zn_zn_sincos(p[23], &s152, &c152);
+    cylindrical_worm_zn_zn_seldom_sincos(p[23], &s152, &c152);
     const double t154 = t123 * t149;
     const double t155 = t117 - t133;
     const double t156 = t117 + t133;
@@ -694,7 +705,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t165 = MW_FMA(t79, t148, t144);
     const double t166 = t147 * t151;
     double s167, c167;
-    cylindrical_worm_zn_zn_sincos(t159, &s167, &c167);
+    cylindrical_worm_zn_zn_seldom_sincos(t159, &s167, &c167);
     const double t169 = t160 / t79;
     const double t170 = t161 / t79;
     const double t171 = t124 * t162;

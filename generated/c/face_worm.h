@@ -150,6 +150,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -213,6 +218,12 @@ MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
+{
+    face_worm_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -287,9 +298,9 @@ static inline void face_worm_derive(double *p)
     }
     if (p[19] != p[19]) { /* theta_0 */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        face_worm_sincos(p[10], &s2, &c2);
+        face_worm_seldom_sincos(p[10], &s2, &c2);
         const double t4 = p[0] * 0.5;
         const double t5 = p[1] * (-0.5);
         const double t6 = p[0] * (-0.25);
@@ -360,7 +371,7 @@ static inline void face_worm_derive(double *p)
     }
     if (p[27] != p[27]) { /* A1_x */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[24];
         const double t3 = p[19] + p[23];
         const double t4 = p[1] * 0.5;
@@ -369,11 +380,11 @@ static inline void face_worm_derive(double *p)
         const double t7 = p[24] + t3;
         const double t8 = p[3] * t4;
         double s9, c9;
-        face_worm_sincos(t7, &s9, &c9);
+        face_worm_seldom_sincos(t7, &s9, &c9);
         const double t10 = p[23] * t8;
         const double t11 = p[5] + t10;
         double s12, c12;
-        face_worm_sincos(t6, &s12, &c12);
+        face_worm_seldom_sincos(t6, &s12, &c12);
         const double t14 = s0 / c0;
         const double t15 = MW_FMA(t14, t10, t5);
         const double t16 = MW_FMA(t15, s9, p[4]);
@@ -383,7 +394,7 @@ static inline void face_worm_derive(double *p)
     }
     if (p[28] != p[28]) { /* A1_y */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[24];
         const double t3 = p[19] + p[23];
         const double t4 = p[1] * 0.5;
@@ -392,11 +403,11 @@ static inline void face_worm_derive(double *p)
         const double t7 = p[24] + t3;
         const double t8 = p[3] * t4;
         double s9, c9;
-        face_worm_sincos(t7, &s9, &c9);
+        face_worm_seldom_sincos(t7, &s9, &c9);
         const double t10 = p[23] * t8;
         const double t11 = p[5] + t10;
         double s12, c12;
-        face_worm_sincos(t6, &s12, &c12);
+        face_worm_seldom_sincos(t6, &s12, &c12);
         const double t14 = s0 / c0;
         const double t15 = MW_FMA(t14, t10, t5);
         const double t16 = MW_FMA(t15, s9, p[4]);
@@ -406,14 +417,14 @@ static inline void face_worm_derive(double *p)
     }
     if (p[29] != p[29]) { /* A1_z */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[19] + p[23];
         const double t3 = p[1] * 0.5;
         const double t4 = p[6] * 0.5;
         const double t5 = p[24] + t2;
         const double t6 = p[3] * t3;
         double s7, c7;
-        face_worm_sincos(t5, &s7, &c7);
+        face_worm_seldom_sincos(t5, &s7, &c7);
         const double t8 = p[23] * t6;
         const double t9 = s0 / c0;
         const double t10 = MW_FMA(t9, t8, t4);
@@ -423,10 +434,10 @@ static inline void face_worm_derive(double *p)
     }
     if (p[30] != p[30]) { /* P_x */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[22];
         double s3, c3;
-        face_worm_sincos(p[10], &s3, &c3);
+        face_worm_seldom_sincos(p[10], &s3, &c3);
         const double t5 = t2 / p[2];
         const double t6 = p[19] + p[21];
         const double t7 = p[22] + t6;
@@ -434,10 +445,10 @@ static inline void face_worm_derive(double *p)
         const double t9 = p[6] * 0.5;
         const double t10 = p[0] * p[20];
         double s11, c11;
-        face_worm_sincos(t7, &s11, &c11);
+        face_worm_seldom_sincos(t7, &s11, &c11);
         const double t12 = p[3] * t8;
         double s13, c13;
-        face_worm_sincos(t5, &s13, &c13);
+        face_worm_seldom_sincos(t5, &s13, &c13);
         const double t15 = s0 / c0;
         const double t16 = p[21] * t12;
         const double t17 = p[5] + t16;
@@ -451,10 +462,10 @@ static inline void face_worm_derive(double *p)
     }
     if (p[31] != p[31]) { /* P_y */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[22];
         double s3, c3;
-        face_worm_sincos(p[10], &s3, &c3);
+        face_worm_seldom_sincos(p[10], &s3, &c3);
         const double t5 = t2 / p[2];
         const double t6 = p[19] + p[21];
         const double t7 = p[22] + t6;
@@ -462,10 +473,10 @@ static inline void face_worm_derive(double *p)
         const double t9 = p[6] * 0.5;
         const double t10 = p[0] * p[20];
         double s11, c11;
-        face_worm_sincos(t7, &s11, &c11);
+        face_worm_seldom_sincos(t7, &s11, &c11);
         const double t12 = p[3] * t8;
         double s13, c13;
-        face_worm_sincos(t5, &s13, &c13);
+        face_worm_seldom_sincos(t5, &s13, &c13);
         const double t15 = s0 / c0;
         const double t16 = p[21] * t12;
         const double t17 = p[5] + t16;
@@ -479,16 +490,16 @@ static inline void face_worm_derive(double *p)
     }
     if (p[32] != p[32]) { /* P_z */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         double s2, c2;
-        face_worm_sincos(p[10], &s2, &c2);
+        face_worm_seldom_sincos(p[10], &s2, &c2);
         const double t3 = p[19] + p[21];
         const double t4 = p[1] * 0.5;
         const double t5 = p[6] * 0.5;
         const double t6 = p[22] + t3;
         const double t7 = p[3] * t4;
         double s8, c8;
-        face_worm_sincos(t6, &s8, &c8);
+        face_worm_seldom_sincos(t6, &s8, &c8);
         const double t9 = p[21] * t7;
         const double t10 = s0 / c0;
         const double t11 = MW_FMA(p[20], c2, t5);
@@ -499,7 +510,7 @@ static inline void face_worm_derive(double *p)
     }
     if (p[33] != p[33]) { /* A2_x */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[26];
         const double t3 = p[19] + p[25];
         const double t4 = p[1] * 0.5;
@@ -508,11 +519,11 @@ static inline void face_worm_derive(double *p)
         const double t7 = p[26] + t3;
         const double t8 = p[3] * t4;
         double s9, c9;
-        face_worm_sincos(t7, &s9, &c9);
+        face_worm_seldom_sincos(t7, &s9, &c9);
         const double t10 = p[25] * t8;
         const double t11 = p[5] + t10;
         double s12, c12;
-        face_worm_sincos(t6, &s12, &c12);
+        face_worm_seldom_sincos(t6, &s12, &c12);
         const double t14 = s0 / c0;
         const double t15 = MW_FMA(t14, t10, t5);
         const double t16 = MW_FMA(t15, s9, p[4]);
@@ -522,7 +533,7 @@ static inline void face_worm_derive(double *p)
     }
     if (p[34] != p[34]) { /* A2_y */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[26];
         const double t3 = p[19] + p[25];
         const double t4 = p[1] * 0.5;
@@ -531,11 +542,11 @@ static inline void face_worm_derive(double *p)
         const double t7 = p[26] + t3;
         const double t8 = p[3] * t4;
         double s9, c9;
-        face_worm_sincos(t7, &s9, &c9);
+        face_worm_seldom_sincos(t7, &s9, &c9);
         const double t10 = p[25] * t8;
         const double t11 = p[5] + t10;
         double s12, c12;
-        face_worm_sincos(t6, &s12, &c12);
+        face_worm_seldom_sincos(t6, &s12, &c12);
         const double t14 = s0 / c0;
         const double t15 = MW_FMA(t14, t10, t5);
         const double t16 = MW_FMA(t15, s9, p[4]);
@@ -545,14 +556,14 @@ static inline void face_worm_derive(double *p)
     }
     if (p[35] != p[35]) { /* A2_z */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[19] + p[25];
         const double t3 = p[1] * 0.5;
         const double t4 = p[6] * 0.5;
         const double t5 = p[26] + t2;
         const double t6 = p[3] * t3;
         double s7, c7;
-        face_worm_sincos(t5, &s7, &c7);
+        face_worm_seldom_sincos(t5, &s7, &c7);
         const double t8 = p[25] * t6;
         const double t9 = s0 / c0;
         const double t10 = MW_FMA(t9, t8, t4);
@@ -568,7 +579,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[35] - p[32];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t3 * t3;
         const double t10 = t1 * t4;
@@ -632,7 +643,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[33] - p[30];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t1 * t1;
         const double t10 = t3 * t2;
@@ -696,7 +707,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[28] - p[31];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t2 * t3;
         const double t10 = t4 * t4;
@@ -952,7 +963,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[33] - p[30];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t2 * t3;
         const double t10 = t1 * t1;
@@ -1016,7 +1027,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[28] - p[31];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t2 * t3;
         const double t10 = t4 * t4;
@@ -1080,7 +1091,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[35] - p[32];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[15], &s6, &c6);
+        face_worm_seldom_sincos(p[15], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t4 * t1;
         const double t10 = t2 * t2;
@@ -1137,10 +1148,10 @@ static inline void face_worm_derive(double *p)
     }
     if (p[16] != p[16]) { /* alpha_g */
         double s0, c0;
-        face_worm_sincos(p[7], &s0, &c0);
+        face_worm_seldom_sincos(p[7], &s0, &c0);
         const double t2 = p[1] * p[22];
         double s3, c3;
-        face_worm_sincos(p[10], &s3, &c3);
+        face_worm_seldom_sincos(p[10], &s3, &c3);
         const double t5 = t2 / p[2];
         const double t6 = p[19] + p[21];
         const double t7 = p[0] * 0.5;
@@ -1153,9 +1164,9 @@ static inline void face_worm_derive(double *p)
         const double t14 = p[3] * t8;
         const double t15 = p[3] * t9;
         double s16, c16;
-        face_worm_sincos(t12, &s16, &c16);
+        face_worm_seldom_sincos(t12, &s16, &c16);
         double s18, c18;
-        face_worm_sincos(t5, &s18, &c18);
+        face_worm_seldom_sincos(t5, &s18, &c18);
         const double t20 = s0 / c0;
         const double t21 = p[3] * t13;
         const double t22 = p[21] * t14;
@@ -1203,7 +1214,7 @@ static inline void face_worm_derive(double *p)
         const double t4 = p[28] - p[31];
         const double t5 = p[29] - p[32];
         double s6, c6;
-        face_worm_sincos(p[7], &s6, &c6);
+        face_worm_seldom_sincos(p[7], &s6, &c6);
         const double t8 = t0 * t0;
         const double t9 = t2 * t3;
         const double t10 = t4 * t4;
@@ -1216,7 +1227,7 @@ static inline void face_worm_derive(double *p)
         const double t17 = MW_FMS(t4, t2, t12);
         const double t18 = p[1] * p[22];
         double s19, c19;
-        face_worm_sincos(p[10], &s19, &c19);
+        face_worm_seldom_sincos(p[10], &s19, &c19);
         const double t21 = MW_FMA(t2, t2, t13);
         const double t22 = MW_FMA(t5, t5, t15);
         const double t23 = t14 * t14;
@@ -1247,13 +1258,13 @@ static inline void face_worm_derive(double *p)
         const double t48 = MW_FMS(t16, t34, t40);
         const double t49 = MW_FMS(t14, t31, t41);
         double s50, c50;
-        face_worm_sincos(t42, &s50, &c50);
+        face_worm_seldom_sincos(t42, &s50, &c50);
         const double t52 = t46 / t39;
         const double t53 = t48 / t39;
         const double t54 = t49 / t39;
         const double t55 = sqrt(t43);
         double s56, c56;
-        face_worm_sincos(t26, &s56, &c56);
+        face_worm_seldom_sincos(t26, &s56, &c56);
         const double t58 = p[31] + t52;
         const double t59 = p[30] + t53;
         const double t60 = p[32] + t54;
@@ -1380,10 +1391,10 @@ static inline void face_worm_pitch_point_scale(const double *q, double *y)
 static inline void face_worm_pitch_point_eval(const double *q, const double *y, double *R, double *J)
 {
     double s0, c0;
-    face_worm_sincos(q[7], &s0, &c0);
+    face_worm_seldom_sincos(q[7], &s0, &c0);
     const double t2 = 1.0 / q[2];
     double s3, c3;
-    face_worm_sincos(q[10], &s3, &c3);
+    face_worm_seldom_sincos(q[10], &s3, &c3);
     const double t5 = y[1] + q[19];
     const double t6 = q[6] * (-0.5);
     const double t7 = q[6] * 0.5;
@@ -1397,10 +1408,10 @@ static inline void face_worm_pitch_point_eval(const double *q, const double *y, 
     const double t15 = q[1] * t2;
     const double t16 = t12 * q[3];
     double s17, c17;
-    face_worm_sincos(t13, &s17, &c17);
+    face_worm_seldom_sincos(t13, &s17, &c17);
     const double t19 = y[2] * t15;
     double s20, c20;
-    face_worm_sincos(t19, &s20, &c20);
+    face_worm_seldom_sincos(t19, &s20, &c20);
     const double t22 = s0 / c0;
     const double t23 = q[0] * s3;
     const double t24 = s3 * t11;
@@ -1578,19 +1589,19 @@ static inline void face_worm_inner_point_eval(const double *q, const double *y, 
 {
     const double t0 = 1.0 / q[2];
     double s1, c1;
-    face_worm_sincos(q[7], &s1, &c1);
+    face_worm_seldom_sincos(q[7], &s1, &c1);
     const double t3 = y[0] + q[19];
     double s4, c4;
-    face_worm_sincos(q[19], &s4, &c4);
+    face_worm_seldom_sincos(q[19], &s4, &c4);
     const double t5 = q[1] * t0;
     const double t6 = y[1] + t3;
     double s7, c7;
-    face_worm_sincos(q[10], &s7, &c7);
+    face_worm_seldom_sincos(q[10], &s7, &c7);
     const double t9 = y[1] * t5;
     double s10, c10;
-    face_worm_sincos(t6, &s10, &c10);
+    face_worm_seldom_sincos(t6, &s10, &c10);
     double s12, c12;
-    face_worm_sincos(t9, &s12, &c12);
+    face_worm_seldom_sincos(t9, &s12, &c12);
     const double t14 = s1 / c1;
     const double t15 = 0.5 * q[1];
     const double t16 = q[6] * 0.5;
@@ -1691,22 +1702,22 @@ if (J == NULL) return;
 static inline double face_worm_inner_point_watch(const double *q, const double *y)
 {
     double s0, c0;
-    face_worm_sincos(q[7], &s0, &c0);
+    face_worm_seldom_sincos(q[7], &s0, &c0);
     const double t2 = 1.0 / q[2];
     double s3, c3;
-    face_worm_sincos(q[10], &s3, &c3);
+    face_worm_seldom_sincos(q[10], &s3, &c3);
     const double t5 = y[0] + q[19];
     const double t6 = y[1] + t5;
     const double t7 = 0.5 * q[1];
     const double t8 = q[6] * 0.5;
     const double t9 = q[0] * q[0];
     double s10, c10;
-    face_worm_sincos(t6, &s10, &c10);
+    face_worm_seldom_sincos(t6, &s10, &c10);
     const double t12 = q[1] * t2;
     const double t13 = y[1] * t12;
     const double t14 = q[3] * t7;
     double s15, c15;
-    face_worm_sincos(t13, &s15, &c15);
+    face_worm_seldom_sincos(t13, &s15, &c15);
     const double t17 = s0 / c0;
     const double t18 = c3 * (-0.5);
     const double t19 = c3 * q[1];
@@ -1847,19 +1858,19 @@ static inline void face_worm_outer_point_eval(const double *q, const double *y, 
 {
     const double t0 = 1.0 / q[2];
     double s1, c1;
-    face_worm_sincos(q[7], &s1, &c1);
+    face_worm_seldom_sincos(q[7], &s1, &c1);
     const double t3 = y[0] + q[19];
     double s4, c4;
-    face_worm_sincos(q[19], &s4, &c4);
+    face_worm_seldom_sincos(q[19], &s4, &c4);
     const double t5 = q[1] * t0;
     const double t6 = y[1] + t3;
     double s7, c7;
-    face_worm_sincos(q[10], &s7, &c7);
+    face_worm_seldom_sincos(q[10], &s7, &c7);
     const double t9 = y[1] * t5;
     double s10, c10;
-    face_worm_sincos(t6, &s10, &c10);
+    face_worm_seldom_sincos(t6, &s10, &c10);
     double s12, c12;
-    face_worm_sincos(t9, &s12, &c12);
+    face_worm_seldom_sincos(t9, &s12, &c12);
     const double t14 = s1 / c1;
     const double t15 = 0.5 * q[1];
     const double t16 = q[6] * 0.5;
@@ -1960,22 +1971,22 @@ if (J == NULL) return;
 static inline double face_worm_outer_point_watch(const double *q, const double *y)
 {
     double s0, c0;
-    face_worm_sincos(q[7], &s0, &c0);
+    face_worm_seldom_sincos(q[7], &s0, &c0);
     const double t2 = 1.0 / q[2];
     double s3, c3;
-    face_worm_sincos(q[10], &s3, &c3);
+    face_worm_seldom_sincos(q[10], &s3, &c3);
     const double t5 = y[0] + q[19];
     const double t6 = y[1] + t5;
     const double t7 = 0.5 * q[1];
     const double t8 = q[6] * 0.5;
     const double t9 = q[0] * q[0];
     double s10, c10;
-    face_worm_sincos(t6, &s10, &c10);
+    face_worm_seldom_sincos(t6, &s10, &c10);
     const double t12 = q[1] * t2;
     const double t13 = y[1] * t12;
     const double t14 = q[3] * t7;
     double s15, c15;
-    face_worm_sincos(t13, &s15, &c15);
+    face_worm_seldom_sincos(t13, &s15, &c15);
     const double t17 = s0 / c0;
     const double t18 = c3 * (-0.5);
     const double t19 = c3 * q[1];
@@ -2102,7 +2113,7 @@ static inline void face_worm_size(const double *p, double *d)
     const double t0 = 1.0 - p[44];
     const double t1 = p[44] + 1.0;
     double s2, c2;
-    face_worm_sincos(p[16], &s2, &c2);
+    face_worm_seldom_sincos(p[16], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = 3.141592653589793 / 2.0;
@@ -2141,7 +2152,7 @@ static inline int face_worm_setup(const double *p, double *s)
         const double t8 = MW_FMA(p[1], p[1], t0);
         const double t9 = p[35] - p[32];
         double s10, c10;
-        face_worm_sincos(p[16], &s10, &c10);
+        face_worm_seldom_sincos(p[16], &s10, &c10);
         const double t12 = t1 + t8;
         const double t13 = t3 * t3;
         const double t14 = t4 * t4;
@@ -2227,17 +2238,17 @@ static inline int face_worm_setup(const double *p, double *s)
         if (!(t27 > 0.0)) failed = 1;
     }
     double s0, c0;
-    face_worm_sincos(p[16], &s0, &c0);
+    face_worm_seldom_sincos(p[16], &s0, &c0);
     double s2, c2;
-    face_worm_sincos(p[7], &s2, &c2);
+    face_worm_seldom_sincos(p[7], &s2, &c2);
     const double t4 = p[2] * 2.0;
     const double t5 = 1.0 / p[2];
     const double t6 = p[50] * 0.5;
     double s7, c7;
-    face_worm_sincos(p[10], &s7, &c7);
+    face_worm_seldom_sincos(p[10], &s7, &c7);
     const double t9 = 1.0 / t4;
     double s10, c10;
-    face_worm_sincos(t6, &s10, &c10);
+    face_worm_seldom_sincos(t6, &s10, &c10);
     const double t12 = p[0] * 2.0;
     const double t13 = p[4] - p[46];
     const double t14 = MW_FMA(p[14], p[37], p[46]);
@@ -2278,7 +2289,7 @@ static inline int face_worm_setup(const double *p, double *s)
     const double t49 = c0 * t24;
     const double t50 = t16 + t27;
     double s51, c51;
-    face_worm_sincos(p[50], &s51, &c51);
+    face_worm_seldom_sincos(p[50], &s51, &c51);
     const double t53 = t31 * t33;
     const double t54 = t36 * t26;
     const double t55 = t37 * t25;

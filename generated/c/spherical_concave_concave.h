@@ -145,6 +145,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -208,6 +213,12 @@ MW_INLINE void spherical_concave_concave_sincos(double a, double *sine, double *
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void spherical_concave_concave_seldom_sincos(double a, double *sine, double *cosine)
+{
+    spherical_concave_concave_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -278,7 +289,7 @@ static inline void spherical_concave_concave_derive(double *p)
     }
     if (p[11] != p[11]) { /* rho_pinion */
         double s0, c0;
-        spherical_concave_concave_sincos(p[2], &s0, &c0);
+        spherical_concave_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[10]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -309,7 +320,7 @@ static inline void spherical_concave_concave_derive(double *p)
     }
     if (p[18] != p[18]) { /* rho_wheel */
         double s0, c0;
-        spherical_concave_concave_sincos(p[2], &s0, &c0);
+        spherical_concave_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[17]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -335,7 +346,7 @@ static inline void spherical_concave_concave_derive(double *p)
 static inline void spherical_concave_concave_size(const double *p, double *d)
 {
     double s0, c0;
-    spherical_concave_concave_sincos(p[2], &s0, &c0);
+    spherical_concave_concave_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[1] * 0.5;
     const double t3 = p[0] * p[0];
     const double t4 = p[0] * (-0.5);
@@ -387,9 +398,9 @@ static inline void spherical_concave_concave_size(const double *p, double *d)
     const double t50 = MW_FMA(p[0], t38, t46);
     const double t51 = MW_FMA(p[0], t39, t47);
     double s52, c52;
-    spherical_concave_concave_sincos(t48, &s52, &c52);
+    spherical_concave_concave_seldom_sincos(t48, &s52, &c52);
     double s54, c54;
-    spherical_concave_concave_sincos(t49, &s54, &c54);
+    spherical_concave_concave_seldom_sincos(t49, &s54, &c54);
     const double t56 = t16 * s52;
     const double t57 = t50 * s52;
     const double t58 = t17 * s54;
@@ -430,7 +441,7 @@ static inline int spherical_concave_concave_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        spherical_concave_concave_sincos(p[2], &s0, &c0);
+        spherical_concave_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = p[0] * p[0];
         const double t3 = p[1] * p[1];
         const double t4 = p[6] * p[6];
@@ -506,7 +517,7 @@ static inline int spherical_concave_concave_setup(const double *p, double *s)
         if (!(t21 > 0.0)) failed = 1;
     }
     double s0, c0;
-    spherical_concave_concave_sincos(p[2], &s0, &c0);
+    spherical_concave_concave_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[0] * p[0];
     const double t3 = p[1] * p[13];
     const double t4 = p[1] * p[6];
@@ -515,7 +526,7 @@ static inline int spherical_concave_concave_setup(const double *p, double *s)
     const double t7 = p[1] * p[7];
     const double t8 = p[1] * p[14];
     double s9, c9;
-    spherical_concave_concave_sincos(p[22], &s9, &c9);
+    spherical_concave_concave_seldom_sincos(p[22], &s9, &c9);
     const double t11 = t2 * t3;
     const double t12 = t4 * t2;
     const double t13 = p[1] * t5;
@@ -528,7 +539,7 @@ static inline int spherical_concave_concave_setup(const double *p, double *s)
     const double t20 = p[6] * t13;
     const double t21 = p[1] * (-0.5);
     double s22, c22;
-    spherical_concave_concave_sincos(p[21], &s22, &c22);
+    spherical_concave_concave_seldom_sincos(p[21], &s22, &c22);
     const double t24 = p[9] / c0;
     const double t25 = p[16] / c0;
     const double t26 = p[0] * c0;
@@ -592,9 +603,9 @@ static inline int spherical_concave_concave_setup(const double *p, double *s)
     const double t84 = t49 / c0;
     const double t85 = p[6] / p[13];
     double s86, c86;
-    spherical_concave_concave_sincos(t80, &s86, &c86);
+    spherical_concave_concave_seldom_sincos(t80, &s86, &c86);
     double s88, c88;
-    spherical_concave_concave_sincos(t82, &s88, &c88);
+    spherical_concave_concave_seldom_sincos(t82, &s88, &c88);
     const double t90 = MW_FMS(t35, t81, t36);
     const double t91 = MW_FMA(t35, t80, t75);
     const double t92 = MW_FMA(t29, t82, t78);

@@ -145,6 +145,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -208,6 +213,12 @@ MW_INLINE void spherical_spur_concave_sincos(double a, double *sine, double *cos
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void spherical_spur_concave_seldom_sincos(double a, double *sine, double *cosine)
+{
+    spherical_spur_concave_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -278,7 +289,7 @@ static inline void spherical_spur_concave_derive(double *p)
     }
     if (p[11] != p[11]) { /* rho_pinion */
         double s0, c0;
-        spherical_spur_concave_sincos(p[2], &s0, &c0);
+        spherical_spur_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[10]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -309,7 +320,7 @@ static inline void spherical_spur_concave_derive(double *p)
     }
     if (p[18] != p[18]) { /* rho_wheel */
         double s0, c0;
-        spherical_spur_concave_sincos(p[2], &s0, &c0);
+        spherical_spur_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[17]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -335,7 +346,7 @@ static inline void spherical_spur_concave_derive(double *p)
 static inline void spherical_spur_concave_size(const double *p, double *d)
 {
     double s0, c0;
-    spherical_spur_concave_sincos(p[2], &s0, &c0);
+    spherical_spur_concave_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[1] * 0.5;
     const double t3 = p[0] * p[0];
     const double t4 = p[0] * (-0.5);
@@ -387,9 +398,9 @@ static inline void spherical_spur_concave_size(const double *p, double *d)
     const double t50 = MW_FMA(p[0], t38, t46);
     const double t51 = MW_FMA(p[0], t39, t47);
     double s52, c52;
-    spherical_spur_concave_sincos(t48, &s52, &c52);
+    spherical_spur_concave_seldom_sincos(t48, &s52, &c52);
     double s54, c54;
-    spherical_spur_concave_sincos(t49, &s54, &c54);
+    spherical_spur_concave_seldom_sincos(t49, &s54, &c54);
     const double t56 = t16 * s52;
     const double t57 = t50 * s52;
     const double t58 = t17 * s54;
@@ -430,7 +441,7 @@ static inline int spherical_spur_concave_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        spherical_spur_concave_sincos(p[2], &s0, &c0);
+        spherical_spur_concave_seldom_sincos(p[2], &s0, &c0);
         const double t2 = p[0] * p[0];
         const double t3 = p[1] * p[1];
         const double t4 = p[6] * p[6];
@@ -494,7 +505,7 @@ static inline int spherical_spur_concave_setup(const double *p, double *s)
         if (!(t17 > 0.0)) failed = 1;
     }
     double s0, c0;
-    spherical_spur_concave_sincos(p[2], &s0, &c0);
+    spherical_spur_concave_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[0] * p[0];
     const double t3 = p[1] * p[13];
     const double t4 = p[1] * p[6];
@@ -502,7 +513,7 @@ static inline int spherical_spur_concave_setup(const double *p, double *s)
     const double t6 = p[1] * 0.5;
     const double t7 = p[1] * p[14];
     double s8, c8;
-    spherical_spur_concave_sincos(p[22], &s8, &c8);
+    spherical_spur_concave_seldom_sincos(p[22], &s8, &c8);
     const double t10 = t2 * t3;
     const double t11 = t4 * t2;
     const double t12 = p[1] * t5;
@@ -511,7 +522,7 @@ static inline int spherical_spur_concave_setup(const double *p, double *s)
     const double t15 = MW_FMS(p[6], t6, p[9]);
     const double t16 = sqrt(t7);
     double s17, c17;
-    spherical_spur_concave_sincos(p[21], &s17, &c17);
+    spherical_spur_concave_seldom_sincos(p[21], &s17, &c17);
     const double t19 = p[13] * t12;
     const double t20 = p[6] * t12;
     const double t21 = p[1] * (-0.5);
@@ -583,9 +594,9 @@ static inline int spherical_spur_concave_setup(const double *p, double *s)
     const double t87 = t28 - p[20];
     const double t88 = c8 * t36;
     double s89, c89;
-    spherical_spur_concave_sincos(t81, &s89, &c89);
+    spherical_spur_concave_seldom_sincos(t81, &s89, &c89);
     double s91, c91;
-    spherical_spur_concave_sincos(t82, &s91, &c91);
+    spherical_spur_concave_seldom_sincos(t82, &s91, &c91);
     const double t93 = MW_FMA(t27, t81, t77);
     const double t94 = p[1] * t86;
     const double t95 = MW_FMA(p[6], t6, p[20]);

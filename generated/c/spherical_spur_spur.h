@@ -144,6 +144,11 @@ typedef struct mw_model {
 #else
 #define MW_INLINE static inline
 #endif
+#ifdef __GNUC__
+#define MW_CALLED static __attribute__((noinline))
+#else
+#define MW_CALLED static
+#endif
 #endif
 
 /* A product added to a number, less a number, and subtracted from a number. The same bits on every machine; rounded
@@ -207,6 +212,12 @@ MW_INLINE void spherical_spur_spur_sincos(double a, double *sine, double *cosine
     c.bits ^= exchanged ^ (((quadrant + 1) & 2) << 62);
     *sine = s.number;
     *cosine = c.number;
+}
+
+/* The same, called instead of written out in place, for what is computed once for a design. */
+MW_CALLED void spherical_spur_spur_seldom_sincos(double a, double *sine, double *cosine)
+{
+    spherical_spur_spur_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
@@ -277,7 +288,7 @@ static inline void spherical_spur_spur_derive(double *p)
     }
     if (p[11] != p[11]) { /* rho_pinion */
         double s0, c0;
-        spherical_spur_spur_sincos(p[2], &s0, &c0);
+        spherical_spur_spur_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[10]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -308,7 +319,7 @@ static inline void spherical_spur_spur_derive(double *p)
     }
     if (p[18] != p[18]) { /* rho_wheel */
         double s0, c0;
-        spherical_spur_spur_sincos(p[2], &s0, &c0);
+        spherical_spur_spur_seldom_sincos(p[2], &s0, &c0);
         const double t2 = MW_FMS(p[1], 1.5707963267948966, p[17]);
         const double t3 = p[1] * 0.19;
         const double t4 = s0 / c0;
@@ -334,7 +345,7 @@ static inline void spherical_spur_spur_derive(double *p)
 static inline void spherical_spur_spur_size(const double *p, double *d)
 {
     double s0, c0;
-    spherical_spur_spur_sincos(p[2], &s0, &c0);
+    spherical_spur_spur_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[1] * 0.5;
     const double t3 = p[0] * p[0];
     const double t4 = p[0] * (-0.5);
@@ -386,9 +397,9 @@ static inline void spherical_spur_spur_size(const double *p, double *d)
     const double t50 = MW_FMA(p[0], t38, t46);
     const double t51 = MW_FMA(p[0], t39, t47);
     double s52, c52;
-    spherical_spur_spur_sincos(t48, &s52, &c52);
+    spherical_spur_spur_seldom_sincos(t48, &s52, &c52);
     double s54, c54;
-    spherical_spur_spur_sincos(t49, &s54, &c54);
+    spherical_spur_spur_seldom_sincos(t49, &s54, &c54);
     const double t56 = t16 * s52;
     const double t57 = t50 * s52;
     const double t58 = t17 * s54;
@@ -429,7 +440,7 @@ static inline int spherical_spur_spur_setup(const double *p, double *s)
     int failed = 0;
     {
         double s0, c0;
-        spherical_spur_spur_sincos(p[2], &s0, &c0);
+        spherical_spur_spur_seldom_sincos(p[2], &s0, &c0);
         const double t2 = p[0] * p[0];
         const double t3 = p[1] * p[1];
         const double t4 = p[6] * p[6];
@@ -484,14 +495,14 @@ static inline int spherical_spur_spur_setup(const double *p, double *s)
         if (!(t13 > 0.0)) failed = 1;
     }
     double s0, c0;
-    spherical_spur_spur_sincos(p[2], &s0, &c0);
+    spherical_spur_spur_seldom_sincos(p[2], &s0, &c0);
     const double t2 = p[0] * p[0];
     const double t3 = p[1] * p[13];
     const double t4 = p[1] * p[6];
     const double t5 = p[0] * (-0.5);
     const double t6 = p[1] * 0.5;
     double s7, c7;
-    spherical_spur_spur_sincos(p[22], &s7, &c7);
+    spherical_spur_spur_seldom_sincos(p[22], &s7, &c7);
     const double t9 = t2 * t3;
     const double t10 = t4 * t2;
     const double t11 = p[1] * t5;
@@ -499,7 +510,7 @@ static inline int spherical_spur_spur_setup(const double *p, double *s)
     const double t13 = MW_FMS(p[6], t6, p[9]);
     const double t14 = p[0] * t2;
     double s15, c15;
-    spherical_spur_spur_sincos(p[21], &s15, &c15);
+    spherical_spur_spur_seldom_sincos(p[21], &s15, &c15);
     const double t17 = p[13] * t11;
     const double t18 = p[6] * t11;
     const double t19 = p[1] * (-0.5);
@@ -570,9 +581,9 @@ static inline int spherical_spur_spur_setup(const double *p, double *s)
     const double t84 = MW_FMS(t76, t43, t36);
     const double t85 = MW_FMA(t76, t71, t72);
     double s86, c86;
-    spherical_spur_spur_sincos(t78, &s86, &c86);
+    spherical_spur_spur_seldom_sincos(t78, &s86, &c86);
     double s88, c88;
-    spherical_spur_spur_sincos(t79, &s88, &c88);
+    spherical_spur_spur_seldom_sincos(t79, &s88, &c88);
     const double t90 = MW_FMA(t75, t70, t73);
     const double t91 = p[0] * p[11];
     const double t92 = p[0] * p[18];
