@@ -81,7 +81,9 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     # An upright box would reach into the title.
     axes.set_box_aspect(high - low, zoom=0.85 if high[2] - low[2] >= (high - low)[:2].max() else 1.0)
-    axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="z / mm")
+    axes.set(xlabel="x / mm", ylabel="y / mm")
+    axes.zaxis.set_rotate_label(False)  # else it may stand on its head
+    axes.set_zlabel("z / mm", rotation=90)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_major_locator(MaxNLocator(_TICKS))
     axes.view_init(*view(model, name))
