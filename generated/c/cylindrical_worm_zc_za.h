@@ -232,9 +232,9 @@ MW_INLINE void cylindrical_worm_zc_za_sincos(double a, double *sine, double *cos
     const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
     c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
-    const unsigned long long both = ((s.bits ^ c.bits) & odd) ^ ((quadrant & 2) << 62);
-    s.bits ^= both;
-    c.bits ^= both ^ (quadrant << 63); /* of an odd quadrant one of the two has the other sign */
+    const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
+    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
+    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
     *sine = s.number;
     *cosine = c.number;
 }

@@ -23,12 +23,13 @@ static const double NUDGE = 1e-3; /* rad */
 
 void mw_remember(mw_history *h, double phi, const double *x)
 {
-    for (int i = MW_HISTORY - 1; i > 0; i--) {
-        h->x[i] = h->x[i - 1];
-        h->phi[i] = h->phi[i - 1];
+    for (int i = 0; i < MW_HISTORY; i++) { /* each moves on by one place */
+        const double *older = h->x[i], before = h->phi[i];
+        h->x[i] = x;
+        h->phi[i] = phi;
+        x = older;
+        phi = before;
     }
-    h->x[0] = x;
-    h->phi[0] = phi;
     if (h->count < MW_HISTORY) h->count++;
 }
 

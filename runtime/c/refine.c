@@ -19,8 +19,9 @@ static int judge_singular(const mw_model *m, const double *s, const double *x, m
 
 int mw_within_bounds(const mw_model *m, const double *x)
 {
-    for (int i = 0; i < m->nx; i++)
-        if (!(x[i] >= m->unknowns[i].lower && x[i] <= m->unknowns[i].upper)) return 0;
+    const mw_name *end = m->unknowns + m->nx;
+    for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
+        if (!(*x >= unknown->lower && *x <= unknown->upper)) return 0;
     return 1;
 }
 
