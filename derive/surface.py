@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derive import vectors as v
-from derive.chain import Motion, Rz, screw, swing
+from derive.chain import Motion, Rz, screw, station
 from derive.definitions import Definitions
 from derive.origin import joined
 
@@ -79,14 +79,14 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
 
 
 def revolved(definitions, profile, *, along, turn, outward, radius=0):
-    """The surface of revolution of a ``profile`` in the x–z half plane, turned by ``turn`` about x = −``radius``.
+    """The surface of revolution about z of a ``profile`` in the x–z half plane, measured from x = ``radius``.
 
-    The profile lies at x > −``radius``: a frame near it keeps large lengths from cancelling. The tangent along the
-    circle has unit length, so the normal is as long as the profile's tangent.
+    That place is its station, so that large lengths do not cancel. The tangent along the circle has unit length, so
+    the normal is as long as the profile's tangent.
     """
     tangents = (definitions.derivative_vector(profile, along), v.vector(*v.J))
     normal = v.scale(outward, v.cross(*tangents))
-    motion = swing("z", turn, (-radius, 0, 0)) if radius else Rz(turn)
+    motion = Rz(turn) @ station(x=radius)
     return Surface(definitions, (along, turn), profile, tangents, normal, motion, steps=("derivation/revolved",))
 
 

@@ -208,7 +208,7 @@ def face_worm():
     reference = hob_cut(definitions)
     cutter = HeadCutter(definitions, R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
     x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
-    installed = placement(x_g, y_g, z_g, v.add(k.symbols(k.origin), v.scale(R_g, x_g)))
+    installed = placement(x_g, y_g, z_g, k.symbols(k.origin))
 
     phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
     error = Quantity("transmission_error", "rad", "gear angle less ratio times worm angle", "f")

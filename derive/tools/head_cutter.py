@@ -1,6 +1,7 @@
 """Head-cutter: a blade that turns about the tool's axis; straight or parabolic edge, circular end.
 
-Frame: z along the axis, x outwards from it, origin on the edge at the blade point u = 0, blade at θ = 0.
+Frame: z along the axis, x outwards from it to the blade point u = 0 on the edge, from which profiles are measured,
+blade at θ = 0.
 
 The surfaces are those of the gear tooth that the tool leaves as its copy: normals point out of the gear.
 Source: 001_d957fec2e26e51c5.txt, sections 2 to 4, Figs. 5 and 11.

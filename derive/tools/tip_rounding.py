@@ -43,7 +43,7 @@ def tip_rounding(tool, body, definitions):
         f"C_round_{name}", v.sub(tool.flank.point, v.scale(radius, normal)), "centre of the ball", "mm", name
     )
     distance = definitions.let(
-        f"R_round_{name}", sp.sqrt(centre[0] ** 2 + centre[1] ** 2), "distance of the centre from the axis", "mm"
+        f"R_round_{name}", v.radius(centre[0], centre[1]), "distance of the centre from the axis", "mm"
     )
     turn = Quantity(f"psi_round_{name}", "rad", f"screw angle of the rounding of the {name}", name)
     advance = screw(turn, body.screw_parameter)
