@@ -56,8 +56,8 @@ def estrin(name, variable, coefficients):
 class Printer:
     """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read.
 
-    What is computed ``seldom``, once for a design, calls sine and cosine instead of having them written out in place,
-    for the C compiler's sake.
+    What is computed ``seldom``, for a design, a solved contact or a point of a flank, calls sine and cosine instead of
+    having them written out in place, for the C compiler's sake.
     """
 
     def __init__(self, tape, prefix, leaves, suffix="", seldom=False):
@@ -187,8 +187,9 @@ def header(plan: Schedule, description: dict, model_source: str):
     design = Printer(tape, prefix, leaves.design, seldom=True)
     instant = Printer(tape, prefix, leaves.instant)
     iterate = Printer(tape, prefix, leaves.iterate)
+    solved = Printer(tape, prefix, leaves.iterate, seldom=True)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
-    start = Printer(tape, prefix, leaves.iterate | start_unknowns)
+    start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)
     residual, known = iterate.body(plan.residual)
     start_residual, start_known = start.body(plan.start_residual)
@@ -213,7 +214,7 @@ def header(plan: Schedule, description: dict, model_source: str):
         start_residual=start_residual,
         start_jacobian=start.body([e for row in plan.start_jacobian for e in row], start_known)[0],
         start_solution=start.body(plan.start_solution)[0],
-        observed=iterate.body([i for o in plan.observed for i in o.nodes])[0],
+        observed=solved.body([i for o in plan.observed for i in o.nodes])[0],
         flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
         regions=[_flank(plan, region, leaves.state) for region in plan.regions],
         systems=[_system(system, drive) for system in plan.systems],
@@ -226,7 +227,7 @@ def header(plan: Schedule, description: dict, model_source: str):
 
 def _flank(plan, flank, state, tests=None):
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
-    printer = Printer(plan.tape, plan.drive.name, state | own)
+    printer = Printer(plan.tape, plan.drive.name, state | own, seldom=True)
     groups = [o.nodes for o in flank.outputs]
     return {"flank": flank, "body": _tested(printer, groups, tests or {})}
 

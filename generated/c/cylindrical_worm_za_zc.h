@@ -228,18 +228,18 @@ MW_INLINE void cylindrical_worm_za_zc_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_za_zc_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_za_zc_sincos(a, sine, cosine);
@@ -1852,9 +1852,9 @@ static inline void cylindrical_worm_za_zc_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(y[1], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * y[0];
     const double t6 = sqrt(t5);
     const double t7 = MW_FMA(s1, s[6], s[7]);
@@ -1881,9 +1881,9 @@ static inline void cylindrical_worm_za_zc_start_eval(const double *s, const doub
     const double t28 = cylindrical_worm_za_zc_atan2(t26, t27);
     const double t29 = 0.5 * t28;
     double s30, c30;
-    cylindrical_worm_za_zc_sincos(t28, &s30, &c30);
+    cylindrical_worm_za_zc_seldom_sincos(t28, &s30, &c30);
     double s32, c32;
-    cylindrical_worm_za_zc_sincos(t29, &s32, &c32);
+    cylindrical_worm_za_zc_seldom_sincos(t29, &s32, &c32);
     const double t34 = s[15] * s30;
     const double t35 = s[12] * s30;
     const double t36 = s32 * s32;
@@ -2055,9 +2055,9 @@ static inline void cylindrical_worm_za_zc_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(y[1], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_za_zc_atan2(0.0, y[0]);
     const double t6 = MW_FMA(s1, s[6], s[7]);
     const double t7 = MW_FNMA(s1, s[5], s[4]);
@@ -2082,9 +2082,9 @@ static inline void cylindrical_worm_za_zc_start_solution(const double *s, const 
     const double t26 = s[94] + t5;
     const double t27 = 0.5 * t25;
     double s28, c28;
-    cylindrical_worm_za_zc_sincos(t25, &s28, &c28);
+    cylindrical_worm_za_zc_seldom_sincos(t25, &s28, &c28);
     double s30, c30;
-    cylindrical_worm_za_zc_sincos(t27, &s30, &c30);
+    cylindrical_worm_za_zc_seldom_sincos(t27, &s30, &c30);
     const double t32 = s[15] * s28;
     const double t33 = s30 * s30;
     const double t34 = s30 * s[13];
@@ -2160,15 +2160,15 @@ static inline void cylindrical_worm_za_zc_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(x[2], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zc_sincos(x[3], &s5, &c5);
+    cylindrical_worm_za_zc_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[4] + s[95];
     const double t8 = s[94] + x[1];
     double s9, c9;
-    cylindrical_worm_za_zc_sincos(x[1], &s9, &c9);
+    cylindrical_worm_za_zc_seldom_sincos(x[1], &s9, &c9);
     const double t11 = MW_FMA(s1, s[6], s[7]);
     const double t12 = s[3] * s1;
     const double t13 = MW_FNMA(s1, s[5], s[4]);
@@ -2181,7 +2181,7 @@ static inline void cylindrical_worm_za_zc_observe(const double *s, const double 
     const double t20 = s[11] * s1;
     const double t21 = s[8] * t13;
     double s22, c22;
-    cylindrical_worm_za_zc_sincos(t8, &s22, &c22);
+    cylindrical_worm_za_zc_seldom_sincos(t8, &s22, &c22);
     const double t24 = s3 * s[2];
     const double t25 = s3 * s3;
     const double t26 = 0.5 * s3;
@@ -2282,9 +2282,9 @@ static inline void cylindrical_worm_za_zc_observe(const double *s, const double 
     const double t121 = -t113;
     const double t122 = 0.5 * t57;
     double s123, c123;
-    cylindrical_worm_za_zc_sincos(t57, &s123, &c123);
+    cylindrical_worm_za_zc_seldom_sincos(t57, &s123, &c123);
     double s125, c125;
-    cylindrical_worm_za_zc_sincos(t122, &s125, &c125);
+    cylindrical_worm_za_zc_seldom_sincos(t122, &s125, &c125);
     const double t127 = s[15] * c123;
     const double t128 = s[12] * c123;
     const double t129 = c123 * t99;
@@ -2442,7 +2442,7 @@ static inline void cylindrical_worm_za_zc_observe(const double *s, const double 
     const double t281 = MW_FMA(s[19], t270, t265);
     const double t282 = t266 + t266;
     double s283, c283;
-    cylindrical_worm_za_zc_sincos(t275, &s283, &c283);
+    cylindrical_worm_za_zc_seldom_sincos(t275, &s283, &c283);
     const double t285 = t7 - t275;
     const double t286 = t214 * t277;
     const double t287 = 1.0 - t278;
@@ -2452,7 +2452,7 @@ static inline void cylindrical_worm_za_zc_observe(const double *s, const double 
     const double t291 = s[1] * t281;
     const double t292 = t267 + t267;
     double s293, c293;
-    cylindrical_worm_za_zc_sincos(t285, &s293, &c293);
+    cylindrical_worm_za_zc_seldom_sincos(t285, &s293, &c293);
     const double t295 = s[22] * t286;
     const double t296 = s[22] * t287;
     const double t297 = MW_FMA(s[8], t286, t242);
@@ -2694,7 +2694,7 @@ static inline void cylindrical_worm_za_zc_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_za_zc_sincos(q[1], &s0, &c0);
+    cylindrical_worm_za_zc_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[50];
     const double t3 = s[52] * q[0];
     const double t4 = q[0] * q[0];
@@ -2776,11 +2776,11 @@ static inline void cylindrical_worm_za_zc_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_za_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[3] * c1;
     const double t8 = s[11] * c1;
     const double t9 = c1 * s[12];
@@ -2839,9 +2839,9 @@ static inline void cylindrical_worm_za_zc_flank_wheel(const double *s, const dou
     const double t62 = 0.5 * t61;
     const double t63 = 0.5 * t46;
     double s64, c64;
-    cylindrical_worm_za_zc_sincos(t46, &s64, &c64);
+    cylindrical_worm_za_zc_seldom_sincos(t46, &s64, &c64);
     double s66, c66;
-    cylindrical_worm_za_zc_sincos(t63, &s66, &c66);
+    cylindrical_worm_za_zc_seldom_sincos(t63, &s66, &c66);
     const double t68 = s[15] * c64;
     const double t69 = s[12] * c64;
     const double t70 = c64 * t61;
@@ -2992,7 +2992,7 @@ static inline void cylindrical_worm_za_zc_flank_wheel(const double *s, const dou
     const double t215 = MW_FMA(s[19], t206, t188);
     const double t216 = s[52] * t210;
     double s217, c217;
-    cylindrical_worm_za_zc_sincos(t211, &s217, &c217);
+    cylindrical_worm_za_zc_seldom_sincos(t211, &s217, &c217);
     const double t219 = t152 * t213;
     const double t220 = 1.0 - t214;
     const double t221 = t215 * t215;
@@ -3110,13 +3110,13 @@ static inline void cylindrical_worm_za_zc_fillet_wheel(const double *s, const do
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[1], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zc_sincos(q[0], &s5, &c5);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zc_sincos(q[2], &s7, &c7);
+    cylindrical_worm_za_zc_seldom_sincos(q[2], &s7, &c7);
     const double t9 = s[3] * c1;
     const double t10 = s[11] * c1;
     const double t11 = c1 * s[12];
@@ -3203,10 +3203,10 @@ static inline void cylindrical_worm_za_zc_fillet_wheel(const double *s, const do
     const double t92 = t88 + t90;
     const double t93 = c1 * t92;
     double s94, c94;
-    cylindrical_worm_za_zc_sincos(t54, &s94, &c94);
+    cylindrical_worm_za_zc_seldom_sincos(t54, &s94, &c94);
     const double t96 = 0.5 * t54;
     double s97, c97;
-    cylindrical_worm_za_zc_sincos(t96, &s97, &c97);
+    cylindrical_worm_za_zc_seldom_sincos(t96, &s97, &c97);
     const double t99 = s[12] * s94;
     const double t100 = s[15] * s94;
     const double t101 = s94 * t89;
@@ -3545,7 +3545,7 @@ static inline void cylindrical_worm_za_zc_fillet_wheel(const double *s, const do
     const double t434 = MW_FNMA(t318, t206, t418);
     const double t435 = MW_FMA(s7, t426, t427);
     double s436, c436;
-    cylindrical_worm_za_zc_sincos(t428, &s436, &c436);
+    cylindrical_worm_za_zc_seldom_sincos(t428, &s436, &c436);
     const double t438 = 1.0 - t429;
     const double t439 = s[22] * t430;
     const double t440 = MW_FNMA(s[42], t429, t387);
@@ -3711,9 +3711,9 @@ static inline void cylindrical_worm_za_zc_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[11] * c1;
     const double t6 = c1 * s[12];
     const double t7 = c1 * s[4];
@@ -3766,9 +3766,9 @@ static inline void cylindrical_worm_za_zc_profile_hob(const double *s, const dou
     const double t54 = c1 * t53;
     const double t55 = 0.5 * t39;
     double s56, c56;
-    cylindrical_worm_za_zc_sincos(t39, &s56, &c56);
+    cylindrical_worm_za_zc_seldom_sincos(t39, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_za_zc_sincos(t55, &s58, &c58);
+    cylindrical_worm_za_zc_seldom_sincos(t55, &s58, &c58);
     const double t60 = s[15] * s56;
     const double t61 = s[12] * s56;
     const double t62 = s58 * s58;
@@ -3885,11 +3885,11 @@ static inline void cylindrical_worm_za_zc_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_za_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[11] * c1;
     const double t8 = c1 * s[12];
     const double t9 = c1 * s[4];
@@ -3950,9 +3950,9 @@ static inline void cylindrical_worm_za_zc_generation(const double *s, const doub
     const double t64 = c1 * t63;
     const double t65 = 0.5 * t47;
     double s66, c66;
-    cylindrical_worm_za_zc_sincos(t47, &s66, &c66);
+    cylindrical_worm_za_zc_seldom_sincos(t47, &s66, &c66);
     double s68, c68;
-    cylindrical_worm_za_zc_sincos(t65, &s68, &c68);
+    cylindrical_worm_za_zc_seldom_sincos(t65, &s68, &c68);
     const double t70 = s[15] * s66;
     const double t71 = s[12] * s66;
     const double t72 = s68 * s68;
@@ -4090,7 +4090,7 @@ static inline void cylindrical_worm_za_zc_generation(const double *s, const doub
     const double t204 = s[21] * t130;
     const double t205 = t124 * s[21];
     double s206, c206;
-    cylindrical_worm_za_zc_sincos(t198, &s206, &c206);
+    cylindrical_worm_za_zc_seldom_sincos(t198, &s206, &c206);
     const double t208 = t183 * t199;
     const double t209 = t188 + t177;
     const double t210 = MW_FNMA(s[21], t202, t132);
@@ -4144,9 +4144,9 @@ static inline void cylindrical_worm_za_zc_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[6], s[7]);
     const double t6 = MW_FNMA(s1, s[5], s[4]);
     const double t7 = MW_FMS(s1, s[4], s[5]);
@@ -4169,9 +4169,9 @@ static inline void cylindrical_worm_za_zc_section(const double *s, const double 
     const double t24 = cylindrical_worm_za_zc_atan2(t22, t23);
     const double t25 = 0.5 * t24;
     double s26, c26;
-    cylindrical_worm_za_zc_sincos(t24, &s26, &c26);
+    cylindrical_worm_za_zc_seldom_sincos(t24, &s26, &c26);
     double s28, c28;
-    cylindrical_worm_za_zc_sincos(t25, &s28, &c28);
+    cylindrical_worm_za_zc_seldom_sincos(t25, &s28, &c28);
     const double t30 = s[15] * s26;
     const double t31 = s28 * s28;
     const double t32 = s28 * s[13];
@@ -4215,9 +4215,9 @@ static inline void cylindrical_worm_za_zc_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[6], s[7]);
     const double t6 = MW_FNMA(s1, s[5], s[4]);
     const double t7 = MW_FMS(s1, s[4], s[5]);
@@ -4242,9 +4242,9 @@ static inline void cylindrical_worm_za_zc_worm_point(const double *s, const doub
     const double t26 = cylindrical_worm_za_zc_atan2(t24, t25);
     const double t27 = 0.5 * t26;
     double s28, c28;
-    cylindrical_worm_za_zc_sincos(t26, &s28, &c28);
+    cylindrical_worm_za_zc_seldom_sincos(t26, &s28, &c28);
     double s30, c30;
-    cylindrical_worm_za_zc_sincos(t27, &s30, &c30);
+    cylindrical_worm_za_zc_seldom_sincos(t27, &s30, &c30);
     const double t32 = s[15] * c28;
     const double t33 = s[12] * c28;
     const double t34 = s[15] * s28;
@@ -4310,9 +4310,9 @@ static inline void cylindrical_worm_za_zc_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[6], s[7]);
     const double t6 = MW_FNMA(s1, s[5], s[4]);
     const double t7 = MW_FMS(s1, s[4], s[5]);
@@ -4336,9 +4336,9 @@ static inline void cylindrical_worm_za_zc_second_type(const double *s, const dou
     const double t25 = cylindrical_worm_za_zc_atan2(t23, t24);
     const double t26 = 0.5 * t25;
     double s27, c27;
-    cylindrical_worm_za_zc_sincos(t25, &s27, &c27);
+    cylindrical_worm_za_zc_seldom_sincos(t25, &s27, &c27);
     double s29, c29;
-    cylindrical_worm_za_zc_sincos(t26, &s29, &c29);
+    cylindrical_worm_za_zc_seldom_sincos(t26, &s29, &c29);
     const double t31 = s[15] * s27;
     const double t32 = s[12] * s27;
     const double t33 = s[15] * c27;

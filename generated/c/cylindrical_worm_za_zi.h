@@ -223,18 +223,18 @@ MW_INLINE void cylindrical_worm_za_zi_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_za_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_za_zi_sincos(a, sine, cosine);
@@ -1632,7 +1632,7 @@ static inline void cylindrical_worm_za_zi_start_eval(const double *s, const doub
     const double t18 = t14 + t15;
     const double t19 = t2 / t17;
     double s20, c20;
-    cylindrical_worm_za_zi_sincos(t16, &s20, &c20);
+    cylindrical_worm_za_zi_seldom_sincos(t16, &s20, &c20);
     const double t22 = s20 / c20;
     const double t23 = t22 * t22;
     const double t24 = t22 + s[10];
@@ -1766,7 +1766,7 @@ static inline void cylindrical_worm_za_zi_observe(const double *s, const double 
     const double t0 = x[2] - s[4];
     const double t1 = x[2] + s[4];
     double s2, c2;
-    cylindrical_worm_za_zi_sincos(x[3], &s2, &c2);
+    cylindrical_worm_za_zi_seldom_sincos(x[3], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[5];
@@ -1778,9 +1778,9 @@ static inline void cylindrical_worm_za_zi_observe(const double *s, const double 
     const double t12 = x[4] + s[96];
     const double t13 = s[95] + x[1];
     double s14, c14;
-    cylindrical_worm_za_zi_sincos(x[1], &s14, &c14);
+    cylindrical_worm_za_zi_seldom_sincos(x[1], &s14, &c14);
     double s16, c16;
-    cylindrical_worm_za_zi_sincos(t13, &s16, &c16);
+    cylindrical_worm_za_zi_seldom_sincos(t13, &s16, &c16);
     const double t18 = cylindrical_worm_za_zi_atan2(t5, s[4]);
     const double t19 = t5 * t6;
     const double t20 = c2 * t8;
@@ -1867,7 +1867,7 @@ static inline void cylindrical_worm_za_zi_observe(const double *s, const double 
     const double t101 = -t93;
     const double t102 = -t94;
     double s103, c103;
-    cylindrical_worm_za_zi_sincos(t18, &s103, &c103);
+    cylindrical_worm_za_zi_seldom_sincos(t18, &s103, &c103);
     const double t105 = s103 * t81;
     const double t106 = s103 / c103;
     const double t107 = 1.0 / c103;
@@ -1945,7 +1945,7 @@ static inline void cylindrical_worm_za_zi_observe(const double *s, const double 
     const double t179 = MW_FMA(s[7], t171, t49);
     const double t180 = MW_FMA(s[7], t171, s[23]);
     double s181, c181;
-    cylindrical_worm_za_zi_sincos(t175, &s181, &c181);
+    cylindrical_worm_za_zi_seldom_sincos(t175, &s181, &c181);
     const double t183 = t12 - t175;
     const double t184 = t131 * t177;
     const double t185 = 1.0 + t178;
@@ -1954,7 +1954,7 @@ static inline void cylindrical_worm_za_zi_observe(const double *s, const double 
     const double t188 = MW_FMS(t178, s[34], t50);
     const double t189 = t49 + t180;
     double s190, c190;
-    cylindrical_worm_za_zi_sincos(t183, &s190, &c190);
+    cylindrical_worm_za_zi_seldom_sincos(t183, &s190, &c190);
     const double t192 = s[9] * t184;
     const double t193 = s[9] * t185;
     const double t194 = MW_FNMA(s[11], t184, t139);
@@ -2194,7 +2194,7 @@ static inline void cylindrical_worm_za_zi_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_za_zi_sincos(q[1], &s0, &c0);
+    cylindrical_worm_za_zi_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[41];
     const double t3 = s[6] * q[0];
     const double t4 = q[0] * q[0];
@@ -2277,7 +2277,7 @@ static inline void cylindrical_worm_za_zi_flank_wheel(const double *s, const dou
     const double t0 = q[0] - s[4];
     const double t1 = q[0] + s[4];
     double s2, c2;
-    cylindrical_worm_za_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_za_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[5];
@@ -2319,7 +2319,7 @@ static inline void cylindrical_worm_za_zi_flank_wheel(const double *s, const dou
     const double t42 = MW_FNMA(t23, t40, s[4]);
     const double t43 = t26 * t42;
     double s44, c44;
-    cylindrical_worm_za_zi_sincos(t15, &s44, &c44);
+    cylindrical_worm_za_zi_seldom_sincos(t15, &s44, &c44);
     const double t46 = s44 * t41;
     const double t47 = s44 / c44;
     const double t48 = 1.0 / c44;
@@ -2388,7 +2388,7 @@ static inline void cylindrical_worm_za_zi_flank_wheel(const double *s, const dou
     const double t111 = t72 * t107;
     const double t112 = MW_FMA(s[7], t105, t34);
     double s113, c113;
-    cylindrical_worm_za_zi_sincos(t108, &s113, &c113);
+    cylindrical_worm_za_zi_seldom_sincos(t108, &s113, &c113);
     const double t115 = t72 * t110;
     const double t116 = 1.0 + t111;
     const double t117 = t112 * t112;
@@ -2510,14 +2510,14 @@ static inline void cylindrical_worm_za_zi_fillet_wheel(const double *s, const do
     const double t3 = q[1] * q[1];
     const double t4 = s[6] * q[1];
     double s5, c5;
-    cylindrical_worm_za_zi_sincos(q[0], &s5, &c5);
+    cylindrical_worm_za_zi_seldom_sincos(q[0], &s5, &c5);
     const double t7 = t0 * t1;
     const double t8 = t3 * s[56];
     const double t9 = sqrt(t7);
     const double t10 = t7 + s[5];
     const double t11 = t8 + s[57];
     double s12, c12;
-    cylindrical_worm_za_zi_sincos(q[2], &s12, &c12);
+    cylindrical_worm_za_zi_seldom_sincos(q[2], &s12, &c12);
     const double t14 = t0 + t1;
     const double t15 = q[1] + q[1];
     const double t16 = t10 * t10;
@@ -2560,7 +2560,7 @@ static inline void cylindrical_worm_za_zi_fillet_wheel(const double *s, const do
     const double t53 = t35 - t45;
     const double t54 = t40 + t53;
     double s55, c55;
-    cylindrical_worm_za_zi_sincos(t23, &s55, &c55);
+    cylindrical_worm_za_zi_seldom_sincos(t23, &s55, &c55);
     const double t57 = s55 * t50;
     const double t58 = s55 / c55;
     const double t59 = 1.0 / c55;
@@ -2825,7 +2825,7 @@ static inline void cylindrical_worm_za_zi_fillet_wheel(const double *s, const do
     const double t318 = s[6] * t296;
     const double t319 = MW_FMA(s12, t310, t311);
     double s320, c320;
-    cylindrical_worm_za_zi_sincos(t312, &s320, &c320);
+    cylindrical_worm_za_zi_seldom_sincos(t312, &s320, &c320);
     const double t322 = 1.0 + t313;
     const double t323 = s[9] * t314;
     const double t324 = MW_FMA(s[32], t313, t271);
@@ -3005,7 +3005,7 @@ static inline void cylindrical_worm_za_zi_profile_hob(const double *s, const dou
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_za_zi_sincos(t12, &s15, &c15);
+    cylindrical_worm_za_zi_seldom_sincos(t12, &s15, &c15);
     const double t17 = s15 / c15;
     const double t18 = t17 * t17;
     const double t19 = t17 + s[10];
@@ -3085,7 +3085,7 @@ static inline void cylindrical_worm_za_zi_generation(const double *s, const doub
     const double t0 = q[0] - s[4];
     const double t1 = q[0] + s[4];
     double s2, c2;
-    cylindrical_worm_za_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_za_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[5];
@@ -3145,7 +3145,7 @@ static inline void cylindrical_worm_za_zi_generation(const double *s, const doub
     const double t60 = t38 - t47;
     const double t61 = t44 + t60;
     double s62, c62;
-    cylindrical_worm_za_zi_sincos(t21, &s62, &c62);
+    cylindrical_worm_za_zi_seldom_sincos(t21, &s62, &c62);
     const double t64 = s62 / c62;
     const double t65 = t64 * t64;
     const double t66 = t64 + s[10];
@@ -3211,7 +3211,7 @@ static inline void cylindrical_worm_za_zi_generation(const double *s, const doub
     const double t126 = MW_FNMA(s[11], t110, t89);
     const double t127 = -t110;
     double s128, c128;
-    cylindrical_worm_za_zi_sincos(t123, &s128, &c128);
+    cylindrical_worm_za_zi_seldom_sincos(t123, &s128, &c128);
     const double t130 = t116 + t125;
     const double t131 = t117 - t118;
     const double t132 = MW_FNMA(s[22], t126, t27);
@@ -3297,7 +3297,7 @@ static inline void cylindrical_worm_za_zi_worm_point(const double *s, const doub
     const double t15 = t10 * t11;
     const double t16 = t2 / t15;
     double s17, c17;
-    cylindrical_worm_za_zi_sincos(t14, &s17, &c17);
+    cylindrical_worm_za_zi_seldom_sincos(t14, &s17, &c17);
     const double t19 = s17 / c17;
     const double t20 = t19 + s[10];
     const double t21 = t19 * t19;
@@ -3348,7 +3348,7 @@ static inline void cylindrical_worm_za_zi_second_type(const double *s, const dou
     const double t12 = t9 * t10;
     const double t13 = t2 / t12;
     double s14, c14;
-    cylindrical_worm_za_zi_sincos(t11, &s14, &c14);
+    cylindrical_worm_za_zi_seldom_sincos(t11, &s14, &c14);
     const double t16 = s14 / c14;
     const double t17 = t16 * t16;
     const double t18 = t17 * s[3];

@@ -226,18 +226,18 @@ MW_INLINE void cylindrical_worm_za_zk_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_za_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_za_zk_sincos(a, sine, cosine);
@@ -1637,9 +1637,9 @@ static inline void cylindrical_worm_za_zk_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * y[0];
     const double t6 = sqrt(t5);
     const double t7 = MW_FMA(s1, s[9], s[10]);
@@ -1776,9 +1776,9 @@ static inline void cylindrical_worm_za_zk_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_za_zk_atan2(0.0, y[0]);
     const double t6 = MW_FMA(s1, s[9], s[10]);
     const double t7 = MW_FMS(s1, s[7], s[8]);
@@ -1865,21 +1865,21 @@ static inline void cylindrical_worm_za_zk_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(x[2], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zk_sincos(x[3], &s5, &c5);
+    cylindrical_worm_za_zk_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[4] + s[99];
     const double t8 = s[98] + x[1];
     double s9, c9;
-    cylindrical_worm_za_zk_sincos(x[1], &s9, &c9);
+    cylindrical_worm_za_zk_seldom_sincos(x[1], &s9, &c9);
     const double t11 = s[4] * s1;
     const double t12 = MW_FMA(s1, s[9], s[10]);
     const double t13 = MW_FMS(s1, s[7], s[8]);
     const double t14 = MW_FMA(s1, s[12], s[13]);
     double s15, c15;
-    cylindrical_worm_za_zk_sincos(t8, &s15, &c15);
+    cylindrical_worm_za_zk_seldom_sincos(t8, &s15, &c15);
     const double t17 = s3 * s[2];
     const double t18 = s3 * s3;
     const double t19 = t12 * s[11];
@@ -2076,7 +2076,7 @@ static inline void cylindrical_worm_za_zk_observe(const double *s, const double 
     const double t210 = MW_FMA(s[18], t201, t163);
     const double t211 = t109 / t157;
     double s212, c212;
-    cylindrical_worm_za_zk_sincos(t206, &s212, &c212);
+    cylindrical_worm_za_zk_seldom_sincos(t206, &s212, &c212);
     const double t214 = t7 - t206;
     const double t215 = t71 * t208;
     const double t216 = 1.0 - t209;
@@ -2084,7 +2084,7 @@ static inline void cylindrical_worm_za_zk_observe(const double *s, const double 
     const double t218 = MW_FNMA(t209, s[44], t140);
     const double t219 = t89 / t157;
     double s220, c220;
-    cylindrical_worm_za_zk_sincos(t214, &s220, &c220);
+    cylindrical_worm_za_zk_seldom_sincos(t214, &s220, &c220);
     const double t222 = s[23] * t215;
     const double t223 = s[23] * t216;
     const double t224 = MW_FMA(s[11], t215, t149);
@@ -2335,7 +2335,7 @@ static inline void cylindrical_worm_za_zk_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_za_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_za_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[55];
     const double t3 = s[57] * q[0];
     const double t4 = q[0] * q[0];
@@ -2417,11 +2417,11 @@ static inline void cylindrical_worm_za_zk_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_za_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[4] * c1;
     const double t8 = c1 * s[3];
     const double t9 = s[7] * c1;
@@ -2570,7 +2570,7 @@ static inline void cylindrical_worm_za_zk_flank_wheel(const double *s, const dou
     const double t152 = t67 * t147;
     const double t153 = MW_FMA(s[18], t145, t106);
     double s154, c154;
-    cylindrical_worm_za_zk_sincos(t149, &s154, &c154);
+    cylindrical_worm_za_zk_seldom_sincos(t149, &s154, &c154);
     const double t156 = t67 * t151;
     const double t157 = 1.0 - t152;
     const double t158 = t153 * t153;
@@ -2686,14 +2686,14 @@ static inline void cylindrical_worm_za_zk_fillet_wheel(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_za_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_za_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[1] * 0.5;
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(q[0], &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zk_sincos(t2, &s5, &c5);
+    cylindrical_worm_za_zk_seldom_sincos(t2, &s5, &c5);
     double s7, c7;
-    cylindrical_worm_za_zk_sincos(q[2], &s7, &c7);
+    cylindrical_worm_za_zk_seldom_sincos(q[2], &s7, &c7);
     const double t9 = c0 * s[3];
     const double t10 = s[4] * c0;
     const double t11 = MW_FMS(s0, s[7], s[8]);
@@ -3030,7 +3030,7 @@ static inline void cylindrical_worm_za_zk_fillet_wheel(const double *s, const do
     const double t342 = MW_FMA(t95, t196, t322);
     const double t343 = MW_FMA(s7, t334, t335);
     double s344, c344;
-    cylindrical_worm_za_zk_sincos(t336, &s344, &c344);
+    cylindrical_worm_za_zk_seldom_sincos(t336, &s344, &c344);
     const double t346 = 1.0 - t337;
     const double t347 = s[23] * t338;
     const double t348 = MW_FNMA(s[44], t337, t298);
@@ -3201,9 +3201,9 @@ static inline void cylindrical_worm_za_zk_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3328,11 +3328,11 @@ static inline void cylindrical_worm_za_zk_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_za_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_za_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = MW_FMA(s1, s[9], s[10]);
     const double t8 = MW_FMS(s1, s[7], s[8]);
     const double t9 = MW_FMA(s1, s[12], s[13]);
@@ -3475,7 +3475,7 @@ static inline void cylindrical_worm_za_zk_generation(const double *s, const doub
     const double t146 = t124 - t122;
     const double t147 = t125 + t123;
     double s148, c148;
-    cylindrical_worm_za_zk_sincos(t143, &s148, &c148);
+    cylindrical_worm_za_zk_seldom_sincos(t143, &s148, &c148);
     const double t150 = t10 * t146;
     const double t151 = t139 + t131;
     const double t152 = -t129;
@@ -3525,9 +3525,9 @@ static inline void cylindrical_worm_za_zk_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3580,9 +3580,9 @@ static inline void cylindrical_worm_za_zk_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3647,9 +3647,9 @@ static inline void cylindrical_worm_za_zk_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_za_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_za_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_za_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_za_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);

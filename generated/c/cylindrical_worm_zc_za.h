@@ -228,18 +228,18 @@ MW_INLINE void cylindrical_worm_zc_za_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zc_za_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_za_sincos(a, sine, cosine);
@@ -1962,9 +1962,9 @@ static inline void cylindrical_worm_zc_za_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_za_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_za_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] - s[19];
     const double t6 = y[1] - s[25];
     const double t7 = MW_FMA(y[1], s[23], s[59]);
@@ -2003,9 +2003,9 @@ static inline void cylindrical_worm_zc_za_start_eval(const double *s, const doub
     const double t40 = cylindrical_worm_zc_za_atan2(t38, t39);
     const double t41 = 0.5 * t40;
     double s42, c42;
-    cylindrical_worm_zc_za_sincos(t40, &s42, &c42);
+    cylindrical_worm_zc_za_seldom_sincos(t40, &s42, &c42);
     double s44, c44;
-    cylindrical_worm_zc_za_sincos(t41, &s44, &c44);
+    cylindrical_worm_zc_za_seldom_sincos(t41, &s44, &c44);
     const double t46 = s[13] * s42;
     const double t47 = s44 * s44;
     const double t48 = s44 * s[11];
@@ -2123,9 +2123,9 @@ static inline void cylindrical_worm_zc_za_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_za_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_za_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_zc_za_atan2(0.0, y[1]);
     const double t6 = MW_FMA(s1, s[4], s[5]);
     const double t7 = MW_FNMA(s1, s[3], s[2]);
@@ -2149,9 +2149,9 @@ static inline void cylindrical_worm_zc_za_start_solution(const double *s, const 
     const double t25 = cylindrical_worm_zc_za_atan2(t23, t24);
     const double t26 = 0.5 * t25;
     double s27, c27;
-    cylindrical_worm_zc_za_sincos(t25, &s27, &c27);
+    cylindrical_worm_zc_za_seldom_sincos(t25, &s27, &c27);
     double s29, c29;
-    cylindrical_worm_zc_za_sincos(t26, &s29, &c29);
+    cylindrical_worm_zc_za_seldom_sincos(t26, &s29, &c29);
     const double t31 = s[13] * s27;
     const double t32 = s29 * s29;
     const double t33 = s29 * s[11];
@@ -2228,11 +2228,11 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
 {
     const double t0 = x[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_za_sincos(x[0], &s1, &c1);
+    cylindrical_worm_zc_za_seldom_sincos(x[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_za_sincos(x[3], &s5, &c5);
+    cylindrical_worm_zc_za_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[2] - s[25];
     const double t8 = x[2] * s[21];
     const double t9 = x[2] * s[22];
@@ -2240,13 +2240,13 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
     const double t11 = x[4] + s[117];
     const double t12 = s[116] + x[1];
     double s13, c13;
-    cylindrical_worm_zc_za_sincos(x[1], &s13, &c13);
+    cylindrical_worm_zc_za_seldom_sincos(x[1], &s13, &c13);
     const double t15 = s[1] * c1;
     const double t16 = s[9] * c1;
     const double t17 = c1 * s[10];
     const double t18 = MW_FMA(s[26], t7, s[27]);
     double s19, c19;
-    cylindrical_worm_zc_za_sincos(t12, &s19, &c19);
+    cylindrical_worm_zc_za_seldom_sincos(t12, &s19, &c19);
     const double t21 = s3 * s3;
     const double t22 = s3 * s[0];
     const double t23 = MW_FMA(s1, s[4], s[5]);
@@ -2368,7 +2368,7 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
     const double t139 = MW_FMA(s[22], t131, t119);
     const double t140 = MW_FMA(s[22], t131, s[36]);
     double s141, c141;
-    cylindrical_worm_zc_za_sincos(t135, &s141, &c141);
+    cylindrical_worm_zc_za_seldom_sincos(t135, &s141, &c141);
     const double t143 = t11 - t135;
     const double t144 = 1.0 + t137;
     const double t145 = s[24] * t138;
@@ -2378,7 +2378,7 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
     const double t149 = MW_FMS(t137, s[52], t121);
     const double t150 = t119 + t140;
     double s151, c151;
-    cylindrical_worm_zc_za_sincos(t143, &s151, &c151);
+    cylindrical_worm_zc_za_seldom_sincos(t143, &s151, &c151);
     const double t153 = s[24] * t144;
     const double t154 = sqrt(t146);
     const double t155 = MW_FNMA(s[35], t148, t75);
@@ -2387,7 +2387,7 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
     const double t158 = s[18] * t150;
     const double t159 = s[32] * t149;
     double s160, c160;
-    cylindrical_worm_zc_za_sincos(t56, &s160, &c160);
+    cylindrical_worm_zc_za_seldom_sincos(t56, &s160, &c160);
     const double t162 = 0.5 * t56;
     const double t163 = t59 * s141;
     const double t164 = t153 * s141;
@@ -2397,7 +2397,7 @@ static inline void cylindrical_worm_zc_za_observe(const double *s, const double 
     const double t168 = c5 * s141;
     const double t169 = t58 * s141;
     double s170, c170;
-    cylindrical_worm_zc_za_sincos(t162, &s170, &c170);
+    cylindrical_worm_zc_za_seldom_sincos(t162, &s170, &c170);
     const double t172 = t59 * c141;
     const double t173 = MW_FMA(t136, c141, t163);
     const double t174 = t58 * c151;
@@ -2757,11 +2757,11 @@ static inline void cylindrical_worm_zc_za_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_za_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_za_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_za_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_za_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[1] * c1;
     const double t8 = s[9] * c1;
     const double t9 = c1 * s[10];
@@ -2817,10 +2817,10 @@ static inline void cylindrical_worm_zc_za_flank_pinion(const double *s, const do
     const double t59 = t58 / t52;
     const double t60 = 0.5 * t59;
     double s61, c61;
-    cylindrical_worm_zc_za_sincos(t44, &s61, &c61);
+    cylindrical_worm_zc_za_seldom_sincos(t44, &s61, &c61);
     const double t63 = 0.5 * t44;
     double s64, c64;
-    cylindrical_worm_zc_za_sincos(t63, &s64, &c64);
+    cylindrical_worm_zc_za_seldom_sincos(t63, &s64, &c64);
     const double t66 = s[10] * s61;
     const double t67 = s[13] * s61;
     const double t68 = s61 * t59;
@@ -2959,7 +2959,7 @@ static inline void cylindrical_worm_zc_za_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zc_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zc_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[21];
     const double t3 = q[0] - s[25];
     const double t4 = q[0] * s[22];
@@ -3024,7 +3024,7 @@ static inline void cylindrical_worm_zc_za_flank_wheel(const double *s, const dou
     const double t63 = MW_FMA(s[22], t57, t16);
     const double t64 = t32 * t59;
     double s65, c65;
-    cylindrical_worm_zc_za_sincos(t60, &s65, &c65);
+    cylindrical_worm_zc_za_seldom_sincos(t60, &s65, &c65);
     const double t67 = 1.0 + t62;
     const double t68 = t63 * t63;
     const double t69 = s[24] * t64;
@@ -3141,11 +3141,11 @@ static inline void cylindrical_worm_zc_za_fillet_wheel(const double *s, const do
     const double t0 = q[1] * q[1];
     const double t1 = q[1] * s[21];
     double s2, c2;
-    cylindrical_worm_zc_za_sincos(q[0], &s2, &c2);
+    cylindrical_worm_zc_za_seldom_sincos(q[0], &s2, &c2);
     const double t4 = MW_FMA(t0, s[77], s[78]);
     const double t5 = MW_FMA(t0, s[76], t4);
     double s6, c6;
-    cylindrical_worm_zc_za_sincos(q[2], &s6, &c6);
+    cylindrical_worm_zc_za_seldom_sincos(q[2], &s6, &c6);
     const double t8 = sqrt(t5);
     const double t9 = s[66] * q[1];
     const double t10 = q[1] - s[25];
@@ -3382,7 +3382,7 @@ static inline void cylindrical_worm_zc_za_fillet_wheel(const double *s, const do
     const double t241 = s[66] * t219;
     const double t242 = MW_FMA(s6, t233, t234);
     double s243, c243;
-    cylindrical_worm_zc_za_sincos(t235, &s243, &c243);
+    cylindrical_worm_zc_za_seldom_sincos(t235, &s243, &c243);
     const double t245 = 1.0 + t236;
     const double t246 = s[24] * t237;
     const double t247 = MW_FMA(s[50], t236, t194);
@@ -3511,9 +3511,9 @@ static inline void cylindrical_worm_zc_za_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_za_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_za_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[9] * c1;
     const double t6 = c1 * s[10];
     const double t7 = c1 * s[2];
@@ -3565,9 +3565,9 @@ static inline void cylindrical_worm_zc_za_profile_worm(const double *s, const do
     const double t53 = t51 + t52;
     const double t54 = 0.5 * t39;
     double s55, c55;
-    cylindrical_worm_zc_za_sincos(t39, &s55, &c55);
+    cylindrical_worm_zc_za_seldom_sincos(t39, &s55, &c55);
     double s57, c57;
-    cylindrical_worm_zc_za_sincos(t54, &s57, &c57);
+    cylindrical_worm_zc_za_seldom_sincos(t54, &s57, &c57);
     const double t59 = s[13] * s55;
     const double t60 = s[10] * s55;
     const double t61 = s57 * s57;
@@ -3722,7 +3722,7 @@ static inline void cylindrical_worm_zc_za_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zc_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zc_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] - s[25];
     const double t3 = q[0] * s[21];
     const double t4 = q[0] * s[22];
@@ -3799,7 +3799,7 @@ static inline void cylindrical_worm_zc_za_generation(const double *s, const doub
     const double t75 = t66 - s[96];
     const double t76 = MW_FNMA(s[35], t72, t14);
     double s77, c77;
-    cylindrical_worm_zc_za_sincos(t73, &s77, &c77);
+    cylindrical_worm_zc_za_seldom_sincos(t73, &s77, &c77);
     const double t79 = t67 - t65;
     const double t80 = t62 + t75;
     const double t81 = MW_FMA(s[22], t72, t21);

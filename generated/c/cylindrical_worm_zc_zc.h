@@ -225,18 +225,18 @@ MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zc_zc_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zc_sincos(a, sine, cosine);
@@ -2345,13 +2345,13 @@ static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const doub
     const double t0 = y[1] * 0.5;
     const double t1 = y[0] * 0.5;
     double s2, c2;
-    cylindrical_worm_zc_zc_sincos(y[1], &s2, &c2);
+    cylindrical_worm_zc_zc_seldom_sincos(y[1], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zc_sincos(t0, &s4, &c4);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zc_zc_sincos(t1, &s6, &c6);
+    cylindrical_worm_zc_zc_seldom_sincos(t1, &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zc_sincos(y[0], &s8, &c8);
+    cylindrical_worm_zc_zc_seldom_sincos(y[0], &s8, &c8);
     const double t10 = s4 * s4;
     const double t11 = s4 * s[19];
     const double t12 = MW_FMA(s2, s[23], s[24]);
@@ -2396,14 +2396,14 @@ static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const doub
     const double t51 = cylindrical_worm_zc_zc_atan2(t49, t50);
     const double t52 = 0.5 * t48;
     double s53, c53;
-    cylindrical_worm_zc_zc_sincos(t48, &s53, &c53);
+    cylindrical_worm_zc_zc_seldom_sincos(t48, &s53, &c53);
     double s55, c55;
-    cylindrical_worm_zc_zc_sincos(t52, &s55, &c55);
+    cylindrical_worm_zc_zc_seldom_sincos(t52, &s55, &c55);
     const double t57 = 0.5 * t51;
     double s58, c58;
-    cylindrical_worm_zc_zc_sincos(t51, &s58, &c58);
+    cylindrical_worm_zc_zc_seldom_sincos(t51, &s58, &c58);
     double s60, c60;
-    cylindrical_worm_zc_zc_sincos(t57, &s60, &c60);
+    cylindrical_worm_zc_zc_seldom_sincos(t57, &s60, &c60);
     const double t62 = s55 * s55;
     const double t63 = s[31] * s53;
     const double t64 = s[29] * s53;
@@ -2659,13 +2659,13 @@ static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const 
     const double t0 = y[0] * 0.5;
     const double t1 = y[1] * 0.5;
     double s2, c2;
-    cylindrical_worm_zc_zc_sincos(y[0], &s2, &c2);
+    cylindrical_worm_zc_zc_seldom_sincos(y[0], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zc_zc_sincos(t0, &s4, &c4);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zc_zc_sincos(t1, &s6, &c6);
+    cylindrical_worm_zc_zc_seldom_sincos(t1, &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zc_sincos(y[1], &s8, &c8);
+    cylindrical_worm_zc_zc_seldom_sincos(y[1], &s8, &c8);
     const double t10 = s4 * s[0];
     const double t11 = s4 * s4;
     const double t12 = MW_FMA(s2, s[4], s[5]);
@@ -2708,14 +2708,14 @@ static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const 
     const double t49 = cylindrical_worm_zc_zc_atan2(t47, t48);
     const double t50 = 0.5 * t46;
     double s51, c51;
-    cylindrical_worm_zc_zc_sincos(t46, &s51, &c51);
+    cylindrical_worm_zc_zc_seldom_sincos(t46, &s51, &c51);
     double s53, c53;
-    cylindrical_worm_zc_zc_sincos(t50, &s53, &c53);
+    cylindrical_worm_zc_zc_seldom_sincos(t50, &s53, &c53);
     const double t55 = 0.5 * t49;
     double s56, c56;
-    cylindrical_worm_zc_zc_sincos(t49, &s56, &c56);
+    cylindrical_worm_zc_zc_seldom_sincos(t49, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_zc_zc_sincos(t55, &s58, &c58);
+    cylindrical_worm_zc_zc_seldom_sincos(t55, &s58, &c58);
     const double t60 = s53 * s53;
     const double t61 = s[13] * s51;
     const double t62 = s53 * s[11];
@@ -2809,14 +2809,14 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(x[2], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = x[0] * 0.5;
     double s6, c6;
-    cylindrical_worm_zc_zc_sincos(x[0], &s6, &c6);
+    cylindrical_worm_zc_zc_seldom_sincos(x[0], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zc_sincos(t5, &s8, &c8);
+    cylindrical_worm_zc_zc_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMA(s1, s[23], s[24]);
     const double t11 = s[20] * s1;
     const double t12 = MW_FNMA(s1, s[22], s[21]);
@@ -2827,7 +2827,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t17 = t10 * s[25];
     const double t18 = s[25] * t12;
     double s19, c19;
-    cylindrical_worm_zc_zc_sincos(x[3], &s19, &c19);
+    cylindrical_worm_zc_zc_seldom_sincos(x[3], &s19, &c19);
     const double t21 = s[20] * c1;
     const double t22 = s[28] * c1;
     const double t23 = c1 * s[29];
@@ -2891,7 +2891,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t81 = MW_FMA(t23, t73, t62);
     const double t82 = MW_FMA(t22, t73, t63);
     double s83, c83;
-    cylindrical_worm_zc_zc_sincos(t75, &s83, &c83);
+    cylindrical_worm_zc_zc_seldom_sincos(t75, &s83, &c83);
     const double t85 = cylindrical_worm_zc_zc_atan2(t76, t77);
     const double t86 = t81 + t74;
     const double t87 = t82 + t78;
@@ -2906,7 +2906,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t96 = MW_FMS(t42, t87, t88);
     const double t97 = t89 + t89;
     double s98, c98;
-    cylindrical_worm_zc_zc_sincos(x[1], &s98, &c98);
+    cylindrical_worm_zc_zc_seldom_sincos(x[1], &s98, &c98);
     const double t100 = t96 / t72;
     const double t101 = MW_FMS(c8, t90, t91);
     const double t102 = MW_FMS(s[0], t97, t52);
@@ -2937,12 +2937,12 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t127 = MW_FMS(t77, t125, t126);
     const double t128 = 0.5 * t50;
     double s129, c129;
-    cylindrical_worm_zc_zc_sincos(t50, &s129, &c129);
+    cylindrical_worm_zc_zc_seldom_sincos(t50, &s129, &c129);
     double s131, c131;
-    cylindrical_worm_zc_zc_sincos(t128, &s131, &c131);
+    cylindrical_worm_zc_zc_seldom_sincos(t128, &s131, &c131);
     const double t133 = t127 / t120;
     double s134, c134;
-    cylindrical_worm_zc_zc_sincos(t85, &s134, &c134);
+    cylindrical_worm_zc_zc_seldom_sincos(t85, &s134, &c134);
     const double t136 = s[31] * c129;
     const double t137 = s[29] * c129;
     const double t138 = 0.5 * t85;
@@ -2952,7 +2952,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t142 = s131 * s[30];
     const double t143 = s131 * s[32];
     double s144, c144;
-    cylindrical_worm_zc_zc_sincos(t138, &s144, &c144);
+    cylindrical_worm_zc_zc_seldom_sincos(t138, &s144, &c144);
     const double t146 = MW_FMA(t141, s[32], t136);
     const double t147 = s[31] * s129;
     const double t148 = s[29] * s129;
@@ -3100,7 +3100,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t290 = MW_FMS(t188, t278, t279);
     const double t291 = s[39] * t280;
     double s292, c292;
-    cylindrical_worm_zc_zc_sincos(t284, &s292, &c292);
+    cylindrical_worm_zc_zc_seldom_sincos(t284, &s292, &c292);
     const double t294 = t71 - t284;
     const double t295 = MW_FMA(t281, t281, t282);
     const double t296 = MW_FMA(s[7], t241, t283);
@@ -3110,7 +3110,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t300 = c144 * t140;
     const double t301 = t289 - t290;
     double s302, c302;
-    cylindrical_worm_zc_zc_sincos(t294, &s302, &c302);
+    cylindrical_worm_zc_zc_seldom_sincos(t294, &s302, &c302);
     const double t304 = t232 * t250;
     const double t305 = MW_FMA(t177, t232, t291);
     const double t306 = MW_FMA(t296, t296, t295);
@@ -3493,11 +3493,11 @@ static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[1] * c1;
     const double t8 = s[9] * c1;
     const double t9 = c1 * s[10];
@@ -3553,10 +3553,10 @@ static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const do
     const double t59 = t58 / t52;
     const double t60 = 0.5 * t59;
     double s61, c61;
-    cylindrical_worm_zc_zc_sincos(t44, &s61, &c61);
+    cylindrical_worm_zc_zc_seldom_sincos(t44, &s61, &c61);
     const double t63 = 0.5 * t44;
     double s64, c64;
-    cylindrical_worm_zc_zc_sincos(t63, &s64, &c64);
+    cylindrical_worm_zc_zc_seldom_sincos(t63, &s64, &c64);
     const double t66 = s[10] * s61;
     const double t67 = s[13] * s61;
     const double t68 = s61 * t59;
@@ -3698,11 +3698,11 @@ static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[20] * c1;
     const double t8 = s[28] * c1;
     const double t9 = c1 * s[29];
@@ -3761,9 +3761,9 @@ static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const dou
     const double t62 = 0.5 * t61;
     const double t63 = 0.5 * t46;
     double s64, c64;
-    cylindrical_worm_zc_zc_sincos(t46, &s64, &c64);
+    cylindrical_worm_zc_zc_seldom_sincos(t46, &s64, &c64);
     double s66, c66;
-    cylindrical_worm_zc_zc_sincos(t63, &s66, &c66);
+    cylindrical_worm_zc_zc_seldom_sincos(t63, &s66, &c66);
     const double t68 = s[31] * c64;
     const double t69 = s[29] * c64;
     const double t70 = c64 * t61;
@@ -3914,7 +3914,7 @@ static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const dou
     const double t215 = MW_FMA(s[35], t206, t188);
     const double t216 = s[67] * t210;
     double s217, c217;
-    cylindrical_worm_zc_zc_sincos(t211, &s217, &c217);
+    cylindrical_worm_zc_zc_seldom_sincos(t211, &s217, &c217);
     const double t219 = t152 * t213;
     const double t220 = 1.0 - t214;
     const double t221 = t215 * t215;
@@ -4032,13 +4032,13 @@ static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const do
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[1], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zc_sincos(q[0], &s5, &c5);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zc_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zc_zc_seldom_sincos(q[2], &s7, &c7);
     const double t9 = s[20] * c1;
     const double t10 = s[28] * c1;
     const double t11 = c1 * s[29];
@@ -4125,10 +4125,10 @@ static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const do
     const double t92 = t88 + t90;
     const double t93 = c1 * t92;
     double s94, c94;
-    cylindrical_worm_zc_zc_sincos(t54, &s94, &c94);
+    cylindrical_worm_zc_zc_seldom_sincos(t54, &s94, &c94);
     const double t96 = 0.5 * t54;
     double s97, c97;
-    cylindrical_worm_zc_zc_sincos(t96, &s97, &c97);
+    cylindrical_worm_zc_zc_seldom_sincos(t96, &s97, &c97);
     const double t99 = s[29] * s94;
     const double t100 = s[31] * s94;
     const double t101 = s94 * t89;
@@ -4467,7 +4467,7 @@ static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const do
     const double t434 = MW_FNMA(t318, t206, t418);
     const double t435 = MW_FMA(s7, t426, t427);
     double s436, c436;
-    cylindrical_worm_zc_zc_sincos(t428, &s436, &c436);
+    cylindrical_worm_zc_zc_seldom_sincos(t428, &s436, &c436);
     const double t438 = 1.0 - t429;
     const double t439 = s[38] * t430;
     const double t440 = MW_FNMA(s[56], t429, t387);
@@ -4594,9 +4594,9 @@ static inline void cylindrical_worm_zc_zc_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[9] * c1;
     const double t6 = c1 * s[10];
     const double t7 = c1 * s[2];
@@ -4648,9 +4648,9 @@ static inline void cylindrical_worm_zc_zc_profile_worm(const double *s, const do
     const double t53 = t51 + t52;
     const double t54 = 0.5 * t39;
     double s55, c55;
-    cylindrical_worm_zc_zc_sincos(t39, &s55, &c55);
+    cylindrical_worm_zc_zc_seldom_sincos(t39, &s55, &c55);
     double s57, c57;
-    cylindrical_worm_zc_zc_sincos(t54, &s57, &c57);
+    cylindrical_worm_zc_zc_seldom_sincos(t54, &s57, &c57);
     const double t59 = s[13] * s55;
     const double t60 = s[10] * s55;
     const double t61 = s57 * s57;
@@ -4736,9 +4736,9 @@ static inline void cylindrical_worm_zc_zc_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[28] * c1;
     const double t6 = c1 * s[29];
     const double t7 = c1 * s[21];
@@ -4791,9 +4791,9 @@ static inline void cylindrical_worm_zc_zc_profile_hob(const double *s, const dou
     const double t54 = c1 * t53;
     const double t55 = 0.5 * t39;
     double s56, c56;
-    cylindrical_worm_zc_zc_sincos(t39, &s56, &c56);
+    cylindrical_worm_zc_zc_seldom_sincos(t39, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_zc_zc_sincos(t55, &s58, &c58);
+    cylindrical_worm_zc_zc_seldom_sincos(t55, &s58, &c58);
     const double t60 = s[31] * s56;
     const double t61 = s[29] * s56;
     const double t62 = s58 * s58;
@@ -4908,11 +4908,11 @@ static inline void cylindrical_worm_zc_zc_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[28] * c1;
     const double t8 = c1 * s[29];
     const double t9 = c1 * s[21];
@@ -4973,9 +4973,9 @@ static inline void cylindrical_worm_zc_zc_generation(const double *s, const doub
     const double t64 = c1 * t63;
     const double t65 = 0.5 * t47;
     double s66, c66;
-    cylindrical_worm_zc_zc_sincos(t47, &s66, &c66);
+    cylindrical_worm_zc_zc_seldom_sincos(t47, &s66, &c66);
     double s68, c68;
-    cylindrical_worm_zc_zc_sincos(t65, &s68, &c68);
+    cylindrical_worm_zc_zc_seldom_sincos(t65, &s68, &c68);
     const double t70 = s[31] * s66;
     const double t71 = s[29] * s66;
     const double t72 = s68 * s68;
@@ -5113,7 +5113,7 @@ static inline void cylindrical_worm_zc_zc_generation(const double *s, const doub
     const double t204 = s[37] * t130;
     const double t205 = t124 * s[37];
     double s206, c206;
-    cylindrical_worm_zc_zc_sincos(t198, &s206, &c206);
+    cylindrical_worm_zc_zc_seldom_sincos(t198, &s206, &c206);
     const double t208 = t183 * t199;
     const double t209 = t188 + t177;
     const double t210 = MW_FNMA(s[37], t202, t132);
@@ -5167,9 +5167,9 @@ static inline void cylindrical_worm_zc_zc_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[23], s[24]);
     const double t6 = MW_FNMA(s1, s[22], s[21]);
     const double t7 = MW_FMS(s1, s[21], s[22]);
@@ -5192,9 +5192,9 @@ static inline void cylindrical_worm_zc_zc_section(const double *s, const double 
     const double t24 = cylindrical_worm_zc_zc_atan2(t22, t23);
     const double t25 = 0.5 * t24;
     double s26, c26;
-    cylindrical_worm_zc_zc_sincos(t24, &s26, &c26);
+    cylindrical_worm_zc_zc_seldom_sincos(t24, &s26, &c26);
     double s28, c28;
-    cylindrical_worm_zc_zc_sincos(t25, &s28, &c28);
+    cylindrical_worm_zc_zc_seldom_sincos(t25, &s28, &c28);
     const double t30 = s[31] * s26;
     const double t31 = s28 * s28;
     const double t32 = s28 * s[30];
@@ -5238,9 +5238,9 @@ static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[23], s[24]);
     const double t6 = MW_FNMA(s1, s[22], s[21]);
     const double t7 = MW_FMS(s1, s[21], s[22]);
@@ -5265,9 +5265,9 @@ static inline void cylindrical_worm_zc_zc_worm_point(const double *s, const doub
     const double t26 = cylindrical_worm_zc_zc_atan2(t24, t25);
     const double t27 = 0.5 * t26;
     double s28, c28;
-    cylindrical_worm_zc_zc_sincos(t26, &s28, &c28);
+    cylindrical_worm_zc_zc_seldom_sincos(t26, &s28, &c28);
     double s30, c30;
-    cylindrical_worm_zc_zc_sincos(t27, &s30, &c30);
+    cylindrical_worm_zc_zc_seldom_sincos(t27, &s30, &c30);
     const double t32 = s[31] * c28;
     const double t33 = s[29] * c28;
     const double t34 = s[31] * s28;
@@ -5333,9 +5333,9 @@ static inline void cylindrical_worm_zc_zc_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[23], s[24]);
     const double t6 = MW_FNMA(s1, s[22], s[21]);
     const double t7 = MW_FMS(s1, s[21], s[22]);
@@ -5359,9 +5359,9 @@ static inline void cylindrical_worm_zc_zc_second_type(const double *s, const dou
     const double t25 = cylindrical_worm_zc_zc_atan2(t23, t24);
     const double t26 = 0.5 * t25;
     double s27, c27;
-    cylindrical_worm_zc_zc_sincos(t25, &s27, &c27);
+    cylindrical_worm_zc_zc_seldom_sincos(t25, &s27, &c27);
     double s29, c29;
-    cylindrical_worm_zc_zc_sincos(t26, &s29, &c29);
+    cylindrical_worm_zc_zc_seldom_sincos(t26, &s29, &c29);
     const double t31 = s[31] * s27;
     const double t32 = s[29] * s27;
     const double t33 = s[31] * c27;

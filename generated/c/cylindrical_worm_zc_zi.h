@@ -228,18 +228,18 @@ MW_INLINE void cylindrical_worm_zc_zi_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zc_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zi_sincos(a, sine, cosine);
@@ -2127,9 +2127,9 @@ static inline void cylindrical_worm_zc_zi_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zi_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zi_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zi_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] - s[21];
     const double t6 = y[1] + s[21];
     const double t7 = y[1] * s[21];
@@ -2167,12 +2167,12 @@ static inline void cylindrical_worm_zc_zi_start_eval(const double *s, const doub
     const double t39 = MW_FNMA(t37, t31, t35);
     const double t40 = cylindrical_worm_zc_zi_atan2(t38, t39);
     double s41, c41;
-    cylindrical_worm_zc_zi_sincos(t27, &s41, &c41);
+    cylindrical_worm_zc_zi_seldom_sincos(t27, &s41, &c41);
     const double t43 = 0.5 * t40;
     double s44, c44;
-    cylindrical_worm_zc_zi_sincos(t40, &s44, &c44);
+    cylindrical_worm_zc_zi_seldom_sincos(t40, &s44, &c44);
     double s46, c46;
-    cylindrical_worm_zc_zi_sincos(t43, &s46, &c46);
+    cylindrical_worm_zc_zi_seldom_sincos(t43, &s46, &c46);
     const double t48 = s41 / c41;
     const double t49 = s[13] * s44;
     const double t50 = t48 * t48;
@@ -2331,9 +2331,9 @@ static inline void cylindrical_worm_zc_zi_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zi_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zi_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zi_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_zc_zi_atan2(0.0, y[1]);
     const double t6 = MW_FMA(s1, s[4], s[5]);
     const double t7 = MW_FNMA(s1, s[3], s[2]);
@@ -2357,9 +2357,9 @@ static inline void cylindrical_worm_zc_zi_start_solution(const double *s, const 
     const double t25 = cylindrical_worm_zc_zi_atan2(t23, t24);
     const double t26 = 0.5 * t25;
     double s27, c27;
-    cylindrical_worm_zc_zi_sincos(t25, &s27, &c27);
+    cylindrical_worm_zc_zi_seldom_sincos(t25, &s27, &c27);
     double s29, c29;
-    cylindrical_worm_zc_zi_sincos(t26, &s29, &c29);
+    cylindrical_worm_zc_zi_seldom_sincos(t26, &s29, &c29);
     const double t31 = s[13] * s27;
     const double t32 = s29 * s29;
     const double t33 = s29 * s[11];
@@ -2439,13 +2439,13 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t1 = x[2] + s[21];
     const double t2 = x[0] * 0.5;
     double s3, c3;
-    cylindrical_worm_zc_zi_sincos(x[0], &s3, &c3);
+    cylindrical_worm_zc_zi_seldom_sincos(x[0], &s3, &c3);
     const double t5 = t0 * t1;
     double s6, c6;
-    cylindrical_worm_zc_zi_sincos(t2, &s6, &c6);
+    cylindrical_worm_zc_zi_seldom_sincos(t2, &s6, &c6);
     const double t8 = sqrt(t5);
     double s9, c9;
-    cylindrical_worm_zc_zi_sincos(x[3], &s9, &c9);
+    cylindrical_worm_zc_zi_seldom_sincos(x[3], &s9, &c9);
     const double t11 = cylindrical_worm_zc_zi_atan2(t8, s[21]);
     const double t12 = s6 * s6;
     const double t13 = s[1] * c3;
@@ -2486,7 +2486,7 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t48 = MW_FNMA(t41, t16, t35);
     const double t49 = s9 * t27;
     double s50, c50;
-    cylindrical_worm_zc_zi_sincos(t39, &s50, &c50);
+    cylindrical_worm_zc_zi_seldom_sincos(t39, &s50, &c50);
     const double t52 = cylindrical_worm_zc_zi_atan2(t47, t48);
     const double t53 = c9 * t19;
     const double t54 = c9 * s[20];
@@ -2501,7 +2501,7 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t63 = t23 * t44;
     const double t64 = s[9] * s3;
     double s65, c65;
-    cylindrical_worm_zc_zi_sincos(x[1], &s65, &c65);
+    cylindrical_worm_zc_zi_seldom_sincos(x[1], &s65, &c65);
     const double t67 = t58 / t38;
     const double t68 = t59 + t59;
     const double t69 = MW_FMS(c6, t43, t60);
@@ -2541,7 +2541,7 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t103 = s9 * s[34];
     const double t104 = s[67] - x[2];
     double s105, c105;
-    cylindrical_worm_zc_zi_sincos(t11, &s105, &c105);
+    cylindrical_worm_zc_zi_seldom_sincos(t11, &s105, &c105);
     const double t107 = t47 * t99;
     const double t108 = s9 * t98;
     const double t109 = c9 * t98;
@@ -2549,14 +2549,14 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t111 = t110 / t86;
     const double t112 = 0.5 * t111;
     double s113, c113;
-    cylindrical_worm_zc_zi_sincos(t52, &s113, &c113);
+    cylindrical_worm_zc_zi_seldom_sincos(t52, &s113, &c113);
     const double t115 = s105 / c105;
     const double t116 = 0.5 * t52;
     const double t117 = 1.0 / c105;
     const double t118 = c105 * t67;
     const double t119 = s105 * t67;
     double s120, c120;
-    cylindrical_worm_zc_zi_sincos(t116, &s120, &c120);
+    cylindrical_worm_zc_zi_seldom_sincos(t116, &s120, &c120);
     const double t122 = t115 * t115;
     const double t123 = t115 + s[27];
     const double t124 = MW_FMA(t115, t119, t118);
@@ -2676,7 +2676,7 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t238 = t194 * t203;
     const double t239 = MW_FNMA(t228, s65, t230);
     double s240, c240;
-    cylindrical_worm_zc_zi_sincos(t232, &s240, &c240);
+    cylindrical_worm_zc_zi_seldom_sincos(t232, &s240, &c240);
     const double t242 = t37 - t232;
     const double t243 = t146 * t234;
     const double t244 = 1.0 + t235;
@@ -2686,7 +2686,7 @@ static inline void cylindrical_worm_zc_zi_observe(const double *s, const double 
     const double t248 = t100 * t155;
     const double t249 = MW_FMA(s[10], t202, t217);
     double s250, c250;
-    cylindrical_worm_zc_zi_sincos(t242, &s250, &c250);
+    cylindrical_worm_zc_zi_seldom_sincos(t242, &s250, &c250);
     const double t252 = s[26] * t243;
     const double t253 = s[26] * t244;
     const double t254 = s3 * t155;
@@ -3016,11 +3016,11 @@ static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zi_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zi_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zi_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zi_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zi_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[1] * c1;
     const double t8 = s[9] * c1;
     const double t9 = c1 * s[10];
@@ -3076,10 +3076,10 @@ static inline void cylindrical_worm_zc_zi_flank_pinion(const double *s, const do
     const double t59 = t58 / t52;
     const double t60 = 0.5 * t59;
     double s61, c61;
-    cylindrical_worm_zc_zi_sincos(t44, &s61, &c61);
+    cylindrical_worm_zc_zi_seldom_sincos(t44, &s61, &c61);
     const double t63 = 0.5 * t44;
     double s64, c64;
-    cylindrical_worm_zc_zi_sincos(t63, &s64, &c64);
+    cylindrical_worm_zc_zi_seldom_sincos(t63, &s64, &c64);
     const double t66 = s[10] * s61;
     const double t67 = s[13] * s61;
     const double t68 = s61 * t59;
@@ -3222,7 +3222,7 @@ static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const dou
     const double t0 = q[0] - s[21];
     const double t1 = q[0] + s[21];
     double s2, c2;
-    cylindrical_worm_zc_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zc_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[22];
@@ -3264,7 +3264,7 @@ static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const dou
     const double t42 = MW_FNMA(t23, t40, s[21]);
     const double t43 = t26 * t42;
     double s44, c44;
-    cylindrical_worm_zc_zi_sincos(t15, &s44, &c44);
+    cylindrical_worm_zc_zi_seldom_sincos(t15, &s44, &c44);
     const double t46 = s44 * t41;
     const double t47 = s44 / c44;
     const double t48 = 1.0 / c44;
@@ -3333,7 +3333,7 @@ static inline void cylindrical_worm_zc_zi_flank_wheel(const double *s, const dou
     const double t111 = t72 * t107;
     const double t112 = MW_FMA(s[24], t105, t34);
     double s113, c113;
-    cylindrical_worm_zc_zi_sincos(t108, &s113, &c113);
+    cylindrical_worm_zc_zi_seldom_sincos(t108, &s113, &c113);
     const double t115 = t72 * t110;
     const double t116 = 1.0 + t111;
     const double t117 = t112 * t112;
@@ -3455,14 +3455,14 @@ static inline void cylindrical_worm_zc_zi_fillet_wheel(const double *s, const do
     const double t3 = q[1] * q[1];
     const double t4 = s[23] * q[1];
     double s5, c5;
-    cylindrical_worm_zc_zi_sincos(q[0], &s5, &c5);
+    cylindrical_worm_zc_zi_seldom_sincos(q[0], &s5, &c5);
     const double t7 = t0 * t1;
     const double t8 = t3 * s[69];
     const double t9 = sqrt(t7);
     const double t10 = t7 + s[22];
     const double t11 = t8 + s[70];
     double s12, c12;
-    cylindrical_worm_zc_zi_sincos(q[2], &s12, &c12);
+    cylindrical_worm_zc_zi_seldom_sincos(q[2], &s12, &c12);
     const double t14 = t0 + t1;
     const double t15 = q[1] + q[1];
     const double t16 = t10 * t10;
@@ -3505,7 +3505,7 @@ static inline void cylindrical_worm_zc_zi_fillet_wheel(const double *s, const do
     const double t53 = t35 - t45;
     const double t54 = t40 + t53;
     double s55, c55;
-    cylindrical_worm_zc_zi_sincos(t23, &s55, &c55);
+    cylindrical_worm_zc_zi_seldom_sincos(t23, &s55, &c55);
     const double t57 = s55 * t50;
     const double t58 = s55 / c55;
     const double t59 = 1.0 / c55;
@@ -3770,7 +3770,7 @@ static inline void cylindrical_worm_zc_zi_fillet_wheel(const double *s, const do
     const double t318 = s[23] * t296;
     const double t319 = MW_FMA(s12, t310, t311);
     double s320, c320;
-    cylindrical_worm_zc_zi_sincos(t312, &s320, &c320);
+    cylindrical_worm_zc_zi_seldom_sincos(t312, &s320, &c320);
     const double t322 = 1.0 + t313;
     const double t323 = s[26] * t314;
     const double t324 = MW_FMA(s[47], t313, t271);
@@ -3899,9 +3899,9 @@ static inline void cylindrical_worm_zc_zi_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zi_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zi_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zi_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[9] * c1;
     const double t6 = c1 * s[10];
     const double t7 = c1 * s[2];
@@ -3953,9 +3953,9 @@ static inline void cylindrical_worm_zc_zi_profile_worm(const double *s, const do
     const double t53 = t51 + t52;
     const double t54 = 0.5 * t39;
     double s55, c55;
-    cylindrical_worm_zc_zi_sincos(t39, &s55, &c55);
+    cylindrical_worm_zc_zi_seldom_sincos(t39, &s55, &c55);
     double s57, c57;
-    cylindrical_worm_zc_zi_sincos(t54, &s57, &c57);
+    cylindrical_worm_zc_zi_seldom_sincos(t54, &s57, &c57);
     const double t59 = s[13] * s55;
     const double t60 = s[10] * s55;
     const double t61 = s57 * s57;
@@ -4053,7 +4053,7 @@ static inline void cylindrical_worm_zc_zi_profile_hob(const double *s, const dou
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zc_zi_sincos(t12, &s15, &c15);
+    cylindrical_worm_zc_zi_seldom_sincos(t12, &s15, &c15);
     const double t17 = s15 / c15;
     const double t18 = t17 * t17;
     const double t19 = t17 + s[27];
@@ -4131,7 +4131,7 @@ static inline void cylindrical_worm_zc_zi_generation(const double *s, const doub
     const double t0 = q[0] - s[21];
     const double t1 = q[0] + s[21];
     double s2, c2;
-    cylindrical_worm_zc_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zc_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[22];
@@ -4191,7 +4191,7 @@ static inline void cylindrical_worm_zc_zi_generation(const double *s, const doub
     const double t60 = t38 - t47;
     const double t61 = t44 + t60;
     double s62, c62;
-    cylindrical_worm_zc_zi_sincos(t21, &s62, &c62);
+    cylindrical_worm_zc_zi_seldom_sincos(t21, &s62, &c62);
     const double t64 = s62 / c62;
     const double t65 = t64 * t64;
     const double t66 = t64 + s[27];
@@ -4257,7 +4257,7 @@ static inline void cylindrical_worm_zc_zi_generation(const double *s, const doub
     const double t126 = MW_FNMA(s[28], t110, t89);
     const double t127 = -t110;
     double s128, c128;
-    cylindrical_worm_zc_zi_sincos(t123, &s128, &c128);
+    cylindrical_worm_zc_zi_seldom_sincos(t123, &s128, &c128);
     const double t130 = t116 + t125;
     const double t131 = t117 - t118;
     const double t132 = MW_FNMA(s[34], t126, t27);
@@ -4343,7 +4343,7 @@ static inline void cylindrical_worm_zc_zi_worm_point(const double *s, const doub
     const double t15 = t10 * t11;
     const double t16 = t2 / t15;
     double s17, c17;
-    cylindrical_worm_zc_zi_sincos(t14, &s17, &c17);
+    cylindrical_worm_zc_zi_seldom_sincos(t14, &s17, &c17);
     const double t19 = s17 / c17;
     const double t20 = t19 + s[27];
     const double t21 = t19 * t19;
@@ -4394,7 +4394,7 @@ static inline void cylindrical_worm_zc_zi_second_type(const double *s, const dou
     const double t12 = t9 * t10;
     const double t13 = t2 / t12;
     double s14, c14;
-    cylindrical_worm_zc_zi_sincos(t11, &s14, &c14);
+    cylindrical_worm_zc_zi_seldom_sincos(t11, &s14, &c14);
     const double t16 = s14 / c14;
     const double t17 = t16 * t16;
     const double t18 = t17 * s[20];

@@ -227,18 +227,18 @@ MW_INLINE void cylindrical_worm_zc_zk_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zc_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zk_sincos(a, sine, cosine);
@@ -2150,14 +2150,14 @@ static inline void cylindrical_worm_zc_zk_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] * 0.5;
     double s6, c6;
-    cylindrical_worm_zc_zk_sincos(y[1], &s6, &c6);
+    cylindrical_worm_zc_zk_seldom_sincos(y[1], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zk_sincos(t5, &s8, &c8);
+    cylindrical_worm_zc_zk_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMA(s1, s[4], s[5]);
     const double t11 = MW_FNMA(s1, s[3], s[2]);
     const double t12 = MW_FMS(s1, s[2], s[3]);
@@ -2223,9 +2223,9 @@ static inline void cylindrical_worm_zc_zk_start_eval(const double *s, const doub
     const double t72 = s[114] + t71;
     const double t73 = 0.5 * t32;
     double s74, c74;
-    cylindrical_worm_zc_zk_sincos(t32, &s74, &c74);
+    cylindrical_worm_zc_zk_seldom_sincos(t32, &s74, &c74);
     double s76, c76;
-    cylindrical_worm_zc_zk_sincos(t73, &s76, &c76);
+    cylindrical_worm_zc_zk_seldom_sincos(t73, &s76, &c76);
     const double t78 = -t72;
     const double t79 = s[13] * s74;
     const double t80 = s76 * s76;
@@ -2400,14 +2400,14 @@ static inline void cylindrical_worm_zc_zk_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] * 0.5;
     double s6, c6;
-    cylindrical_worm_zc_zk_sincos(y[1], &s6, &c6);
+    cylindrical_worm_zc_zk_seldom_sincos(y[1], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zk_sincos(t5, &s8, &c8);
+    cylindrical_worm_zc_zk_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMA(s1, s[4], s[5]);
     const double t11 = MW_FNMA(s1, s[3], s[2]);
     const double t12 = MW_FMS(s1, s[2], s[3]);
@@ -2455,9 +2455,9 @@ static inline void cylindrical_worm_zc_zk_start_solution(const double *s, const 
     const double t54 = cylindrical_worm_zc_zk_atan2(t53, t52);
     const double t55 = 0.5 * t32;
     double s56, c56;
-    cylindrical_worm_zc_zk_sincos(t32, &s56, &c56);
+    cylindrical_worm_zc_zk_seldom_sincos(t32, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_zc_zk_sincos(t55, &s58, &c58);
+    cylindrical_worm_zc_zk_seldom_sincos(t55, &s58, &c58);
     const double t60 = s[13] * s56;
     const double t61 = s58 * s58;
     const double t62 = s58 * s[11];
@@ -2535,21 +2535,21 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
 {
     const double t0 = x[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(x[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(x[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = x[2] * 0.5;
     double s6, c6;
-    cylindrical_worm_zc_zk_sincos(x[2], &s6, &c6);
+    cylindrical_worm_zc_zk_seldom_sincos(x[2], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zc_zk_sincos(t5, &s8, &c8);
+    cylindrical_worm_zc_zk_seldom_sincos(t5, &s8, &c8);
     const double t10 = s3 * s3;
     const double t11 = s[1] * c1;
     const double t12 = s3 * s[0];
     const double t13 = s[9] * c1;
     const double t14 = c1 * s[10];
     double s15, c15;
-    cylindrical_worm_zc_zk_sincos(x[3], &s15, &c15);
+    cylindrical_worm_zc_zk_seldom_sincos(x[3], &s15, &c15);
     const double t17 = MW_FMA(s1, s[4], s[5]);
     const double t18 = s[1] * s1;
     const double t19 = MW_FNMA(s1, s[3], s[2]);
@@ -2569,7 +2569,7 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
     const double t33 = MW_FMS(t20, t22, t25);
     const double t34 = MW_FMA(s6, s[29], s[30]);
     double s35, c35;
-    cylindrical_worm_zc_zk_sincos(t27, &s35, &c35);
+    cylindrical_worm_zc_zk_seldom_sincos(t27, &s35, &c35);
     const double t37 = MW_FNMA(t32, t13, t31);
     const double t38 = MW_FNMA(t32, t14, t33);
     const double t39 = s8 * s[19];
@@ -2638,7 +2638,7 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
     const double t102 = MW_FNMA(t34, t91, t93);
     const double t103 = MW_FNMA(s6, t42, t94);
     double s104, c104;
-    cylindrical_worm_zc_zk_sincos(x[1], &s104, &c104);
+    cylindrical_worm_zc_zk_seldom_sincos(x[1], &s104, &c104);
     const double t106 = t32 * t96;
     const double t107 = MW_FMA(t21, t86, t97);
     const double t108 = MW_FNMA(s[31], t76, s[21]);
@@ -2740,7 +2740,7 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
     const double t204 = t66 * s[75];
     const double t205 = s[39] * t171;
     double s206, c206;
-    cylindrical_worm_zc_zk_sincos(t45, &s206, &c206);
+    cylindrical_worm_zc_zk_seldom_sincos(t45, &s206, &c206);
     const double t208 = x[3] - t177;
     const double t209 = 0.5 * t45;
     const double t210 = MW_FMA(s[28], t177, t134);
@@ -2751,12 +2751,12 @@ static inline void cylindrical_worm_zc_zk_observe(const double *s, const double 
     const double t215 = MW_FMA(t130, t130, t199);
     const double t216 = s[40] * t208;
     double s217, c217;
-    cylindrical_worm_zc_zk_sincos(t209, &s217, &c217);
+    cylindrical_worm_zc_zk_seldom_sincos(t209, &s217, &c217);
     double s219, c219;
-    cylindrical_worm_zc_zk_sincos(t216, &s219, &c219);
+    cylindrical_worm_zc_zk_seldom_sincos(t216, &s219, &c219);
     const double t221 = t26 - t216;
     double s222, c222;
-    cylindrical_worm_zc_zk_sincos(t221, &s222, &c222);
+    cylindrical_worm_zc_zk_seldom_sincos(t221, &s222, &c222);
     const double t224 = MW_FNMA(s[39], t210, t146);
     const double t225 = s[10] * s206;
     const double t226 = s[10] * c206;
@@ -3155,11 +3155,11 @@ static inline void cylindrical_worm_zc_zk_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[1] * c1;
     const double t8 = s[9] * c1;
     const double t9 = c1 * s[10];
@@ -3215,10 +3215,10 @@ static inline void cylindrical_worm_zc_zk_flank_pinion(const double *s, const do
     const double t59 = t58 / t52;
     const double t60 = 0.5 * t59;
     double s61, c61;
-    cylindrical_worm_zc_zk_sincos(t44, &s61, &c61);
+    cylindrical_worm_zc_zk_seldom_sincos(t44, &s61, &c61);
     const double t63 = 0.5 * t44;
     double s64, c64;
-    cylindrical_worm_zc_zk_sincos(t63, &s64, &c64);
+    cylindrical_worm_zc_zk_seldom_sincos(t63, &s64, &c64);
     const double t66 = s[10] * s61;
     const double t67 = s[13] * s61;
     const double t68 = s61 * t59;
@@ -3360,11 +3360,11 @@ static inline void cylindrical_worm_zc_zk_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[21] * c1;
     const double t8 = c1 * s[20];
     const double t9 = s[24] * c1;
@@ -3513,7 +3513,7 @@ static inline void cylindrical_worm_zc_zk_flank_wheel(const double *s, const dou
     const double t152 = t67 * t147;
     const double t153 = MW_FMA(s[35], t145, t106);
     double s154, c154;
-    cylindrical_worm_zc_zk_sincos(t149, &s154, &c154);
+    cylindrical_worm_zc_zk_seldom_sincos(t149, &s154, &c154);
     const double t156 = t67 * t151;
     const double t157 = 1.0 - t152;
     const double t158 = t153 * t153;
@@ -3629,14 +3629,14 @@ static inline void cylindrical_worm_zc_zk_fillet_wheel(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zc_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zc_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[1] * 0.5;
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(q[0], &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zk_sincos(t2, &s5, &c5);
+    cylindrical_worm_zc_zk_seldom_sincos(t2, &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zc_zk_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zc_zk_seldom_sincos(q[2], &s7, &c7);
     const double t9 = c0 * s[20];
     const double t10 = s[21] * c0;
     const double t11 = MW_FMS(s0, s[24], s[25]);
@@ -3973,7 +3973,7 @@ static inline void cylindrical_worm_zc_zk_fillet_wheel(const double *s, const do
     const double t342 = MW_FMA(t95, t196, t322);
     const double t343 = MW_FMA(s7, t334, t335);
     double s344, c344;
-    cylindrical_worm_zc_zk_sincos(t336, &s344, &c344);
+    cylindrical_worm_zc_zk_seldom_sincos(t336, &s344, &c344);
     const double t346 = 1.0 - t337;
     const double t347 = s[40] * t338;
     const double t348 = MW_FNMA(s[60], t337, t298);
@@ -4106,9 +4106,9 @@ static inline void cylindrical_worm_zc_zk_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[9] * c1;
     const double t6 = c1 * s[10];
     const double t7 = c1 * s[2];
@@ -4160,9 +4160,9 @@ static inline void cylindrical_worm_zc_zk_profile_worm(const double *s, const do
     const double t53 = t51 + t52;
     const double t54 = 0.5 * t39;
     double s55, c55;
-    cylindrical_worm_zc_zk_sincos(t39, &s55, &c55);
+    cylindrical_worm_zc_zk_seldom_sincos(t39, &s55, &c55);
     double s57, c57;
-    cylindrical_worm_zc_zk_sincos(t54, &s57, &c57);
+    cylindrical_worm_zc_zk_seldom_sincos(t54, &s57, &c57);
     const double t59 = s[13] * s55;
     const double t60 = s[10] * s55;
     const double t61 = s57 * s57;
@@ -4247,9 +4247,9 @@ static inline void cylindrical_worm_zc_zk_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[26], s[27]);
     const double t6 = MW_FMS(s1, s[24], s[25]);
     const double t7 = MW_FMA(s1, s[29], s[30]);
@@ -4372,11 +4372,11 @@ static inline void cylindrical_worm_zc_zk_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = MW_FMA(s1, s[26], s[27]);
     const double t8 = MW_FMS(s1, s[24], s[25]);
     const double t9 = MW_FMA(s1, s[29], s[30]);
@@ -4519,7 +4519,7 @@ static inline void cylindrical_worm_zc_zk_generation(const double *s, const doub
     const double t146 = t124 - t122;
     const double t147 = t125 + t123;
     double s148, c148;
-    cylindrical_worm_zc_zk_sincos(t143, &s148, &c148);
+    cylindrical_worm_zc_zk_seldom_sincos(t143, &s148, &c148);
     const double t150 = t10 * t146;
     const double t151 = t139 + t131;
     const double t152 = -t129;
@@ -4569,9 +4569,9 @@ static inline void cylindrical_worm_zc_zk_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[26], s[27]);
     const double t6 = MW_FMS(s1, s[24], s[25]);
     const double t7 = MW_FMA(s1, s[29], s[30]);
@@ -4624,9 +4624,9 @@ static inline void cylindrical_worm_zc_zk_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[26], s[27]);
     const double t6 = MW_FMS(s1, s[24], s[25]);
     const double t7 = MW_FMA(s1, s[29], s[30]);
@@ -4691,9 +4691,9 @@ static inline void cylindrical_worm_zc_zk_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[26], s[27]);
     const double t6 = MW_FMS(s1, s[24], s[25]);
     const double t7 = MW_FMA(s1, s[29], s[30]);

@@ -230,18 +230,18 @@ MW_INLINE void cylindrical_worm_zc_zn_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zc_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zn_sincos(a, sine, cosine);
@@ -2086,9 +2086,9 @@ static inline void cylindrical_worm_zc_zn_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zn_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zn_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(y[1], s[19], s[20]);
     const double t6 = MW_FMS(y[1], s[24], s[25]);
     const double t7 = y[1] * s[30];
@@ -2138,9 +2138,9 @@ static inline void cylindrical_worm_zc_zn_start_eval(const double *s, const doub
     const double t51 = cylindrical_worm_zc_zn_atan2(t48, t49);
     const double t52 = 0.5 * t51;
     double s53, c53;
-    cylindrical_worm_zc_zn_sincos(t51, &s53, &c53);
+    cylindrical_worm_zc_zn_seldom_sincos(t51, &s53, &c53);
     double s55, c55;
-    cylindrical_worm_zc_zn_sincos(t52, &s55, &c55);
+    cylindrical_worm_zc_zn_seldom_sincos(t52, &s55, &c55);
     const double t57 = s[13] * s53;
     const double t58 = s55 * s55;
     const double t59 = s55 * s[11];
@@ -2267,9 +2267,9 @@ static inline void cylindrical_worm_zc_zn_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zn_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zc_zn_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] * s[21];
     const double t6 = MW_FMA(y[1], s[19], s[20]);
     const double t7 = -t5;
@@ -2296,9 +2296,9 @@ static inline void cylindrical_worm_zc_zn_start_solution(const double *s, const 
     const double t28 = cylindrical_worm_zc_zn_atan2(t26, t27);
     const double t29 = 0.5 * t28;
     double s30, c30;
-    cylindrical_worm_zc_zn_sincos(t28, &s30, &c30);
+    cylindrical_worm_zc_zn_seldom_sincos(t28, &s30, &c30);
     double s32, c32;
-    cylindrical_worm_zc_zn_sincos(t29, &s32, &c32);
+    cylindrical_worm_zc_zn_seldom_sincos(t29, &s32, &c32);
     const double t34 = s[13] * s30;
     const double t35 = s32 * s32;
     const double t36 = s32 * s[11];
@@ -2376,11 +2376,11 @@ static inline void cylindrical_worm_zc_zn_observe(const double *s, const double 
 {
     const double t0 = x[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zn_sincos(x[0], &s1, &c1);
+    cylindrical_worm_zc_zn_seldom_sincos(x[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zn_sincos(x[3], &s5, &c5);
+    cylindrical_worm_zc_zn_seldom_sincos(x[3], &s5, &c5);
     const double t7 = MW_FMS(x[2], s[24], s[25]);
     const double t8 = MW_FMA(x[2], s[19], s[20]);
     const double t9 = x[2] * s[30];
@@ -2389,7 +2389,7 @@ static inline void cylindrical_worm_zc_zn_observe(const double *s, const double 
     const double t12 = x[4] + s[133];
     const double t13 = s[132] + x[1];
     double s14, c14;
-    cylindrical_worm_zc_zn_sincos(x[1], &s14, &c14);
+    cylindrical_worm_zc_zn_seldom_sincos(x[1], &s14, &c14);
     const double t16 = s[1] * c1;
     const double t17 = s[9] * c1;
     const double t18 = c1 * s[10];
@@ -2397,7 +2397,7 @@ static inline void cylindrical_worm_zc_zn_observe(const double *s, const double 
     const double t20 = MW_FMA(s[19], t8, t9);
     const double t21 = s[26] * t8;
     double s22, c22;
-    cylindrical_worm_zc_zn_sincos(t13, &s22, &c22);
+    cylindrical_worm_zc_zn_seldom_sincos(t13, &s22, &c22);
     const double t24 = s3 * s3;
     const double t25 = s3 * s[0];
     const double t26 = t20 * s[31];
@@ -2536,21 +2536,21 @@ static inline void cylindrical_worm_zc_zn_observe(const double *s, const double 
     const double t159 = MW_FMA(s[22], t147, t145);
     const double t160 = MW_FNMA(t102, t108, t152);
     double s161, c161;
-    cylindrical_worm_zc_zn_sincos(t154, &s161, &c161);
+    cylindrical_worm_zc_zn_seldom_sincos(t154, &s161, &c161);
     const double t163 = t12 - t154;
     const double t164 = t100 * t156;
     const double t165 = t100 * t160;
     const double t166 = t158 * t158;
     const double t167 = s[18] * t159;
     double s168, c168;
-    cylindrical_worm_zc_zn_sincos(t163, &s168, &c168);
+    cylindrical_worm_zc_zn_seldom_sincos(t163, &s168, &c168);
     const double t170 = 1.0 - t164;
     const double t171 = s[32] * t165;
     const double t172 = MW_FNMA(t164, s[56], t120);
     const double t173 = MW_FMA(s[35], t165, s[23]);
     const double t174 = sqrt(t166);
     double s175, c175;
-    cylindrical_worm_zc_zn_sincos(t60, &s175, &c175);
+    cylindrical_worm_zc_zn_seldom_sincos(t60, &s175, &c175);
     const double t177 = 0.5 * t60;
     const double t178 = t70 * c161;
     const double t179 = s[32] * t170;
@@ -2560,7 +2560,7 @@ static inline void cylindrical_worm_zc_zn_observe(const double *s, const double 
     const double t183 = t172 * c161;
     const double t184 = t114 * c161;
     double s185, c185;
-    cylindrical_worm_zc_zn_sincos(t177, &s185, &c185);
+    cylindrical_worm_zc_zn_seldom_sincos(t177, &s185, &c185);
     const double t187 = MW_FNMA(t155, s161, t178);
     const double t188 = t70 * s161;
     const double t189 = t72 * c168;
@@ -2925,11 +2925,11 @@ static inline void cylindrical_worm_zc_zn_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zn_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zn_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zc_zn_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zc_zn_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[1] * c1;
     const double t8 = s[9] * c1;
     const double t9 = c1 * s[10];
@@ -2985,10 +2985,10 @@ static inline void cylindrical_worm_zc_zn_flank_pinion(const double *s, const do
     const double t59 = t58 / t52;
     const double t60 = 0.5 * t59;
     double s61, c61;
-    cylindrical_worm_zc_zn_sincos(t44, &s61, &c61);
+    cylindrical_worm_zc_zn_seldom_sincos(t44, &s61, &c61);
     const double t63 = 0.5 * t44;
     double s64, c64;
-    cylindrical_worm_zc_zn_sincos(t63, &s64, &c64);
+    cylindrical_worm_zc_zn_seldom_sincos(t63, &s64, &c64);
     const double t66 = s[10] * s61;
     const double t67 = s[13] * s61;
     const double t68 = s61 * t59;
@@ -3128,7 +3128,7 @@ static inline void cylindrical_worm_zc_zn_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zc_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zc_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[19], s[20]);
     const double t3 = MW_FMS(q[0], s[24], s[25]);
     const double t4 = q[0] * s[30];
@@ -3214,7 +3214,7 @@ static inline void cylindrical_worm_zc_zn_flank_wheel(const double *s, const dou
     const double t84 = MW_FMA(s[22], t78, t60);
     const double t85 = t52 * t80;
     double s86, c86;
-    cylindrical_worm_zc_zn_sincos(t81, &s86, &c86);
+    cylindrical_worm_zc_zn_seldom_sincos(t81, &s86, &c86);
     const double t88 = 1.0 - t83;
     const double t89 = t84 * t84;
     const double t90 = s[32] * t85;
@@ -3332,7 +3332,7 @@ static inline void cylindrical_worm_zc_zn_fillet_wheel(const double *s, const do
     const double t2 = MW_FMS(q[1], s[24], s[25]);
     const double t3 = q[1] * s[21];
     double s4, c4;
-    cylindrical_worm_zc_zn_sincos(q[0], &s4, &c4);
+    cylindrical_worm_zc_zn_seldom_sincos(q[0], &s4, &c4);
     const double t6 = MW_FMA(t0, s[23], s[27]);
     const double t7 = MW_FMA(s[19], t0, t1);
     const double t8 = t2 * t2;
@@ -3341,7 +3341,7 @@ static inline void cylindrical_worm_zc_zn_fillet_wheel(const double *s, const do
     const double t11 = t7 * t7;
     const double t12 = s[26] * t6;
     double s13, c13;
-    cylindrical_worm_zc_zn_sincos(q[2], &s13, &c13);
+    cylindrical_worm_zc_zn_seldom_sincos(q[2], &s13, &c13);
     const double t15 = s[83] * t10;
     const double t16 = MW_FMA(t11, s[83], t15);
     const double t17 = s[26] * t7;
@@ -3601,7 +3601,7 @@ static inline void cylindrical_worm_zc_zn_fillet_wheel(const double *s, const do
     const double t271 = s4 * t249;
     const double t272 = MW_FMA(s13, t263, t264);
     double s273, c273;
-    cylindrical_worm_zc_zn_sincos(t265, &s273, &c273);
+    cylindrical_worm_zc_zn_seldom_sincos(t265, &s273, &c273);
     const double t275 = 1.0 - t266;
     const double t276 = s[32] * t267;
     const double t277 = MW_FNMA(s[56], t266, t224);
@@ -3731,9 +3731,9 @@ static inline void cylindrical_worm_zc_zn_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zn_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zc_zn_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zc_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zc_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[9] * c1;
     const double t6 = c1 * s[10];
     const double t7 = c1 * s[2];
@@ -3785,9 +3785,9 @@ static inline void cylindrical_worm_zc_zn_profile_worm(const double *s, const do
     const double t53 = t51 + t52;
     const double t54 = 0.5 * t39;
     double s55, c55;
-    cylindrical_worm_zc_zn_sincos(t39, &s55, &c55);
+    cylindrical_worm_zc_zn_seldom_sincos(t39, &s55, &c55);
     double s57, c57;
-    cylindrical_worm_zc_zn_sincos(t54, &s57, &c57);
+    cylindrical_worm_zc_zn_seldom_sincos(t54, &s57, &c57);
     const double t59 = s[13] * s55;
     const double t60 = s[10] * s55;
     const double t61 = s57 * s57;
@@ -3954,7 +3954,7 @@ static inline void cylindrical_worm_zc_zn_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zc_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zc_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[19], s[20]);
     const double t3 = MW_FMS(q[0], s[24], s[25]);
     const double t4 = q[0] * s[30];
@@ -4053,7 +4053,7 @@ static inline void cylindrical_worm_zc_zn_generation(const double *s, const doub
     const double t97 = t47 / t80;
     const double t98 = t88 - t84;
     double s99, c99;
-    cylindrical_worm_zc_zn_sincos(t95, &s99, &c99);
+    cylindrical_worm_zc_zn_seldom_sincos(t95, &s99, &c99);
     const double t101 = MW_FMS(s[19], t98, s[114]);
     const double t102 = t90 + t87;
     const double t103 = t92 + t91;

@@ -223,18 +223,18 @@ MW_INLINE void cylindrical_worm_zi_za_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zi_za_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zi_za_sincos(a, sine, cosine);
@@ -1713,7 +1713,7 @@ static inline void cylindrical_worm_zi_za_observe(const double *s, const double 
     const double t0 = x[0] - s[14];
     const double t1 = x[0] + s[14];
     double s2, c2;
-    cylindrical_worm_zi_za_sincos(x[3], &s2, &c2);
+    cylindrical_worm_zi_za_seldom_sincos(x[3], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = x[2] - s[8];
@@ -1726,9 +1726,9 @@ static inline void cylindrical_worm_zi_za_observe(const double *s, const double 
     const double t13 = x[0] * s[14];
     const double t14 = MW_FMA(s[9], t6, s[10]);
     double s15, c15;
-    cylindrical_worm_zi_za_sincos(x[1], &s15, &c15);
+    cylindrical_worm_zi_za_seldom_sincos(x[1], &s15, &c15);
     double s17, c17;
-    cylindrical_worm_zi_za_sincos(t11, &s17, &c17);
+    cylindrical_worm_zi_za_seldom_sincos(t11, &s17, &c17);
     const double t19 = cylindrical_worm_zi_za_atan2(t5, s[14]);
     const double t20 = s2 * s[3];
     const double t21 = c2 * s[3];
@@ -1830,7 +1830,7 @@ static inline void cylindrical_worm_zi_za_observe(const double *s, const double 
     const double t117 = t73 * t93;
     const double t118 = s[26] * c15;
     double s119, c119;
-    cylindrical_worm_zi_za_sincos(t111, &s119, &c119);
+    cylindrical_worm_zi_za_seldom_sincos(t111, &s119, &c119);
     const double t121 = t10 - t111;
     const double t122 = 1.0 + t113;
     const double t123 = s[7] * t114;
@@ -1840,9 +1840,9 @@ static inline void cylindrical_worm_zi_za_observe(const double *s, const double 
     const double t127 = MW_FNMA(s[22], t114, s[34]);
     const double t128 = s[13] * c15;
     double s129, c129;
-    cylindrical_worm_zi_za_sincos(t121, &s129, &c129);
+    cylindrical_worm_zi_za_seldom_sincos(t121, &s129, &c129);
     double s131, c131;
-    cylindrical_worm_zi_za_sincos(t19, &s131, &c131);
+    cylindrical_worm_zi_za_seldom_sincos(t19, &s131, &c131);
     const double t133 = s[7] * t122;
     const double t134 = sqrt(t126);
     const double t135 = sqrt(t124);
@@ -2140,7 +2140,7 @@ static inline void cylindrical_worm_zi_za_flank_pinion(const double *s, const do
     const double t0 = q[0] - s[14];
     const double t1 = q[0] + s[14];
     double s2, c2;
-    cylindrical_worm_zi_za_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_za_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[25];
@@ -2174,7 +2174,7 @@ static inline void cylindrical_worm_zi_za_flank_pinion(const double *s, const do
     const double t34 = s[51] - t30;
     const double t35 = t30 - s[52];
     double s36, c36;
-    cylindrical_worm_zi_za_sincos(t12, &s36, &c36);
+    cylindrical_worm_zi_za_seldom_sincos(t12, &s36, &c36);
     const double t38 = s[15] - t12;
     const double t39 = s36 * t33;
     const double t40 = s36 / c36;
@@ -2246,7 +2246,7 @@ static inline void cylindrical_worm_zi_za_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zi_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zi_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[4];
     const double t3 = q[0] - s[8];
     const double t4 = q[0] * s[5];
@@ -2311,7 +2311,7 @@ static inline void cylindrical_worm_zi_za_flank_wheel(const double *s, const dou
     const double t63 = MW_FMA(s[5], t57, t16);
     const double t64 = t32 * t59;
     double s65, c65;
-    cylindrical_worm_zi_za_sincos(t60, &s65, &c65);
+    cylindrical_worm_zi_za_seldom_sincos(t60, &s65, &c65);
     const double t67 = 1.0 + t62;
     const double t68 = t63 * t63;
     const double t69 = s[7] * t64;
@@ -2428,11 +2428,11 @@ static inline void cylindrical_worm_zi_za_fillet_wheel(const double *s, const do
     const double t0 = q[1] * q[1];
     const double t1 = q[1] * s[4];
     double s2, c2;
-    cylindrical_worm_zi_za_sincos(q[0], &s2, &c2);
+    cylindrical_worm_zi_za_seldom_sincos(q[0], &s2, &c2);
     const double t4 = MW_FMA(t0, s[63], s[64]);
     const double t5 = MW_FMA(t0, s[62], t4);
     double s6, c6;
-    cylindrical_worm_zi_za_sincos(q[2], &s6, &c6);
+    cylindrical_worm_zi_za_seldom_sincos(q[2], &s6, &c6);
     const double t8 = sqrt(t5);
     const double t9 = s[17] * q[1];
     const double t10 = q[1] - s[8];
@@ -2669,7 +2669,7 @@ static inline void cylindrical_worm_zi_za_fillet_wheel(const double *s, const do
     const double t241 = s[17] * t219;
     const double t242 = MW_FMA(s6, t233, t234);
     double s243, c243;
-    cylindrical_worm_zi_za_sincos(t235, &s243, &c243);
+    cylindrical_worm_zi_za_seldom_sincos(t235, &s243, &c243);
     const double t245 = 1.0 + t236;
     const double t246 = s[7] * t237;
     const double t247 = MW_FMA(s[35], t236, t194);
@@ -2810,7 +2810,7 @@ static inline void cylindrical_worm_zi_za_profile_worm(const double *s, const do
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zi_za_sincos(t12, &s15, &c15);
+    cylindrical_worm_zi_za_seldom_sincos(t12, &s15, &c15);
     const double t17 = s[15] - t12;
     const double t18 = s15 / c15;
     const double t19 = t18 * t18;
@@ -2926,7 +2926,7 @@ static inline void cylindrical_worm_zi_za_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zi_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zi_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] - s[8];
     const double t3 = q[0] * s[4];
     const double t4 = q[0] * s[5];
@@ -3003,7 +3003,7 @@ static inline void cylindrical_worm_zi_za_generation(const double *s, const doub
     const double t75 = t66 - s[79];
     const double t76 = MW_FNMA(s[23], t72, t14);
     double s77, c77;
-    cylindrical_worm_zi_za_sincos(t73, &s77, &c77);
+    cylindrical_worm_zi_za_seldom_sincos(t73, &s77, &c77);
     const double t79 = t67 - t65;
     const double t80 = t62 + t75;
     const double t81 = MW_FMA(s[5], t72, t21);

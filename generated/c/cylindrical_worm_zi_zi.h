@@ -222,18 +222,18 @@ MW_INLINE void cylindrical_worm_zi_zi_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zi_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zi_zi_sincos(a, sine, cosine);
@@ -1780,7 +1780,7 @@ static inline void cylindrical_worm_zi_zi_start_eval(const double *s, const doub
     const double t18 = t14 + t15;
     const double t19 = t2 / t17;
     double s20, c20;
-    cylindrical_worm_zi_zi_sincos(t16, &s20, &c20);
+    cylindrical_worm_zi_zi_seldom_sincos(t16, &s20, &c20);
     const double t22 = s20 / c20;
     const double t23 = t22 * t22;
     const double t24 = t22 + s[10];
@@ -1917,7 +1917,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t2 = x[0] - s[15];
     const double t3 = x[0] + s[15];
     double s4, c4;
-    cylindrical_worm_zi_zi_sincos(x[3], &s4, &c4);
+    cylindrical_worm_zi_zi_seldom_sincos(x[3], &s4, &c4);
     const double t6 = t0 * t1;
     const double t7 = t2 * t3;
     const double t8 = sqrt(t6);
@@ -1933,9 +1933,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t18 = t7 + s[23];
     const double t19 = x[0] * s[15];
     double s20, c20;
-    cylindrical_worm_zi_zi_sincos(x[1], &s20, &c20);
+    cylindrical_worm_zi_zi_seldom_sincos(x[1], &s20, &c20);
     double s22, c22;
-    cylindrical_worm_zi_zi_sincos(t17, &s22, &c22);
+    cylindrical_worm_zi_zi_seldom_sincos(t17, &s22, &c22);
     const double t24 = cylindrical_worm_zi_zi_atan2(t8, s[4]);
     const double t25 = cylindrical_worm_zi_zi_atan2(t9, s[15]);
     const double t26 = t8 * t10;
@@ -2008,9 +2008,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t93 = MW_FMA(c20, t91, t82);
     const double t94 = sqrt(t92);
     double s95, c95;
-    cylindrical_worm_zi_zi_sincos(t24, &s95, &c95);
+    cylindrical_worm_zi_zi_seldom_sincos(t24, &s95, &c95);
     double s97, c97;
-    cylindrical_worm_zi_zi_sincos(t25, &s97, &c97);
+    cylindrical_worm_zi_zi_seldom_sincos(t25, &s97, &c97);
     const double t99 = s[16] - t25;
     const double t100 = s[44] - t94;
     const double t101 = t94 - s[45];
@@ -2128,7 +2128,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t213 = MW_FMA(s[7], t203, s[22]);
     const double t214 = MW_FNMA(t48, t93, t206);
     double s215, c215;
-    cylindrical_worm_zi_zi_sincos(t208, &s215, &c215);
+    cylindrical_worm_zi_zi_seldom_sincos(t208, &s215, &c215);
     const double t217 = t16 - t208;
     const double t218 = t132 * t210;
     const double t219 = 1.0 + t211;
@@ -2136,7 +2136,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t221 = MW_FMA(t211, s[31], t50);
     const double t222 = t161 / t192;
     double s223, c223;
-    cylindrical_worm_zi_zi_sincos(t217, &s223, &c223);
+    cylindrical_worm_zi_zi_seldom_sincos(t217, &s223, &c223);
     const double t225 = s[9] * t218;
     const double t226 = s[9] * t219;
     const double t227 = MW_FNMA(s[11], t218, t159);
@@ -2392,7 +2392,7 @@ static inline void cylindrical_worm_zi_zi_flank_pinion(const double *s, const do
     const double t0 = q[0] - s[15];
     const double t1 = q[0] + s[15];
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[23];
@@ -2426,7 +2426,7 @@ static inline void cylindrical_worm_zi_zi_flank_pinion(const double *s, const do
     const double t34 = s[44] - t30;
     const double t35 = t30 - s[45];
     double s36, c36;
-    cylindrical_worm_zi_zi_sincos(t12, &s36, &c36);
+    cylindrical_worm_zi_zi_seldom_sincos(t12, &s36, &c36);
     const double t38 = s[16] - t12;
     const double t39 = s36 * t33;
     const double t40 = s36 / c36;
@@ -2502,7 +2502,7 @@ static inline void cylindrical_worm_zi_zi_flank_wheel(const double *s, const dou
     const double t0 = q[0] - s[4];
     const double t1 = q[0] + s[4];
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[5];
@@ -2544,7 +2544,7 @@ static inline void cylindrical_worm_zi_zi_flank_wheel(const double *s, const dou
     const double t42 = MW_FNMA(t23, t40, s[4]);
     const double t43 = t26 * t42;
     double s44, c44;
-    cylindrical_worm_zi_zi_sincos(t15, &s44, &c44);
+    cylindrical_worm_zi_zi_seldom_sincos(t15, &s44, &c44);
     const double t46 = s44 * t41;
     const double t47 = s44 / c44;
     const double t48 = 1.0 / c44;
@@ -2613,7 +2613,7 @@ static inline void cylindrical_worm_zi_zi_flank_wheel(const double *s, const dou
     const double t111 = t72 * t107;
     const double t112 = MW_FMA(s[7], t105, t34);
     double s113, c113;
-    cylindrical_worm_zi_zi_sincos(t108, &s113, &c113);
+    cylindrical_worm_zi_zi_seldom_sincos(t108, &s113, &c113);
     const double t115 = t72 * t110;
     const double t116 = 1.0 + t111;
     const double t117 = t112 * t112;
@@ -2735,14 +2735,14 @@ static inline void cylindrical_worm_zi_zi_fillet_wheel(const double *s, const do
     const double t3 = q[1] * q[1];
     const double t4 = s[6] * q[1];
     double s5, c5;
-    cylindrical_worm_zi_zi_sincos(q[0], &s5, &c5);
+    cylindrical_worm_zi_zi_seldom_sincos(q[0], &s5, &c5);
     const double t7 = t0 * t1;
     const double t8 = t3 * s[55];
     const double t9 = sqrt(t7);
     const double t10 = t7 + s[5];
     const double t11 = t8 + s[56];
     double s12, c12;
-    cylindrical_worm_zi_zi_sincos(q[2], &s12, &c12);
+    cylindrical_worm_zi_zi_seldom_sincos(q[2], &s12, &c12);
     const double t14 = t0 + t1;
     const double t15 = q[1] + q[1];
     const double t16 = t10 * t10;
@@ -2785,7 +2785,7 @@ static inline void cylindrical_worm_zi_zi_fillet_wheel(const double *s, const do
     const double t53 = t35 - t45;
     const double t54 = t40 + t53;
     double s55, c55;
-    cylindrical_worm_zi_zi_sincos(t23, &s55, &c55);
+    cylindrical_worm_zi_zi_seldom_sincos(t23, &s55, &c55);
     const double t57 = s55 * t50;
     const double t58 = s55 / c55;
     const double t59 = 1.0 / c55;
@@ -3050,7 +3050,7 @@ static inline void cylindrical_worm_zi_zi_fillet_wheel(const double *s, const do
     const double t318 = s[6] * t296;
     const double t319 = MW_FMA(s12, t310, t311);
     double s320, c320;
-    cylindrical_worm_zi_zi_sincos(t312, &s320, &c320);
+    cylindrical_worm_zi_zi_seldom_sincos(t312, &s320, &c320);
     const double t322 = 1.0 + t313;
     const double t323 = s[9] * t314;
     const double t324 = MW_FMA(s[31], t313, t271);
@@ -3191,7 +3191,7 @@ static inline void cylindrical_worm_zi_zi_profile_worm(const double *s, const do
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zi_zi_sincos(t12, &s15, &c15);
+    cylindrical_worm_zi_zi_seldom_sincos(t12, &s15, &c15);
     const double t17 = s[16] - t12;
     const double t18 = s15 / c15;
     const double t19 = t18 * t18;
@@ -3248,7 +3248,7 @@ static inline void cylindrical_worm_zi_zi_profile_hob(const double *s, const dou
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zi_zi_sincos(t12, &s15, &c15);
+    cylindrical_worm_zi_zi_seldom_sincos(t12, &s15, &c15);
     const double t17 = s15 / c15;
     const double t18 = t17 * t17;
     const double t19 = t17 + s[10];
@@ -3328,7 +3328,7 @@ static inline void cylindrical_worm_zi_zi_generation(const double *s, const doub
     const double t0 = q[0] - s[4];
     const double t1 = q[0] + s[4];
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[5];
@@ -3388,7 +3388,7 @@ static inline void cylindrical_worm_zi_zi_generation(const double *s, const doub
     const double t60 = t38 - t47;
     const double t61 = t44 + t60;
     double s62, c62;
-    cylindrical_worm_zi_zi_sincos(t21, &s62, &c62);
+    cylindrical_worm_zi_zi_seldom_sincos(t21, &s62, &c62);
     const double t64 = s62 / c62;
     const double t65 = t64 * t64;
     const double t66 = t64 + s[10];
@@ -3454,7 +3454,7 @@ static inline void cylindrical_worm_zi_zi_generation(const double *s, const doub
     const double t126 = MW_FNMA(s[11], t110, t89);
     const double t127 = -t110;
     double s128, c128;
-    cylindrical_worm_zi_zi_sincos(t123, &s128, &c128);
+    cylindrical_worm_zi_zi_seldom_sincos(t123, &s128, &c128);
     const double t130 = t116 + t125;
     const double t131 = t117 - t118;
     const double t132 = MW_FNMA(s[21], t126, t27);
@@ -3540,7 +3540,7 @@ static inline void cylindrical_worm_zi_zi_worm_point(const double *s, const doub
     const double t15 = t10 * t11;
     const double t16 = t2 / t15;
     double s17, c17;
-    cylindrical_worm_zi_zi_sincos(t14, &s17, &c17);
+    cylindrical_worm_zi_zi_seldom_sincos(t14, &s17, &c17);
     const double t19 = s17 / c17;
     const double t20 = t19 + s[10];
     const double t21 = t19 * t19;
@@ -3591,7 +3591,7 @@ static inline void cylindrical_worm_zi_zi_second_type(const double *s, const dou
     const double t12 = t9 * t10;
     const double t13 = t2 / t12;
     double s14, c14;
-    cylindrical_worm_zi_zi_sincos(t11, &s14, &c14);
+    cylindrical_worm_zi_zi_seldom_sincos(t11, &s14, &c14);
     const double t16 = s14 / c14;
     const double t17 = t16 * t16;
     const double t18 = t17 * s[3];

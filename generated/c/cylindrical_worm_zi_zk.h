@@ -226,18 +226,18 @@ MW_INLINE void cylindrical_worm_zi_zk_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zi_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zi_zk_sincos(a, sine, cosine);
@@ -1795,9 +1795,9 @@ static inline void cylindrical_worm_zi_zk_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * y[0];
     const double t6 = sqrt(t5);
     const double t7 = MW_FMA(s1, s[9], s[10]);
@@ -1934,9 +1934,9 @@ static inline void cylindrical_worm_zi_zk_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_zi_zk_atan2(0.0, y[0]);
     const double t6 = MW_FMA(s1, s[9], s[10]);
     const double t7 = MW_FMS(s1, s[7], s[8]);
@@ -2026,13 +2026,13 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t1 = x[0] + s[26];
     const double t2 = x[2] * 0.5;
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(x[2], &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(x[2], &s3, &c3);
     const double t5 = t0 * t1;
     double s6, c6;
-    cylindrical_worm_zi_zk_sincos(t2, &s6, &c6);
+    cylindrical_worm_zi_zk_seldom_sincos(t2, &s6, &c6);
     const double t8 = sqrt(t5);
     double s9, c9;
-    cylindrical_worm_zi_zk_sincos(x[3], &s9, &c9);
+    cylindrical_worm_zi_zk_seldom_sincos(x[3], &s9, &c9);
     const double t11 = cylindrical_worm_zi_zk_atan2(t8, s[26]);
     const double t12 = s6 * s[2];
     const double t13 = s[4] * s3;
@@ -2050,7 +2050,7 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t25 = t15 * s[22];
     const double t26 = s[7] * c3;
     double s27, c27;
-    cylindrical_worm_zi_zk_sincos(t19, &s27, &c27);
+    cylindrical_worm_zi_zk_seldom_sincos(t19, &s27, &c27);
     const double t29 = MW_FMS(c6, t12, t13);
     const double t30 = MW_FMA(t14, s[2], t20);
     const double t31 = t17 * t21;
@@ -2086,7 +2086,7 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t61 = t5 + s[34];
     const double t62 = x[0] * s[26];
     double s63, c63;
-    cylindrical_worm_zi_zk_sincos(x[1], &s63, &c63);
+    cylindrical_worm_zi_zk_seldom_sincos(x[1], &s63, &c63);
     const double t65 = MW_FMA(t16, t57, t40);
     const double t66 = t21 * t58;
     const double t67 = MW_FNMA(t17, t56, t59);
@@ -2163,7 +2163,7 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t138 = MW_FNMA(s9, t128, t129);
     const double t139 = MW_FMA(t16, t119, t115);
     double s140, c140;
-    cylindrical_worm_zi_zk_sincos(t11, &s140, &c140);
+    cylindrical_worm_zi_zk_seldom_sincos(t11, &s140, &c140);
     const double t142 = t133 / t44;
     const double t143 = MW_FMS(t21, t128, t118);
     const double t144 = t108 * t121;
@@ -2209,7 +2209,7 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t184 = MW_FMA(t92, t92, t176);
     const double t185 = s[29] * c27;
     double s186, c186;
-    cylindrical_worm_zi_zk_sincos(t178, &s186, &c186);
+    cylindrical_worm_zi_zk_seldom_sincos(t178, &s186, &c186);
     const double t188 = t18 - t178;
     const double t189 = s140 * t107;
     const double t190 = t91 * t180;
@@ -2219,7 +2219,7 @@ static inline void cylindrical_worm_zi_zk_observe(const double *s, const double 
     const double t194 = MW_FNMA(t181, s[45], t110);
     const double t195 = s[29] * s27;
     double s196, c196;
-    cylindrical_worm_zi_zk_sincos(t188, &s196, &c196);
+    cylindrical_worm_zi_zk_seldom_sincos(t188, &s196, &c196);
     const double t198 = s140 / c140;
     const double t199 = 1.0 / c140;
     const double t200 = c140 * t107;
@@ -2543,7 +2543,7 @@ static inline void cylindrical_worm_zi_zk_flank_pinion(const double *s, const do
     const double t0 = q[0] - s[26];
     const double t1 = q[0] + s[26];
     double s2, c2;
-    cylindrical_worm_zi_zk_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_zk_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[34];
@@ -2577,7 +2577,7 @@ static inline void cylindrical_worm_zi_zk_flank_pinion(const double *s, const do
     const double t34 = s[60] - t30;
     const double t35 = t30 - s[61];
     double s36, c36;
-    cylindrical_worm_zi_zk_sincos(t12, &s36, &c36);
+    cylindrical_worm_zi_zk_seldom_sincos(t12, &s36, &c36);
     const double t38 = s[27] - t12;
     const double t39 = s36 * t33;
     const double t40 = s36 / c36;
@@ -2652,11 +2652,11 @@ static inline void cylindrical_worm_zi_zk_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zi_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zi_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[4] * c1;
     const double t8 = c1 * s[3];
     const double t9 = s[7] * c1;
@@ -2805,7 +2805,7 @@ static inline void cylindrical_worm_zi_zk_flank_wheel(const double *s, const dou
     const double t152 = t67 * t147;
     const double t153 = MW_FMA(s[18], t145, t106);
     double s154, c154;
-    cylindrical_worm_zi_zk_sincos(t149, &s154, &c154);
+    cylindrical_worm_zi_zk_seldom_sincos(t149, &s154, &c154);
     const double t156 = t67 * t151;
     const double t157 = 1.0 - t152;
     const double t158 = t153 * t153;
@@ -2921,14 +2921,14 @@ static inline void cylindrical_worm_zi_zk_fillet_wheel(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zi_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zi_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[1] * 0.5;
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(q[0], &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zi_zk_sincos(t2, &s5, &c5);
+    cylindrical_worm_zi_zk_seldom_sincos(t2, &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zi_zk_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zi_zk_seldom_sincos(q[2], &s7, &c7);
     const double t9 = c0 * s[3];
     const double t10 = s[4] * c0;
     const double t11 = MW_FMS(s0, s[7], s[8]);
@@ -3265,7 +3265,7 @@ static inline void cylindrical_worm_zi_zk_fillet_wheel(const double *s, const do
     const double t342 = MW_FMA(t95, t196, t322);
     const double t343 = MW_FMA(s7, t334, t335);
     double s344, c344;
-    cylindrical_worm_zi_zk_sincos(t336, &s344, &c344);
+    cylindrical_worm_zi_zk_seldom_sincos(t336, &s344, &c344);
     const double t346 = 1.0 - t337;
     const double t347 = s[23] * t338;
     const double t348 = MW_FNMA(s[45], t337, t298);
@@ -3410,7 +3410,7 @@ static inline void cylindrical_worm_zi_zk_profile_worm(const double *s, const do
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zi_zk_sincos(t12, &s15, &c15);
+    cylindrical_worm_zi_zk_seldom_sincos(t12, &s15, &c15);
     const double t17 = s[27] - t12;
     const double t18 = s15 / c15;
     const double t19 = t18 * t18;
@@ -3454,9 +3454,9 @@ static inline void cylindrical_worm_zi_zk_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3581,11 +3581,11 @@ static inline void cylindrical_worm_zi_zk_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zi_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zi_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = MW_FMA(s1, s[9], s[10]);
     const double t8 = MW_FMS(s1, s[7], s[8]);
     const double t9 = MW_FMA(s1, s[12], s[13]);
@@ -3728,7 +3728,7 @@ static inline void cylindrical_worm_zi_zk_generation(const double *s, const doub
     const double t146 = t124 - t122;
     const double t147 = t125 + t123;
     double s148, c148;
-    cylindrical_worm_zi_zk_sincos(t143, &s148, &c148);
+    cylindrical_worm_zi_zk_seldom_sincos(t143, &s148, &c148);
     const double t150 = t10 * t146;
     const double t151 = t139 + t131;
     const double t152 = -t129;
@@ -3778,9 +3778,9 @@ static inline void cylindrical_worm_zi_zk_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3833,9 +3833,9 @@ static inline void cylindrical_worm_zi_zk_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);
@@ -3900,9 +3900,9 @@ static inline void cylindrical_worm_zi_zk_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zi_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zi_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zi_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zi_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[9], s[10]);
     const double t6 = MW_FMS(s1, s[7], s[8]);
     const double t7 = MW_FMA(s1, s[12], s[13]);

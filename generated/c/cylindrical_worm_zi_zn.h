@@ -225,18 +225,18 @@ MW_INLINE void cylindrical_worm_zi_zn_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zi_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zi_zn_sincos(a, sine, cosine);
@@ -1857,7 +1857,7 @@ static inline void cylindrical_worm_zi_zn_observe(const double *s, const double 
     const double t0 = x[0] - s[21];
     const double t1 = x[0] + s[21];
     double s2, c2;
-    cylindrical_worm_zi_zn_sincos(x[3], &s2, &c2);
+    cylindrical_worm_zi_zn_seldom_sincos(x[3], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = MW_FMS(x[2], s[7], s[8]);
@@ -1873,11 +1873,11 @@ static inline void cylindrical_worm_zi_zn_observe(const double *s, const double 
     const double t16 = MW_FMA(s[2], t7, t8);
     const double t17 = s[9] * t7;
     double s18, c18;
-    cylindrical_worm_zi_zn_sincos(x[1], &s18, &c18);
+    cylindrical_worm_zi_zn_seldom_sincos(x[1], &s18, &c18);
     const double t20 = t16 * s[14];
     const double t21 = t6 * t17;
     double s22, c22;
-    cylindrical_worm_zi_zn_sincos(t12, &s22, &c22);
+    cylindrical_worm_zi_zn_seldom_sincos(t12, &s22, &c22);
     const double t24 = MW_FNMA(t15, t10, t21);
     const double t25 = cylindrical_worm_zi_zn_atan2(t5, s[21]);
     const double t26 = s[9] * c2;
@@ -1994,7 +1994,7 @@ static inline void cylindrical_worm_zi_zn_observe(const double *s, const double 
     const double t137 = s18 * t118;
     const double t138 = MW_FMA(s[5], t124, t121);
     double s139, c139;
-    cylindrical_worm_zi_zn_sincos(t131, &s139, &c139);
+    cylindrical_worm_zi_zn_seldom_sincos(t131, &s139, &c139);
     const double t141 = t11 - t131;
     const double t142 = 1.0 - t133;
     const double t143 = s[15] * t134;
@@ -2004,9 +2004,9 @@ static inline void cylindrical_worm_zi_zn_observe(const double *s, const double 
     const double t147 = MW_FMA(s[18], t134, s[6]);
     const double t148 = sqrt(t136);
     double s149, c149;
-    cylindrical_worm_zi_zn_sincos(t141, &s149, &c149);
+    cylindrical_worm_zi_zn_seldom_sincos(t141, &s149, &c149);
     double s151, c151;
-    cylindrical_worm_zi_zn_sincos(t25, &s151, &c151);
+    cylindrical_worm_zi_zn_seldom_sincos(t25, &s151, &c151);
     const double t153 = s[15] * t142;
     const double t154 = sqrt(t144);
     const double t155 = MW_FNMA(s[19], t147, t75);
@@ -2304,7 +2304,7 @@ static inline void cylindrical_worm_zi_zn_flank_pinion(const double *s, const do
     const double t0 = q[0] - s[21];
     const double t1 = q[0] + s[21];
     double s2, c2;
-    cylindrical_worm_zi_zn_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zi_zn_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[28];
@@ -2338,7 +2338,7 @@ static inline void cylindrical_worm_zi_zn_flank_pinion(const double *s, const do
     const double t34 = s[58] - t30;
     const double t35 = t30 - s[59];
     double s36, c36;
-    cylindrical_worm_zi_zn_sincos(t12, &s36, &c36);
+    cylindrical_worm_zi_zn_seldom_sincos(t12, &s36, &c36);
     const double t38 = s[22] - t12;
     const double t39 = s36 * t33;
     const double t40 = s36 / c36;
@@ -2411,7 +2411,7 @@ static inline void cylindrical_worm_zi_zn_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zi_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zi_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[2], s[3]);
     const double t3 = MW_FMS(q[0], s[7], s[8]);
     const double t4 = q[0] * s[13];
@@ -2497,7 +2497,7 @@ static inline void cylindrical_worm_zi_zn_flank_wheel(const double *s, const dou
     const double t84 = MW_FMA(s[5], t78, t60);
     const double t85 = t52 * t80;
     double s86, c86;
-    cylindrical_worm_zi_zn_sincos(t81, &s86, &c86);
+    cylindrical_worm_zi_zn_seldom_sincos(t81, &s86, &c86);
     const double t88 = 1.0 - t83;
     const double t89 = t84 * t84;
     const double t90 = s[15] * t85;
@@ -2615,7 +2615,7 @@ static inline void cylindrical_worm_zi_zn_fillet_wheel(const double *s, const do
     const double t2 = MW_FMS(q[1], s[7], s[8]);
     const double t3 = q[1] * s[4];
     double s4, c4;
-    cylindrical_worm_zi_zn_sincos(q[0], &s4, &c4);
+    cylindrical_worm_zi_zn_seldom_sincos(q[0], &s4, &c4);
     const double t6 = MW_FMA(t0, s[6], s[10]);
     const double t7 = MW_FMA(s[2], t0, t1);
     const double t8 = t2 * t2;
@@ -2624,7 +2624,7 @@ static inline void cylindrical_worm_zi_zn_fillet_wheel(const double *s, const do
     const double t11 = t7 * t7;
     const double t12 = s[9] * t6;
     double s13, c13;
-    cylindrical_worm_zi_zn_sincos(q[2], &s13, &c13);
+    cylindrical_worm_zi_zn_seldom_sincos(q[2], &s13, &c13);
     const double t15 = s[69] * t10;
     const double t16 = MW_FMA(t11, s[69], t15);
     const double t17 = s[9] * t7;
@@ -2884,7 +2884,7 @@ static inline void cylindrical_worm_zi_zn_fillet_wheel(const double *s, const do
     const double t271 = s4 * t249;
     const double t272 = MW_FMA(s13, t263, t264);
     double s273, c273;
-    cylindrical_worm_zi_zn_sincos(t265, &s273, &c273);
+    cylindrical_worm_zi_zn_seldom_sincos(t265, &s273, &c273);
     const double t275 = 1.0 - t266;
     const double t276 = s[15] * t267;
     const double t277 = MW_FNMA(s[40], t266, t224);
@@ -3026,7 +3026,7 @@ static inline void cylindrical_worm_zi_zn_profile_worm(const double *s, const do
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zi_zn_sincos(t12, &s15, &c15);
+    cylindrical_worm_zi_zn_seldom_sincos(t12, &s15, &c15);
     const double t17 = s[22] - t12;
     const double t18 = s15 / c15;
     const double t19 = t18 * t18;
@@ -3154,7 +3154,7 @@ static inline void cylindrical_worm_zi_zn_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zi_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zi_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[2], s[3]);
     const double t3 = MW_FMS(q[0], s[7], s[8]);
     const double t4 = q[0] * s[13];
@@ -3253,7 +3253,7 @@ static inline void cylindrical_worm_zi_zn_generation(const double *s, const doub
     const double t97 = t47 / t80;
     const double t98 = t88 - t84;
     double s99, c99;
-    cylindrical_worm_zi_zn_sincos(t95, &s99, &c99);
+    cylindrical_worm_zi_zn_seldom_sincos(t95, &s99, &c99);
     const double t101 = MW_FMS(s[2], t98, s[97]);
     const double t102 = t90 + t87;
     const double t103 = t92 + t91;

@@ -226,18 +226,18 @@ MW_INLINE void cylindrical_worm_zk_za_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zk_za_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_za_sincos(a, sine, cosine);
@@ -1769,9 +1769,9 @@ static inline void cylindrical_worm_zk_za_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_za_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zk_za_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] - s[18];
     const double t6 = y[1] - s[24];
     const double t7 = MW_FMA(y[1], s[22], s[61]);
@@ -1891,9 +1891,9 @@ static inline void cylindrical_worm_zk_za_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_za_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zk_za_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_zk_za_atan2(0.0, y[1]);
     const double t6 = MW_FMA(s1, s[7], s[8]);
     const double t7 = MW_FMS(s1, s[5], s[6]);
@@ -1979,25 +1979,25 @@ static inline void cylindrical_worm_zk_za_scale(const double *s, double *x)
 static inline void cylindrical_worm_zk_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
-    cylindrical_worm_zk_za_sincos(x[3], &s0, &c0);
+    cylindrical_worm_zk_za_seldom_sincos(x[3], &s0, &c0);
     const double t2 = x[2] - s[24];
     const double t3 = x[2] * s[20];
     const double t4 = x[2] * s[21];
     const double t5 = x[2] * s[22];
     const double t6 = x[0] * 0.5;
     double s7, c7;
-    cylindrical_worm_zk_za_sincos(x[0], &s7, &c7);
+    cylindrical_worm_zk_za_seldom_sincos(x[0], &s7, &c7);
     const double t9 = MW_FMA(s[25], t2, s[15]);
     double s10, c10;
-    cylindrical_worm_zk_za_sincos(t6, &s10, &c10);
+    cylindrical_worm_zk_za_seldom_sincos(t6, &s10, &c10);
     const double t12 = x[4] + s[116];
     const double t13 = s[115] + x[1];
     double s14, c14;
-    cylindrical_worm_zk_za_sincos(x[1], &s14, &c14);
+    cylindrical_worm_zk_za_seldom_sincos(x[1], &s14, &c14);
     const double t16 = s0 * s[19];
     const double t17 = s0 * t4;
     double s18, c18;
-    cylindrical_worm_zk_za_sincos(t13, &s18, &c18);
+    cylindrical_worm_zk_za_seldom_sincos(t13, &s18, &c18);
     const double t20 = c0 * s[19];
     const double t21 = MW_FMS(c0, t3, t16);
     const double t22 = MW_FMS(x[2], c0, s[18]);
@@ -2096,7 +2096,7 @@ static inline void cylindrical_worm_zk_za_observe(const double *s, const double 
     const double t115 = MW_FNMA(s[14], t70, s[15]);
     const double t116 = MW_FNMA(t36, t90, t98);
     double s117, c117;
-    cylindrical_worm_zk_za_sincos(t109, &s117, &c117);
+    cylindrical_worm_zk_za_seldom_sincos(t109, &s117, &c117);
     const double t119 = t12 - t109;
     const double t120 = MW_FMA(t33, t33, t113);
     const double t121 = c7 * t114;
@@ -2106,7 +2106,7 @@ static inline void cylindrical_worm_zk_za_observe(const double *s, const double 
     const double t125 = t47 * t108;
     const double t126 = s[16] * t115;
     double s127, c127;
-    cylindrical_worm_zk_za_sincos(t119, &s127, &c127);
+    cylindrical_worm_zk_za_seldom_sincos(t119, &s127, &c127);
     const double t129 = sqrt(t120);
     const double t130 = MW_FMA(t30, s[0], t121);
     const double t131 = MW_FMS(c10, t31, t122);
@@ -2445,11 +2445,11 @@ static inline void cylindrical_worm_zk_za_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_za_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_za_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_za_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_za_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_za_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[2] * c1;
     const double t8 = c1 * s[1];
     const double t9 = s[5] * c1;
@@ -2597,7 +2597,7 @@ static inline void cylindrical_worm_zk_za_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zk_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zk_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[20];
     const double t3 = q[0] - s[24];
     const double t4 = q[0] * s[21];
@@ -2662,7 +2662,7 @@ static inline void cylindrical_worm_zk_za_flank_wheel(const double *s, const dou
     const double t63 = MW_FMA(s[21], t57, t16);
     const double t64 = t32 * t59;
     double s65, c65;
-    cylindrical_worm_zk_za_sincos(t60, &s65, &c65);
+    cylindrical_worm_zk_za_seldom_sincos(t60, &s65, &c65);
     const double t67 = 1.0 + t62;
     const double t68 = t63 * t63;
     const double t69 = s[23] * t64;
@@ -2779,11 +2779,11 @@ static inline void cylindrical_worm_zk_za_fillet_wheel(const double *s, const do
     const double t0 = q[1] * q[1];
     const double t1 = q[1] * s[20];
     double s2, c2;
-    cylindrical_worm_zk_za_sincos(q[0], &s2, &c2);
+    cylindrical_worm_zk_za_seldom_sincos(q[0], &s2, &c2);
     const double t4 = MW_FMA(s[79], t0, s[80]);
     const double t5 = MW_FMA(t0, s[78], t4);
     double s6, c6;
-    cylindrical_worm_zk_za_sincos(q[2], &s6, &c6);
+    cylindrical_worm_zk_za_seldom_sincos(q[2], &s6, &c6);
     const double t8 = sqrt(t5);
     const double t9 = s[68] * q[1];
     const double t10 = q[1] - s[24];
@@ -3020,7 +3020,7 @@ static inline void cylindrical_worm_zk_za_fillet_wheel(const double *s, const do
     const double t241 = s[68] * t219;
     const double t242 = MW_FMA(s6, t233, t234);
     double s243, c243;
-    cylindrical_worm_zk_za_sincos(t235, &s243, &c243);
+    cylindrical_worm_zk_za_seldom_sincos(t235, &s243, &c243);
     const double t245 = 1.0 + t236;
     const double t246 = s[23] * t237;
     const double t247 = MW_FMA(s[50], t236, t194);
@@ -3148,9 +3148,9 @@ static inline void cylindrical_worm_zk_za_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_za_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_za_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_za_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_za_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[7], s[8]);
     const double t6 = MW_FMS(s1, s[5], s[6]);
     const double t7 = MW_FMA(s1, s[10], s[11]);
@@ -3312,7 +3312,7 @@ static inline void cylindrical_worm_zk_za_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zk_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zk_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] - s[24];
     const double t3 = q[0] * s[20];
     const double t4 = q[0] * s[21];
@@ -3389,7 +3389,7 @@ static inline void cylindrical_worm_zk_za_generation(const double *s, const doub
     const double t75 = t66 - s[95];
     const double t76 = MW_FNMA(s[35], t72, t14);
     double s77, c77;
-    cylindrical_worm_zk_za_sincos(t73, &s77, &c77);
+    cylindrical_worm_zk_za_seldom_sincos(t73, &s77, &c77);
     const double t79 = t67 - t65;
     const double t80 = t62 + t75;
     const double t81 = MW_FMA(s[21], t72, t21);

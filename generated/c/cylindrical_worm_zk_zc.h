@@ -227,18 +227,18 @@ MW_INLINE void cylindrical_worm_zk_zc_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zk_zc_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zc_sincos(a, sine, cosine);
@@ -2171,14 +2171,14 @@ static inline void cylindrical_worm_zk_zc_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * 0.5;
     double s6, c6;
-    cylindrical_worm_zk_zc_sincos(y[0], &s6, &c6);
+    cylindrical_worm_zk_zc_seldom_sincos(y[0], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zk_zc_sincos(t5, &s8, &c8);
+    cylindrical_worm_zk_zc_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMA(s1, s[22], s[23]);
     const double t11 = MW_FNMA(s1, s[21], s[20]);
     const double t12 = MW_FMS(s1, s[20], s[21]);
@@ -2231,9 +2231,9 @@ static inline void cylindrical_worm_zk_zc_start_eval(const double *s, const doub
     const double t59 = t58 + s[67];
     const double t60 = 0.5 * t34;
     double s61, c61;
-    cylindrical_worm_zk_zc_sincos(t34, &s61, &c61);
+    cylindrical_worm_zk_zc_seldom_sincos(t34, &s61, &c61);
     double s63, c63;
-    cylindrical_worm_zk_zc_sincos(t60, &s63, &c63);
+    cylindrical_worm_zk_zc_seldom_sincos(t60, &s63, &c63);
     const double t65 = s[31] * s61;
     const double t66 = s[28] * s61;
     const double t67 = s63 * s63;
@@ -2446,14 +2446,14 @@ static inline void cylindrical_worm_zk_zc_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * 0.5;
     double s6, c6;
-    cylindrical_worm_zk_zc_sincos(y[0], &s6, &c6);
+    cylindrical_worm_zk_zc_seldom_sincos(y[0], &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zk_zc_sincos(t5, &s8, &c8);
+    cylindrical_worm_zk_zc_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMA(s1, s[22], s[23]);
     const double t11 = MW_FNMA(s1, s[21], s[20]);
     const double t12 = MW_FMS(s1, s[20], s[21]);
@@ -2501,9 +2501,9 @@ static inline void cylindrical_worm_zk_zc_start_solution(const double *s, const 
     const double t54 = cylindrical_worm_zk_zc_atan2(t53, t52);
     const double t55 = 0.5 * t32;
     double s56, c56;
-    cylindrical_worm_zk_zc_sincos(t32, &s56, &c56);
+    cylindrical_worm_zk_zc_seldom_sincos(t32, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_zk_zc_sincos(t55, &s58, &c58);
+    cylindrical_worm_zk_zc_seldom_sincos(t55, &s58, &c58);
     const double t60 = s[31] * s56;
     const double t61 = s58 * s58;
     const double t62 = s58 * s[29];
@@ -2581,14 +2581,14 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(x[2], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(x[3], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[0] * 0.5;
     double s8, c8;
-    cylindrical_worm_zk_zc_sincos(x[0], &s8, &c8);
+    cylindrical_worm_zk_zc_seldom_sincos(x[0], &s8, &c8);
     const double t10 = MW_FMA(s1, s[22], s[23]);
     const double t11 = s[19] * s1;
     const double t12 = MW_FNMA(s1, s[21], s[20]);
@@ -2601,7 +2601,7 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
     const double t19 = s[27] * s1;
     const double t20 = s[24] * t12;
     double s21, c21;
-    cylindrical_worm_zk_zc_sincos(t7, &s21, &c21);
+    cylindrical_worm_zk_zc_seldom_sincos(t7, &s21, &c21);
     const double t23 = s3 * s[18];
     const double t24 = s3 * s3;
     const double t25 = 0.5 * s3;
@@ -2631,13 +2631,13 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
     const double t49 = x[4] + s[108];
     const double t50 = s[107] + x[1];
     double s51, c51;
-    cylindrical_worm_zk_zc_sincos(x[1], &s51, &c51);
+    cylindrical_worm_zk_zc_seldom_sincos(x[1], &s51, &c51);
     const double t53 = cylindrical_worm_zk_zc_atan2(t45, t46);
     const double t54 = MW_FMS(s[18], t47, t11);
     const double t55 = s[25] * t48;
     const double t56 = t46 * t46;
     double s57, c57;
-    cylindrical_worm_zk_zc_sincos(t50, &s57, &c57);
+    cylindrical_worm_zk_zc_seldom_sincos(t50, &s57, &c57);
     const double t59 = MW_FMA(t14, t54, t41);
     const double t60 = MW_FMA(t13, t54, t42);
     const double t61 = MW_FMA(t29, t55, t43);
@@ -2754,9 +2754,9 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
     const double t172 = -t160;
     const double t173 = 0.5 * t53;
     double s174, c174;
-    cylindrical_worm_zk_zc_sincos(t53, &s174, &c174);
+    cylindrical_worm_zk_zc_seldom_sincos(t53, &s174, &c174);
     double s176, c176;
-    cylindrical_worm_zk_zc_sincos(t173, &s176, &c176);
+    cylindrical_worm_zk_zc_seldom_sincos(t173, &s176, &c176);
     const double t178 = sqrt(t170);
     const double t179 = t122 / t146;
     const double t180 = t70 / t146;
@@ -2946,7 +2946,7 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
     const double t364 = MW_FMA(s[35], t353, t348);
     const double t365 = t349 + t349;
     double s366, c366;
-    cylindrical_worm_zk_zc_sincos(t358, &s366, &c366);
+    cylindrical_worm_zk_zc_seldom_sincos(t358, &s366, &c366);
     const double t368 = t49 - t358;
     const double t369 = t297 * t360;
     const double t370 = 1.0 - t361;
@@ -2956,7 +2956,7 @@ static inline void cylindrical_worm_zk_zc_observe(const double *s, const double 
     const double t374 = s[17] * t364;
     const double t375 = t350 + t350;
     double s376, c376;
-    cylindrical_worm_zk_zc_sincos(t368, &s376, &c376);
+    cylindrical_worm_zk_zc_seldom_sincos(t368, &s376, &c376);
     const double t378 = s[38] * t369;
     const double t379 = s[38] * t370;
     const double t380 = MW_FMA(s[24], t369, t325);
@@ -3201,11 +3201,11 @@ static inline void cylindrical_worm_zk_zc_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[2] * c1;
     const double t8 = c1 * s[1];
     const double t9 = s[5] * c1;
@@ -3356,11 +3356,11 @@ static inline void cylindrical_worm_zk_zc_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[19] * c1;
     const double t8 = s[27] * c1;
     const double t9 = c1 * s[28];
@@ -3419,9 +3419,9 @@ static inline void cylindrical_worm_zk_zc_flank_wheel(const double *s, const dou
     const double t62 = 0.5 * t61;
     const double t63 = 0.5 * t46;
     double s64, c64;
-    cylindrical_worm_zk_zc_sincos(t46, &s64, &c64);
+    cylindrical_worm_zk_zc_seldom_sincos(t46, &s64, &c64);
     double s66, c66;
-    cylindrical_worm_zk_zc_sincos(t63, &s66, &c66);
+    cylindrical_worm_zk_zc_seldom_sincos(t63, &s66, &c66);
     const double t68 = s[31] * c64;
     const double t69 = s[28] * c64;
     const double t70 = c64 * t61;
@@ -3572,7 +3572,7 @@ static inline void cylindrical_worm_zk_zc_flank_wheel(const double *s, const dou
     const double t215 = MW_FMA(s[35], t206, t188);
     const double t216 = s[71] * t210;
     double s217, c217;
-    cylindrical_worm_zk_zc_sincos(t211, &s217, &c217);
+    cylindrical_worm_zk_zc_seldom_sincos(t211, &s217, &c217);
     const double t219 = t152 * t213;
     const double t220 = 1.0 - t214;
     const double t221 = t215 * t215;
@@ -3690,13 +3690,13 @@ static inline void cylindrical_worm_zk_zc_fillet_wheel(const double *s, const do
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[1], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(q[0], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zc_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zk_zc_seldom_sincos(q[2], &s7, &c7);
     const double t9 = s[19] * c1;
     const double t10 = s[27] * c1;
     const double t11 = c1 * s[28];
@@ -3783,10 +3783,10 @@ static inline void cylindrical_worm_zk_zc_fillet_wheel(const double *s, const do
     const double t92 = t88 + t90;
     const double t93 = c1 * t92;
     double s94, c94;
-    cylindrical_worm_zk_zc_sincos(t54, &s94, &c94);
+    cylindrical_worm_zk_zc_seldom_sincos(t54, &s94, &c94);
     const double t96 = 0.5 * t54;
     double s97, c97;
-    cylindrical_worm_zk_zc_sincos(t96, &s97, &c97);
+    cylindrical_worm_zk_zc_seldom_sincos(t96, &s97, &c97);
     const double t99 = s[28] * s94;
     const double t100 = s[31] * s94;
     const double t101 = s94 * t89;
@@ -4125,7 +4125,7 @@ static inline void cylindrical_worm_zk_zc_fillet_wheel(const double *s, const do
     const double t434 = MW_FNMA(t318, t206, t418);
     const double t435 = MW_FMA(s7, t426, t427);
     double s436, c436;
-    cylindrical_worm_zk_zc_sincos(t428, &s436, &c436);
+    cylindrical_worm_zk_zc_seldom_sincos(t428, &s436, &c436);
     const double t438 = 1.0 - t429;
     const double t439 = s[38] * t430;
     const double t440 = MW_FNMA(s[58], t429, t387);
@@ -4251,9 +4251,9 @@ static inline void cylindrical_worm_zk_zc_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[7], s[8]);
     const double t6 = MW_FMS(s1, s[5], s[6]);
     const double t7 = MW_FMA(s1, s[10], s[11]);
@@ -4346,9 +4346,9 @@ static inline void cylindrical_worm_zk_zc_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = s[27] * c1;
     const double t6 = c1 * s[28];
     const double t7 = c1 * s[20];
@@ -4401,9 +4401,9 @@ static inline void cylindrical_worm_zk_zc_profile_hob(const double *s, const dou
     const double t54 = c1 * t53;
     const double t55 = 0.5 * t39;
     double s56, c56;
-    cylindrical_worm_zk_zc_sincos(t39, &s56, &c56);
+    cylindrical_worm_zk_zc_seldom_sincos(t39, &s56, &c56);
     double s58, c58;
-    cylindrical_worm_zk_zc_sincos(t55, &s58, &c58);
+    cylindrical_worm_zk_zc_seldom_sincos(t55, &s58, &c58);
     const double t60 = s[31] * s56;
     const double t61 = s[28] * s56;
     const double t62 = s58 * s58;
@@ -4518,11 +4518,11 @@ static inline void cylindrical_worm_zk_zc_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zc_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zc_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[27] * c1;
     const double t8 = c1 * s[28];
     const double t9 = c1 * s[20];
@@ -4583,9 +4583,9 @@ static inline void cylindrical_worm_zk_zc_generation(const double *s, const doub
     const double t64 = c1 * t63;
     const double t65 = 0.5 * t47;
     double s66, c66;
-    cylindrical_worm_zk_zc_sincos(t47, &s66, &c66);
+    cylindrical_worm_zk_zc_seldom_sincos(t47, &s66, &c66);
     double s68, c68;
-    cylindrical_worm_zk_zc_sincos(t65, &s68, &c68);
+    cylindrical_worm_zk_zc_seldom_sincos(t65, &s68, &c68);
     const double t70 = s[31] * s66;
     const double t71 = s[28] * s66;
     const double t72 = s68 * s68;
@@ -4723,7 +4723,7 @@ static inline void cylindrical_worm_zk_zc_generation(const double *s, const doub
     const double t204 = s[37] * t130;
     const double t205 = t124 * s[37];
     double s206, c206;
-    cylindrical_worm_zk_zc_sincos(t198, &s206, &c206);
+    cylindrical_worm_zk_zc_seldom_sincos(t198, &s206, &c206);
     const double t208 = t183 * t199;
     const double t209 = t188 + t177;
     const double t210 = MW_FNMA(s[37], t202, t132);
@@ -4777,9 +4777,9 @@ static inline void cylindrical_worm_zk_zc_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[22], s[23]);
     const double t6 = MW_FNMA(s1, s[21], s[20]);
     const double t7 = MW_FMS(s1, s[20], s[21]);
@@ -4802,9 +4802,9 @@ static inline void cylindrical_worm_zk_zc_section(const double *s, const double 
     const double t24 = cylindrical_worm_zk_zc_atan2(t22, t23);
     const double t25 = 0.5 * t24;
     double s26, c26;
-    cylindrical_worm_zk_zc_sincos(t24, &s26, &c26);
+    cylindrical_worm_zk_zc_seldom_sincos(t24, &s26, &c26);
     double s28, c28;
-    cylindrical_worm_zk_zc_sincos(t25, &s28, &c28);
+    cylindrical_worm_zk_zc_seldom_sincos(t25, &s28, &c28);
     const double t30 = s[31] * s26;
     const double t31 = s28 * s28;
     const double t32 = s28 * s[29];
@@ -4848,9 +4848,9 @@ static inline void cylindrical_worm_zk_zc_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[22], s[23]);
     const double t6 = MW_FNMA(s1, s[21], s[20]);
     const double t7 = MW_FMS(s1, s[20], s[21]);
@@ -4875,9 +4875,9 @@ static inline void cylindrical_worm_zk_zc_worm_point(const double *s, const doub
     const double t26 = cylindrical_worm_zk_zc_atan2(t24, t25);
     const double t27 = 0.5 * t26;
     double s28, c28;
-    cylindrical_worm_zk_zc_sincos(t26, &s28, &c28);
+    cylindrical_worm_zk_zc_seldom_sincos(t26, &s28, &c28);
     double s30, c30;
-    cylindrical_worm_zk_zc_sincos(t27, &s30, &c30);
+    cylindrical_worm_zk_zc_seldom_sincos(t27, &s30, &c30);
     const double t32 = s[31] * c28;
     const double t33 = s[28] * c28;
     const double t34 = s[31] * s28;
@@ -4943,9 +4943,9 @@ static inline void cylindrical_worm_zk_zc_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zc_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zc_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zc_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zc_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[22], s[23]);
     const double t6 = MW_FNMA(s1, s[21], s[20]);
     const double t7 = MW_FMS(s1, s[20], s[21]);
@@ -4969,9 +4969,9 @@ static inline void cylindrical_worm_zk_zc_second_type(const double *s, const dou
     const double t25 = cylindrical_worm_zk_zc_atan2(t23, t24);
     const double t26 = 0.5 * t25;
     double s27, c27;
-    cylindrical_worm_zk_zc_sincos(t25, &s27, &c27);
+    cylindrical_worm_zk_zc_seldom_sincos(t25, &s27, &c27);
     double s29, c29;
-    cylindrical_worm_zk_zc_sincos(t26, &s29, &c29);
+    cylindrical_worm_zk_zc_seldom_sincos(t26, &s29, &c29);
     const double t31 = s[31] * s27;
     const double t32 = s[28] * s27;
     const double t33 = s[31] * c27;

@@ -226,18 +226,18 @@ MW_INLINE void cylindrical_worm_zk_zi_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zk_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zi_sincos(a, sine, cosine);
@@ -1942,10 +1942,10 @@ static inline void cylindrical_worm_zk_zi_start_eval(const double *s, const doub
     const double t1 = y[1] + s[20];
     const double t2 = y[0] * 0.5;
     double s3, c3;
-    cylindrical_worm_zk_zi_sincos(y[0], &s3, &c3);
+    cylindrical_worm_zk_zi_seldom_sincos(y[0], &s3, &c3);
     const double t5 = t0 * t1;
     double s6, c6;
-    cylindrical_worm_zk_zi_sincos(t2, &s6, &c6);
+    cylindrical_worm_zk_zi_seldom_sincos(t2, &s6, &c6);
     const double t8 = sqrt(t5);
     const double t9 = t5 + s[21];
     const double t10 = y[1] * s[20];
@@ -1988,7 +1988,7 @@ static inline void cylindrical_worm_zk_zi_start_eval(const double *s, const doub
     const double t47 = sqrt(t46);
     const double t48 = t47 + s[57];
     double s49, c49;
-    cylindrical_worm_zk_zi_sincos(t18, &s49, &c49);
+    cylindrical_worm_zk_zi_seldom_sincos(t18, &s49, &c49);
     const double t51 = t48 - t16;
     const double t52 = s49 / c49;
     const double t53 = t52 * t52;
@@ -2105,9 +2105,9 @@ static inline void cylindrical_worm_zk_zi_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zi_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zk_zi_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zi_seldom_sincos(t0, &s3, &c3);
     const double t5 = cylindrical_worm_zk_zi_atan2(0.0, y[1]);
     const double t6 = MW_FMA(s1, s[7], s[8]);
     const double t7 = MW_FMS(s1, s[5], s[6]);
@@ -2196,7 +2196,7 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t0 = x[2] - s[20];
     const double t1 = x[2] + s[20];
     double s2, c2;
-    cylindrical_worm_zk_zi_sincos(x[3], &s2, &c2);
+    cylindrical_worm_zk_zi_seldom_sincos(x[3], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[21];
@@ -2206,9 +2206,9 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t10 = x[2] * s[24];
     const double t11 = x[0] * 0.5;
     double s12, c12;
-    cylindrical_worm_zk_zi_sincos(x[0], &s12, &c12);
+    cylindrical_worm_zk_zi_seldom_sincos(x[0], &s12, &c12);
     double s14, c14;
-    cylindrical_worm_zk_zi_sincos(t11, &s14, &c14);
+    cylindrical_worm_zk_zi_seldom_sincos(t11, &s14, &c14);
     const double t16 = cylindrical_worm_zk_zi_atan2(t5, s[20]);
     const double t17 = t5 * t6;
     const double t18 = c2 * t8;
@@ -2225,9 +2225,9 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t29 = s[111] + x[1];
     const double t30 = 1.0 / t17;
     double s31, c31;
-    cylindrical_worm_zk_zi_sincos(x[1], &s31, &c31);
+    cylindrical_worm_zk_zi_seldom_sincos(x[1], &s31, &c31);
     double s33, c33;
-    cylindrical_worm_zk_zi_sincos(t29, &s33, &c33);
+    cylindrical_worm_zk_zi_seldom_sincos(t29, &s33, &c33);
     const double t35 = t25 * t23;
     const double t36 = t5 * t25;
     const double t37 = s14 * s14;
@@ -2325,7 +2325,7 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t129 = t119 * c31;
     const double t130 = sqrt(t122);
     double s131, c131;
-    cylindrical_worm_zk_zi_sincos(t16, &s131, &c131);
+    cylindrical_worm_zk_zi_seldom_sincos(t16, &s131, &c131);
     const double t133 = MW_FMA(t128, c31, t127);
     const double t134 = MW_FNMA(t128, s31, t129);
     const double t135 = MW_FMS(c12, t124, t114);
@@ -2458,7 +2458,7 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t262 = MW_FMA(s[23], t254, t90);
     const double t263 = MW_FMA(s[23], t254, s[36]);
     double s264, c264;
-    cylindrical_worm_zk_zi_sincos(t258, &s264, &c264);
+    cylindrical_worm_zk_zi_seldom_sincos(t258, &s264, &c264);
     const double t266 = t27 - t258;
     const double t267 = t214 * t260;
     const double t268 = 1.0 + t261;
@@ -2467,7 +2467,7 @@ static inline void cylindrical_worm_zk_zi_observe(const double *s, const double 
     const double t271 = MW_FMS(t261, s[50], t91);
     const double t272 = t90 + t263;
     double s273, c273;
-    cylindrical_worm_zk_zi_sincos(t266, &s273, &c273);
+    cylindrical_worm_zk_zi_seldom_sincos(t266, &s273, &c273);
     const double t275 = s[25] * t267;
     const double t276 = s[25] * t268;
     const double t277 = MW_FNMA(s[27], t267, t222);
@@ -2710,11 +2710,11 @@ static inline void cylindrical_worm_zk_zi_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zi_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zi_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zi_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zi_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zi_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[2] * c1;
     const double t8 = c1 * s[1];
     const double t9 = s[5] * c1;
@@ -2866,7 +2866,7 @@ static inline void cylindrical_worm_zk_zi_flank_wheel(const double *s, const dou
     const double t0 = q[0] - s[20];
     const double t1 = q[0] + s[20];
     double s2, c2;
-    cylindrical_worm_zk_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zk_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[21];
@@ -2908,7 +2908,7 @@ static inline void cylindrical_worm_zk_zi_flank_wheel(const double *s, const dou
     const double t42 = MW_FNMA(t23, t40, s[20]);
     const double t43 = t26 * t42;
     double s44, c44;
-    cylindrical_worm_zk_zi_sincos(t15, &s44, &c44);
+    cylindrical_worm_zk_zi_seldom_sincos(t15, &s44, &c44);
     const double t46 = s44 * t41;
     const double t47 = s44 / c44;
     const double t48 = 1.0 / c44;
@@ -2977,7 +2977,7 @@ static inline void cylindrical_worm_zk_zi_flank_wheel(const double *s, const dou
     const double t111 = t72 * t107;
     const double t112 = MW_FMA(s[23], t105, t34);
     double s113, c113;
-    cylindrical_worm_zk_zi_sincos(t108, &s113, &c113);
+    cylindrical_worm_zk_zi_seldom_sincos(t108, &s113, &c113);
     const double t115 = t72 * t110;
     const double t116 = 1.0 + t111;
     const double t117 = t112 * t112;
@@ -3099,14 +3099,14 @@ static inline void cylindrical_worm_zk_zi_fillet_wheel(const double *s, const do
     const double t3 = q[1] * q[1];
     const double t4 = s[22] * q[1];
     double s5, c5;
-    cylindrical_worm_zk_zi_sincos(q[0], &s5, &c5);
+    cylindrical_worm_zk_zi_seldom_sincos(q[0], &s5, &c5);
     const double t7 = t0 * t1;
     const double t8 = s[72] * t3;
     const double t9 = sqrt(t7);
     const double t10 = t7 + s[21];
     const double t11 = t8 + s[73];
     double s12, c12;
-    cylindrical_worm_zk_zi_sincos(q[2], &s12, &c12);
+    cylindrical_worm_zk_zi_seldom_sincos(q[2], &s12, &c12);
     const double t14 = t0 + t1;
     const double t15 = q[1] + q[1];
     const double t16 = t10 * t10;
@@ -3149,7 +3149,7 @@ static inline void cylindrical_worm_zk_zi_fillet_wheel(const double *s, const do
     const double t53 = t35 - t45;
     const double t54 = t40 + t53;
     double s55, c55;
-    cylindrical_worm_zk_zi_sincos(t23, &s55, &c55);
+    cylindrical_worm_zk_zi_seldom_sincos(t23, &s55, &c55);
     const double t57 = s55 * t50;
     const double t58 = s55 / c55;
     const double t59 = 1.0 / c55;
@@ -3414,7 +3414,7 @@ static inline void cylindrical_worm_zk_zi_fillet_wheel(const double *s, const do
     const double t318 = s[22] * t296;
     const double t319 = MW_FMA(s12, t310, t311);
     double s320, c320;
-    cylindrical_worm_zk_zi_sincos(t312, &s320, &c320);
+    cylindrical_worm_zk_zi_seldom_sincos(t312, &s320, &c320);
     const double t322 = 1.0 + t313;
     const double t323 = s[25] * t314;
     const double t324 = MW_FMA(s[48], t313, t271);
@@ -3542,9 +3542,9 @@ static inline void cylindrical_worm_zk_zi_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zi_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zi_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zi_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zi_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[7], s[8]);
     const double t6 = MW_FMS(s1, s[5], s[6]);
     const double t7 = MW_FMA(s1, s[10], s[11]);
@@ -3649,7 +3649,7 @@ static inline void cylindrical_worm_zk_zi_profile_hob(const double *s, const dou
     const double t13 = t8 * t9;
     const double t14 = t4 / t13;
     double s15, c15;
-    cylindrical_worm_zk_zi_sincos(t12, &s15, &c15);
+    cylindrical_worm_zk_zi_seldom_sincos(t12, &s15, &c15);
     const double t17 = s15 / c15;
     const double t18 = t17 * t17;
     const double t19 = t17 + s[26];
@@ -3727,7 +3727,7 @@ static inline void cylindrical_worm_zk_zi_generation(const double *s, const doub
     const double t0 = q[0] - s[20];
     const double t1 = q[0] + s[20];
     double s2, c2;
-    cylindrical_worm_zk_zi_sincos(q[1], &s2, &c2);
+    cylindrical_worm_zk_zi_seldom_sincos(q[1], &s2, &c2);
     const double t4 = t0 * t1;
     const double t5 = sqrt(t4);
     const double t6 = t4 + s[21];
@@ -3787,7 +3787,7 @@ static inline void cylindrical_worm_zk_zi_generation(const double *s, const doub
     const double t60 = t38 - t47;
     const double t61 = t44 + t60;
     double s62, c62;
-    cylindrical_worm_zk_zi_sincos(t21, &s62, &c62);
+    cylindrical_worm_zk_zi_seldom_sincos(t21, &s62, &c62);
     const double t64 = s62 / c62;
     const double t65 = t64 * t64;
     const double t66 = t64 + s[26];
@@ -3853,7 +3853,7 @@ static inline void cylindrical_worm_zk_zi_generation(const double *s, const doub
     const double t126 = MW_FNMA(s[27], t110, t89);
     const double t127 = -t110;
     double s128, c128;
-    cylindrical_worm_zk_zi_sincos(t123, &s128, &c128);
+    cylindrical_worm_zk_zi_seldom_sincos(t123, &s128, &c128);
     const double t130 = t116 + t125;
     const double t131 = t117 - t118;
     const double t132 = MW_FNMA(s[35], t126, t27);
@@ -3939,7 +3939,7 @@ static inline void cylindrical_worm_zk_zi_worm_point(const double *s, const doub
     const double t15 = t10 * t11;
     const double t16 = t2 / t15;
     double s17, c17;
-    cylindrical_worm_zk_zi_sincos(t14, &s17, &c17);
+    cylindrical_worm_zk_zi_seldom_sincos(t14, &s17, &c17);
     const double t19 = s17 / c17;
     const double t20 = t19 + s[26];
     const double t21 = t19 * t19;
@@ -3990,7 +3990,7 @@ static inline void cylindrical_worm_zk_zi_second_type(const double *s, const dou
     const double t12 = t9 * t10;
     const double t13 = t2 / t12;
     double s14, c14;
-    cylindrical_worm_zk_zi_sincos(t11, &s14, &c14);
+    cylindrical_worm_zk_zi_seldom_sincos(t11, &s14, &c14);
     const double t16 = s14 / c14;
     const double t17 = t16 * t16;
     const double t18 = t17 * s[19];

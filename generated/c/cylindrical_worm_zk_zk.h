@@ -223,18 +223,18 @@ MW_INLINE void cylindrical_worm_zk_zk_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zk_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zk_sincos(a, sine, cosine);
@@ -1954,13 +1954,13 @@ static inline void cylindrical_worm_zk_zk_start_eval(const double *s, const doub
     const double t0 = y[1] * 0.5;
     const double t1 = y[0] * 0.5;
     double s2, c2;
-    cylindrical_worm_zk_zk_sincos(y[1], &s2, &c2);
+    cylindrical_worm_zk_zk_seldom_sincos(y[1], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zk_sincos(t0, &s4, &c4);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_zk_sincos(t1, &s6, &c6);
+    cylindrical_worm_zk_zk_seldom_sincos(t1, &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zk_zk_sincos(y[0], &s8, &c8);
+    cylindrical_worm_zk_zk_seldom_sincos(y[0], &s8, &c8);
     const double t10 = s4 * s4;
     const double t11 = s4 * s[18];
     const double t12 = MW_FMA(s2, s[25], s[26]);
@@ -2165,13 +2165,13 @@ static inline void cylindrical_worm_zk_zk_start_solution(const double *s, const 
     const double t0 = y[0] * 0.5;
     const double t1 = y[1] * 0.5;
     double s2, c2;
-    cylindrical_worm_zk_zk_sincos(y[0], &s2, &c2);
+    cylindrical_worm_zk_zk_seldom_sincos(y[0], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zk_zk_sincos(t0, &s4, &c4);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    cylindrical_worm_zk_zk_sincos(t1, &s6, &c6);
+    cylindrical_worm_zk_zk_seldom_sincos(t1, &s6, &c6);
     double s8, c8;
-    cylindrical_worm_zk_zk_sincos(y[1], &s8, &c8);
+    cylindrical_worm_zk_zk_seldom_sincos(y[1], &s8, &c8);
     const double t10 = s4 * s[0];
     const double t11 = s4 * s4;
     const double t12 = MW_FMA(s2, s[7], s[8]);
@@ -2282,20 +2282,20 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(x[2], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(x[3], &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[0] * 0.5;
     double s8, c8;
-    cylindrical_worm_zk_zk_sincos(x[0], &s8, &c8);
+    cylindrical_worm_zk_zk_seldom_sincos(x[0], &s8, &c8);
     const double t10 = s[20] * s1;
     const double t11 = MW_FMA(s1, s[25], s[26]);
     const double t12 = MW_FMS(s1, s[23], s[24]);
     const double t13 = MW_FMA(s1, s[28], s[29]);
     double s14, c14;
-    cylindrical_worm_zk_zk_sincos(t7, &s14, &c14);
+    cylindrical_worm_zk_zk_seldom_sincos(t7, &s14, &c14);
     const double t16 = s3 * s[18];
     const double t17 = s3 * s3;
     const double t18 = t11 * s[27];
@@ -2317,7 +2317,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t34 = s[55] * c3;
     const double t35 = s[23] * c1;
     double s36, c36;
-    cylindrical_worm_zk_zk_sincos(t28, &s36, &c36);
+    cylindrical_worm_zk_zk_seldom_sincos(t28, &s36, &c36);
     const double t38 = MW_FMS(t22, t31, t32);
     const double t39 = MW_FNMA(t12, c5, t27);
     const double t40 = t22 * c5;
@@ -2337,7 +2337,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t54 = c1 * s[56];
     const double t55 = s1 * s[19];
     double s56, c56;
-    cylindrical_worm_zk_zk_sincos(x[1], &s56, &c56);
+    cylindrical_worm_zk_zk_seldom_sincos(x[1], &s56, &c56);
     const double t58 = MW_FMS(s[18], t51, t10);
     const double t59 = s[21] * t52;
     const double t60 = t22 * t53;
@@ -2485,7 +2485,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t202 = MW_FNMA(s8, t90, t187);
     const double t203 = MW_FMS(s[39], t190, t191);
     double s204, c204;
-    cylindrical_worm_zk_zk_sincos(t196, &s204, &c204);
+    cylindrical_worm_zk_zk_seldom_sincos(t196, &s204, &c204);
     const double t206 = t26 - t196;
     const double t207 = t118 * t192;
     const double t208 = sqrt(t193);
@@ -2493,7 +2493,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t210 = MW_FMS(c14, t63, t195);
     const double t211 = s[16] * t198;
     double s212, c212;
-    cylindrical_worm_zk_zk_sincos(t206, &s212, &c212);
+    cylindrical_worm_zk_zk_seldom_sincos(t206, &s212, &c212);
     const double t214 = t199 + t200;
     const double t215 = t201 - t202;
     const double t216 = t118 * t203;
@@ -2838,11 +2838,11 @@ static inline void cylindrical_worm_zk_zk_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[2] * c1;
     const double t8 = c1 * s[1];
     const double t9 = s[5] * c1;
@@ -2993,11 +2993,11 @@ static inline void cylindrical_worm_zk_zk_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[20] * c1;
     const double t8 = c1 * s[19];
     const double t9 = s[23] * c1;
@@ -3146,7 +3146,7 @@ static inline void cylindrical_worm_zk_zk_flank_wheel(const double *s, const dou
     const double t152 = t67 * t147;
     const double t153 = MW_FMA(s[33], t145, t106);
     double s154, c154;
-    cylindrical_worm_zk_zk_sincos(t149, &s154, &c154);
+    cylindrical_worm_zk_zk_seldom_sincos(t149, &s154, &c154);
     const double t156 = t67 * t151;
     const double t157 = 1.0 - t152;
     const double t158 = t153 * t153;
@@ -3262,14 +3262,14 @@ static inline void cylindrical_worm_zk_zk_fillet_wheel(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zk_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zk_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[1] * 0.5;
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(q[0], &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(t2, &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(t2, &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zk_zk_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zk_zk_seldom_sincos(q[2], &s7, &c7);
     const double t9 = c0 * s[19];
     const double t10 = s[20] * c0;
     const double t11 = MW_FMS(s0, s[23], s[24]);
@@ -3606,7 +3606,7 @@ static inline void cylindrical_worm_zk_zk_fillet_wheel(const double *s, const do
     const double t342 = MW_FMA(t95, t196, t322);
     const double t343 = MW_FMA(s7, t334, t335);
     double s344, c344;
-    cylindrical_worm_zk_zk_sincos(t336, &s344, &c344);
+    cylindrical_worm_zk_zk_seldom_sincos(t336, &s344, &c344);
     const double t346 = 1.0 - t337;
     const double t347 = s[38] * t338;
     const double t348 = MW_FNMA(s[60], t337, t298);
@@ -3738,9 +3738,9 @@ static inline void cylindrical_worm_zk_zk_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[7], s[8]);
     const double t6 = MW_FMS(s1, s[5], s[6]);
     const double t7 = MW_FMA(s1, s[10], s[11]);
@@ -3832,9 +3832,9 @@ static inline void cylindrical_worm_zk_zk_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[25], s[26]);
     const double t6 = MW_FMS(s1, s[23], s[24]);
     const double t7 = MW_FMA(s1, s[28], s[29]);
@@ -3957,11 +3957,11 @@ static inline void cylindrical_worm_zk_zk_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = MW_FMA(s1, s[25], s[26]);
     const double t8 = MW_FMS(s1, s[23], s[24]);
     const double t9 = MW_FMA(s1, s[28], s[29]);
@@ -4104,7 +4104,7 @@ static inline void cylindrical_worm_zk_zk_generation(const double *s, const doub
     const double t146 = t124 - t122;
     const double t147 = t125 + t123;
     double s148, c148;
-    cylindrical_worm_zk_zk_sincos(t143, &s148, &c148);
+    cylindrical_worm_zk_zk_seldom_sincos(t143, &s148, &c148);
     const double t150 = t10 * t146;
     const double t151 = t139 + t131;
     const double t152 = -t129;
@@ -4154,9 +4154,9 @@ static inline void cylindrical_worm_zk_zk_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[25], s[26]);
     const double t6 = MW_FMS(s1, s[23], s[24]);
     const double t7 = MW_FMA(s1, s[28], s[29]);
@@ -4209,9 +4209,9 @@ static inline void cylindrical_worm_zk_zk_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[25], s[26]);
     const double t6 = MW_FMS(s1, s[23], s[24]);
     const double t7 = MW_FMA(s1, s[28], s[29]);
@@ -4276,9 +4276,9 @@ static inline void cylindrical_worm_zk_zk_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[25], s[26]);
     const double t6 = MW_FMS(s1, s[23], s[24]);
     const double t7 = MW_FMA(s1, s[28], s[29]);

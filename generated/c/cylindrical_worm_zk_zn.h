@@ -228,18 +228,18 @@ MW_INLINE void cylindrical_worm_zk_zn_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zk_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zn_sincos(a, sine, cosine);
@@ -1899,9 +1899,9 @@ static inline void cylindrical_worm_zk_zn_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zn_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zk_zn_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(y[1], s[18], s[19]);
     const double t6 = MW_FMS(y[1], s[23], s[24]);
     const double t7 = y[1] * s[29];
@@ -2041,9 +2041,9 @@ static inline void cylindrical_worm_zk_zn_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zn_sincos(y[0], &s1, &c1);
+    cylindrical_worm_zk_zn_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[1] * s[20];
     const double t6 = MW_FMA(y[1], s[18], s[19]);
     const double t7 = -t5;
@@ -2132,7 +2132,7 @@ static inline void cylindrical_worm_zk_zn_scale(const double *s, double *x)
 static inline void cylindrical_worm_zk_zn_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
-    cylindrical_worm_zk_zn_sincos(x[3], &s0, &c0);
+    cylindrical_worm_zk_zn_seldom_sincos(x[3], &s0, &c0);
     const double t2 = MW_FMS(x[2], s[23], s[24]);
     const double t3 = MW_FMA(x[2], s[18], s[19]);
     const double t4 = x[2] * s[29];
@@ -2140,26 +2140,26 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t6 = x[2] * s[27];
     const double t7 = x[0] * 0.5;
     double s8, c8;
-    cylindrical_worm_zk_zn_sincos(x[0], &s8, &c8);
+    cylindrical_worm_zk_zn_seldom_sincos(x[0], &s8, &c8);
     const double t10 = MW_FMA(t3, s[22], s[26]);
     const double t11 = MW_FMA(s[18], t3, t4);
     const double t12 = s[25] * t3;
     double s13, c13;
-    cylindrical_worm_zk_zn_sincos(t7, &s13, &c13);
+    cylindrical_worm_zk_zn_seldom_sincos(t7, &s13, &c13);
     const double t15 = t11 * s[30];
     const double t16 = t2 * t12;
     const double t17 = MW_FNMA(t10, t6, t16);
     const double t18 = x[4] + s[133];
     const double t19 = s[132] + x[1];
     double s20, c20;
-    cylindrical_worm_zk_zn_sincos(x[1], &s20, &c20);
+    cylindrical_worm_zk_zn_seldom_sincos(x[1], &s20, &c20);
     const double t22 = s[25] * c0;
     const double t23 = t5 * c0;
     const double t24 = s[25] * s0;
     const double t25 = s0 * t5;
     const double t26 = MW_FMS(t3, c0, s[28]);
     double s27, c27;
-    cylindrical_worm_zk_zn_sincos(t19, &s27, &c27);
+    cylindrical_worm_zk_zn_seldom_sincos(t19, &s27, &c27);
     const double t29 = t2 * t22;
     const double t30 = MW_FMS(t3, s0, t23);
     const double t31 = t2 * t24;
@@ -2269,7 +2269,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t135 = MW_FMA(t43, t43, t124);
     const double t136 = c8 * t125;
     double s137, c137;
-    cylindrical_worm_zk_zn_sincos(t129, &s137, &c137);
+    cylindrical_worm_zk_zn_seldom_sincos(t129, &s137, &c137);
     const double t139 = t18 - t129;
     const double t140 = s8 * t125;
     const double t141 = MW_FNMA(s[14], t76, s[15]);
@@ -2279,7 +2279,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t145 = MW_FNMA(s8, t53, t132);
     const double t146 = MW_FNMA(t77, t74, t133);
     double s147, c147;
-    cylindrical_worm_zk_zn_sincos(t139, &s147, &c147);
+    cylindrical_worm_zk_zn_seldom_sincos(t139, &s147, &c147);
     const double t149 = t67 * t134;
     const double t150 = sqrt(t135);
     const double t151 = MW_FMA(t36, s[0], t136);
@@ -2618,11 +2618,11 @@ static inline void cylindrical_worm_zk_zn_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zn_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zn_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zn_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zk_zn_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zk_zn_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[2] * c1;
     const double t8 = c1 * s[1];
     const double t9 = s[5] * c1;
@@ -2771,7 +2771,7 @@ static inline void cylindrical_worm_zk_zn_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zk_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zk_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[18], s[19]);
     const double t3 = MW_FMS(q[0], s[23], s[24]);
     const double t4 = q[0] * s[29];
@@ -2857,7 +2857,7 @@ static inline void cylindrical_worm_zk_zn_flank_wheel(const double *s, const dou
     const double t84 = MW_FMA(s[21], t78, t60);
     const double t85 = t52 * t80;
     double s86, c86;
-    cylindrical_worm_zk_zn_sincos(t81, &s86, &c86);
+    cylindrical_worm_zk_zn_seldom_sincos(t81, &s86, &c86);
     const double t88 = 1.0 - t83;
     const double t89 = t84 * t84;
     const double t90 = s[31] * t85;
@@ -2975,7 +2975,7 @@ static inline void cylindrical_worm_zk_zn_fillet_wheel(const double *s, const do
     const double t2 = MW_FMS(q[1], s[23], s[24]);
     const double t3 = q[1] * s[20];
     double s4, c4;
-    cylindrical_worm_zk_zn_sincos(q[0], &s4, &c4);
+    cylindrical_worm_zk_zn_seldom_sincos(q[0], &s4, &c4);
     const double t6 = MW_FMA(t0, s[22], s[26]);
     const double t7 = MW_FMA(s[18], t0, t1);
     const double t8 = t2 * t2;
@@ -2984,7 +2984,7 @@ static inline void cylindrical_worm_zk_zn_fillet_wheel(const double *s, const do
     const double t11 = t7 * t7;
     const double t12 = s[25] * t6;
     double s13, c13;
-    cylindrical_worm_zk_zn_sincos(q[2], &s13, &c13);
+    cylindrical_worm_zk_zn_seldom_sincos(q[2], &s13, &c13);
     const double t15 = s[86] * t10;
     const double t16 = MW_FMA(s[86], t11, t15);
     const double t17 = s[25] * t7;
@@ -3244,7 +3244,7 @@ static inline void cylindrical_worm_zk_zn_fillet_wheel(const double *s, const do
     const double t271 = s4 * t249;
     const double t272 = MW_FMA(s13, t263, t264);
     double s273, c273;
-    cylindrical_worm_zk_zn_sincos(t265, &s273, &c273);
+    cylindrical_worm_zk_zn_seldom_sincos(t265, &s273, &c273);
     const double t275 = 1.0 - t266;
     const double t276 = s[31] * t267;
     const double t277 = MW_FNMA(s[57], t266, t224);
@@ -3373,9 +3373,9 @@ static inline void cylindrical_worm_zk_zn_profile_worm(const double *s, const do
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zn_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zk_zn_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zk_zn_sincos(t0, &s3, &c3);
+    cylindrical_worm_zk_zn_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[7], s[8]);
     const double t6 = MW_FMS(s1, s[5], s[6]);
     const double t7 = MW_FMA(s1, s[10], s[11]);
@@ -3549,7 +3549,7 @@ static inline void cylindrical_worm_zk_zn_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zk_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zk_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[18], s[19]);
     const double t3 = MW_FMS(q[0], s[23], s[24]);
     const double t4 = q[0] * s[29];
@@ -3648,7 +3648,7 @@ static inline void cylindrical_worm_zk_zn_generation(const double *s, const doub
     const double t97 = t47 / t80;
     const double t98 = t88 - t84;
     double s99, c99;
-    cylindrical_worm_zk_zn_sincos(t95, &s99, &c99);
+    cylindrical_worm_zk_zn_seldom_sincos(t95, &s99, &c99);
     const double t101 = MW_FMS(s[18], t98, s[114]);
     const double t102 = t90 + t87;
     const double t103 = t92 + t91;

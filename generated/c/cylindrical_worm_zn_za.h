@@ -225,18 +225,18 @@ MW_INLINE void cylindrical_worm_zn_za_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zn_za_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zn_za_sincos(a, sine, cosine);
@@ -1604,7 +1604,7 @@ static inline void cylindrical_worm_zn_za_scale(const double *s, double *x)
 static inline void cylindrical_worm_zn_za_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(x[3], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(x[3], &s0, &c0);
     const double t2 = x[2] - s[11];
     const double t3 = x[2] * s[7];
     const double t4 = x[2] * s[8];
@@ -1612,10 +1612,10 @@ static inline void cylindrical_worm_zn_za_observe(const double *s, const double 
     const double t6 = x[4] + s[105];
     const double t7 = s[104] + x[1];
     double s8, c8;
-    cylindrical_worm_zn_za_sincos(x[1], &s8, &c8);
+    cylindrical_worm_zn_za_seldom_sincos(x[1], &s8, &c8);
     const double t10 = MW_FMA(s[12], t2, s[13]);
     double s11, c11;
-    cylindrical_worm_zn_za_sincos(t7, &s11, &c11);
+    cylindrical_worm_zn_za_seldom_sincos(t7, &s11, &c11);
     const double t13 = t10 * s[21];
     const double t14 = x[2] * s[26];
     const double t15 = MW_FMA(x[0], s[1], s[2]);
@@ -1741,7 +1741,7 @@ static inline void cylindrical_worm_zn_za_observe(const double *s, const double 
     const double t135 = -t85;
     const double t136 = MW_FMS(t115, t120, t128);
     double s137, c137;
-    cylindrical_worm_zn_za_sincos(t129, &s137, &c137);
+    cylindrical_worm_zn_za_seldom_sincos(t129, &s137, &c137);
     const double t139 = t6 - t129;
     const double t140 = 1.0 + t131;
     const double t141 = s[10] * t132;
@@ -1751,7 +1751,7 @@ static inline void cylindrical_worm_zn_za_observe(const double *s, const double 
     const double t145 = MW_FMS(t131, s[36], t74);
     const double t146 = t29 + t134;
     double s147, c147;
-    cylindrical_worm_zn_za_sincos(t139, &s147, &c147);
+    cylindrical_worm_zn_za_seldom_sincos(t139, &s147, &c147);
     const double t149 = s[10] * t140;
     const double t150 = sqrt(t142);
     const double t151 = MW_FNMA(s[23], t144, t24);
@@ -2001,7 +2001,7 @@ static inline void cylindrical_worm_zn_za_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[1], s[2]);
     const double t3 = MW_FMS(q[0], s[47], s[48]);
     const double t4 = q[0] * s[43];
@@ -2087,7 +2087,7 @@ static inline void cylindrical_worm_zn_za_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] * s[7];
     const double t3 = q[0] - s[11];
     const double t4 = q[0] * s[8];
@@ -2152,7 +2152,7 @@ static inline void cylindrical_worm_zn_za_flank_wheel(const double *s, const dou
     const double t63 = MW_FMA(s[8], t57, t16);
     const double t64 = t32 * t59;
     double s65, c65;
-    cylindrical_worm_zn_za_sincos(t60, &s65, &c65);
+    cylindrical_worm_zn_za_seldom_sincos(t60, &s65, &c65);
     const double t67 = 1.0 + t62;
     const double t68 = t63 * t63;
     const double t69 = s[10] * t64;
@@ -2269,11 +2269,11 @@ static inline void cylindrical_worm_zn_za_fillet_wheel(const double *s, const do
     const double t0 = q[1] * q[1];
     const double t1 = q[1] * s[7];
     double s2, c2;
-    cylindrical_worm_zn_za_sincos(q[0], &s2, &c2);
+    cylindrical_worm_zn_za_seldom_sincos(q[0], &s2, &c2);
     const double t4 = MW_FMA(t0, s[67], s[68]);
     const double t5 = MW_FMA(t0, s[66], t4);
     double s6, c6;
-    cylindrical_worm_zn_za_sincos(q[2], &s6, &c6);
+    cylindrical_worm_zn_za_seldom_sincos(q[2], &s6, &c6);
     const double t8 = sqrt(t5);
     const double t9 = s[49] * q[1];
     const double t10 = q[1] - s[11];
@@ -2510,7 +2510,7 @@ static inline void cylindrical_worm_zn_za_fillet_wheel(const double *s, const do
     const double t241 = s[49] * t219;
     const double t242 = MW_FMA(s6, t233, t234);
     double s243, c243;
-    cylindrical_worm_zn_za_sincos(t235, &s243, &c243);
+    cylindrical_worm_zn_za_seldom_sincos(t235, &s243, &c243);
     const double t245 = 1.0 + t236;
     const double t246 = s[10] * t237;
     const double t247 = MW_FMA(s[34], t236, t194);
@@ -2760,7 +2760,7 @@ static inline void cylindrical_worm_zn_za_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zn_za_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_za_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[0] - s[11];
     const double t3 = q[0] * s[7];
     const double t4 = q[0] * s[8];
@@ -2837,7 +2837,7 @@ static inline void cylindrical_worm_zn_za_generation(const double *s, const doub
     const double t75 = t66 - s[84];
     const double t76 = MW_FNMA(s[23], t72, t14);
     double s77, c77;
-    cylindrical_worm_zn_za_sincos(t73, &s77, &c77);
+    cylindrical_worm_zn_za_seldom_sincos(t73, &s77, &c77);
     const double t79 = t67 - t65;
     const double t80 = t62 + t75;
     const double t81 = MW_FMA(s[8], t72, t21);

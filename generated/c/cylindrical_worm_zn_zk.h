@@ -228,18 +228,18 @@ MW_INLINE void cylindrical_worm_zn_zk_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zn_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zn_zk_sincos(a, sine, cosine);
@@ -1677,9 +1677,9 @@ static inline void cylindrical_worm_zn_zk_start_eval(const double *s, const doub
     (void)s, (void)y, (void)R;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * s[0];
     const double t6 = MW_FMA(y[0], s[1], s[2]);
     const double t7 = t5 * t5;
@@ -1823,9 +1823,9 @@ static inline void cylindrical_worm_zn_zk_start_solution(const double *s, const 
     (void)s, (void)y;
     const double t0 = y[1] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(y[1], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(y[1], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = y[0] * s[0];
     const double t6 = MW_FMA(y[0], s[1], s[2]);
     const double t7 = -t5;
@@ -1915,21 +1915,21 @@ static inline void cylindrical_worm_zn_zk_observe(const double *s, const double 
 {
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(x[2], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(x[2], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zn_zk_sincos(x[3], &s5, &c5);
+    cylindrical_worm_zn_zk_seldom_sincos(x[3], &s5, &c5);
     const double t7 = x[4] + s[104];
     const double t8 = s[103] + x[1];
     double s9, c9;
-    cylindrical_worm_zn_zk_sincos(x[1], &s9, &c9);
+    cylindrical_worm_zn_zk_seldom_sincos(x[1], &s9, &c9);
     const double t11 = s[7] * s1;
     const double t12 = MW_FMA(s1, s[12], s[13]);
     const double t13 = MW_FMS(s1, s[10], s[11]);
     const double t14 = MW_FMA(s1, s[15], s[16]);
     double s15, c15;
-    cylindrical_worm_zn_zk_sincos(t8, &s15, &c15);
+    cylindrical_worm_zn_zk_seldom_sincos(t8, &s15, &c15);
     const double t17 = s3 * s[5];
     const double t18 = s3 * s3;
     const double t19 = t12 * s[14];
@@ -2140,7 +2140,7 @@ static inline void cylindrical_worm_zn_zk_observe(const double *s, const double 
     const double t224 = MW_FNMA(t100, t203, t214);
     const double t225 = t62 * s[74];
     double s226, c226;
-    cylindrical_worm_zn_zk_sincos(t218, &s226, &c226);
+    cylindrical_worm_zn_zk_seldom_sincos(t218, &s226, &c226);
     const double t228 = t7 - t218;
     const double t229 = t71 * t220;
     const double t230 = 1.0 - t221;
@@ -2148,7 +2148,7 @@ static inline void cylindrical_worm_zn_zk_observe(const double *s, const double 
     const double t232 = MW_FNMA(t221, s[44], t140);
     const double t233 = t110 / t173;
     double s234, c234;
-    cylindrical_worm_zn_zk_sincos(t228, &s234, &c234);
+    cylindrical_worm_zn_zk_seldom_sincos(t228, &s234, &c234);
     const double t236 = s[26] * t229;
     const double t237 = s[26] * t230;
     const double t238 = MW_FMA(s[14], t229, t149);
@@ -2402,7 +2402,7 @@ static inline void cylindrical_worm_zn_zk_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[1], s[2]);
     const double t3 = MW_FMS(q[0], s[56], s[57]);
     const double t4 = q[0] * s[54];
@@ -2491,11 +2491,11 @@ static inline void cylindrical_worm_zn_zk_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zn_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zn_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = s[7] * c1;
     const double t8 = c1 * s[6];
     const double t9 = s[10] * c1;
@@ -2644,7 +2644,7 @@ static inline void cylindrical_worm_zn_zk_flank_wheel(const double *s, const dou
     const double t152 = t67 * t147;
     const double t153 = MW_FMA(s[21], t145, t106);
     double s154, c154;
-    cylindrical_worm_zn_zk_sincos(t149, &s154, &c154);
+    cylindrical_worm_zn_zk_seldom_sincos(t149, &s154, &c154);
     const double t156 = t67 * t151;
     const double t157 = 1.0 - t152;
     const double t158 = t153 * t153;
@@ -2760,14 +2760,14 @@ static inline void cylindrical_worm_zn_zk_fillet_wheel(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_zk_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_zk_seldom_sincos(q[1], &s0, &c0);
     const double t2 = q[1] * 0.5;
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(q[0], &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zn_zk_sincos(t2, &s5, &c5);
+    cylindrical_worm_zn_zk_seldom_sincos(t2, &s5, &c5);
     double s7, c7;
-    cylindrical_worm_zn_zk_sincos(q[2], &s7, &c7);
+    cylindrical_worm_zn_zk_seldom_sincos(q[2], &s7, &c7);
     const double t9 = c0 * s[6];
     const double t10 = s[7] * c0;
     const double t11 = MW_FMS(s0, s[10], s[11]);
@@ -3104,7 +3104,7 @@ static inline void cylindrical_worm_zn_zk_fillet_wheel(const double *s, const do
     const double t342 = MW_FMA(t95, t196, t322);
     const double t343 = MW_FMA(s7, t334, t335);
     double s344, c344;
-    cylindrical_worm_zn_zk_sincos(t336, &s344, &c344);
+    cylindrical_worm_zn_zk_seldom_sincos(t336, &s344, &c344);
     const double t346 = 1.0 - t337;
     const double t347 = s[26] * t338;
     const double t348 = MW_FNMA(s[44], t337, t298);
@@ -3286,9 +3286,9 @@ static inline void cylindrical_worm_zn_zk_profile_hob(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[12], s[13]);
     const double t6 = MW_FMS(s1, s[10], s[11]);
     const double t7 = MW_FMA(s1, s[15], s[16]);
@@ -3413,11 +3413,11 @@ static inline void cylindrical_worm_zn_zk_generation(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     double s5, c5;
-    cylindrical_worm_zn_zk_sincos(q[1], &s5, &c5);
+    cylindrical_worm_zn_zk_seldom_sincos(q[1], &s5, &c5);
     const double t7 = MW_FMA(s1, s[12], s[13]);
     const double t8 = MW_FMS(s1, s[10], s[11]);
     const double t9 = MW_FMA(s1, s[15], s[16]);
@@ -3560,7 +3560,7 @@ static inline void cylindrical_worm_zn_zk_generation(const double *s, const doub
     const double t146 = t124 - t122;
     const double t147 = t125 + t123;
     double s148, c148;
-    cylindrical_worm_zn_zk_sincos(t143, &s148, &c148);
+    cylindrical_worm_zn_zk_seldom_sincos(t143, &s148, &c148);
     const double t150 = t10 * t146;
     const double t151 = t139 + t131;
     const double t152 = -t129;
@@ -3610,9 +3610,9 @@ static inline void cylindrical_worm_zn_zk_section(const double *s, const double 
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[12], s[13]);
     const double t6 = MW_FMS(s1, s[10], s[11]);
     const double t7 = MW_FMA(s1, s[15], s[16]);
@@ -3665,9 +3665,9 @@ static inline void cylindrical_worm_zn_zk_worm_point(const double *s, const doub
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[12], s[13]);
     const double t6 = MW_FMS(s1, s[10], s[11]);
     const double t7 = MW_FMA(s1, s[15], s[16]);
@@ -3732,9 +3732,9 @@ static inline void cylindrical_worm_zn_zk_second_type(const double *s, const dou
     (void)q;
     const double t0 = q[0] * 0.5;
     double s1, c1;
-    cylindrical_worm_zn_zk_sincos(q[0], &s1, &c1);
+    cylindrical_worm_zn_zk_seldom_sincos(q[0], &s1, &c1);
     double s3, c3;
-    cylindrical_worm_zn_zk_sincos(t0, &s3, &c3);
+    cylindrical_worm_zn_zk_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMA(s1, s[12], s[13]);
     const double t6 = MW_FMS(s1, s[10], s[11]);
     const double t7 = MW_FMA(s1, s[15], s[16]);

@@ -224,18 +224,18 @@ MW_INLINE void cylindrical_worm_zn_zn_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void cylindrical_worm_zn_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zn_zn_sincos(a, sine, cosine);
@@ -1738,7 +1738,7 @@ static inline void cylindrical_worm_zn_zn_scale(const double *s, double *x)
 static inline void cylindrical_worm_zn_zn_observe(const double *s, const double *x, double *o)
 {
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(x[3], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(x[3], &s0, &c0);
     const double t2 = MW_FMS(x[2], s[10], s[11]);
     const double t3 = MW_FMA(x[2], s[5], s[6]);
     const double t4 = x[2] * s[16];
@@ -1747,12 +1747,12 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t7 = x[4] + s[121];
     const double t8 = s[120] + x[1];
     double s9, c9;
-    cylindrical_worm_zn_zn_sincos(x[1], &s9, &c9);
+    cylindrical_worm_zn_zn_seldom_sincos(x[1], &s9, &c9);
     const double t11 = MW_FMA(t3, s[9], s[13]);
     const double t12 = MW_FMA(s[5], t3, t4);
     const double t13 = s[12] * t3;
     double s14, c14;
-    cylindrical_worm_zn_zn_sincos(t8, &s14, &c14);
+    cylindrical_worm_zn_zn_seldom_sincos(t8, &s14, &c14);
     const double t16 = t12 * s[17];
     const double t17 = t2 * t13;
     const double t18 = MW_FNMA(t11, t6, t17);
@@ -1888,7 +1888,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t148 = s[0] * s14;
     const double t149 = MW_FMS(t131, t132, t141);
     double s150, c150;
-    cylindrical_worm_zn_zn_sincos(t142, &s150, &c150);
+    cylindrical_worm_zn_zn_seldom_sincos(t142, &s150, &c150);
     const double t152 = t7 - t142;
     const double t153 = 1.0 - t144;
     const double t154 = s[18] * t145;
@@ -1898,7 +1898,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t158 = MW_FMA(t144, s[42], t109);
     const double t159 = s[4] * t147;
     double s160, c160;
-    cylindrical_worm_zn_zn_sincos(t152, &s160, &c160);
+    cylindrical_worm_zn_zn_seldom_sincos(t152, &s160, &c160);
     const double t162 = s[18] * t153;
     const double t163 = sqrt(t155);
     const double t164 = MW_FNMA(s[22], t157, t60);
@@ -2155,7 +2155,7 @@ static inline void cylindrical_worm_zn_zn_flank_pinion(const double *s, const do
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[1], s[2]);
     const double t3 = MW_FMS(q[0], s[55], s[56]);
     const double t4 = q[0] * s[50];
@@ -2242,7 +2242,7 @@ static inline void cylindrical_worm_zn_zn_flank_wheel(const double *s, const dou
 {
     (void)s;
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[5], s[6]);
     const double t3 = MW_FMS(q[0], s[10], s[11]);
     const double t4 = q[0] * s[16];
@@ -2328,7 +2328,7 @@ static inline void cylindrical_worm_zn_zn_flank_wheel(const double *s, const dou
     const double t84 = MW_FMA(s[8], t78, t60);
     const double t85 = t52 * t80;
     double s86, c86;
-    cylindrical_worm_zn_zn_sincos(t81, &s86, &c86);
+    cylindrical_worm_zn_zn_seldom_sincos(t81, &s86, &c86);
     const double t88 = 1.0 - t83;
     const double t89 = t84 * t84;
     const double t90 = s[18] * t85;
@@ -2446,7 +2446,7 @@ static inline void cylindrical_worm_zn_zn_fillet_wheel(const double *s, const do
     const double t2 = MW_FMS(q[1], s[10], s[11]);
     const double t3 = q[1] * s[7];
     double s4, c4;
-    cylindrical_worm_zn_zn_sincos(q[0], &s4, &c4);
+    cylindrical_worm_zn_zn_seldom_sincos(q[0], &s4, &c4);
     const double t6 = MW_FMA(t0, s[9], s[13]);
     const double t7 = MW_FMA(s[5], t0, t1);
     const double t8 = t2 * t2;
@@ -2455,7 +2455,7 @@ static inline void cylindrical_worm_zn_zn_fillet_wheel(const double *s, const do
     const double t11 = t7 * t7;
     const double t12 = s[12] * t6;
     double s13, c13;
-    cylindrical_worm_zn_zn_sincos(q[2], &s13, &c13);
+    cylindrical_worm_zn_zn_seldom_sincos(q[2], &s13, &c13);
     const double t15 = s[73] * t10;
     const double t16 = MW_FMA(t11, s[73], t15);
     const double t17 = s[12] * t7;
@@ -2715,7 +2715,7 @@ static inline void cylindrical_worm_zn_zn_fillet_wheel(const double *s, const do
     const double t271 = s4 * t249;
     const double t272 = MW_FMA(s13, t263, t264);
     double s273, c273;
-    cylindrical_worm_zn_zn_sincos(t265, &s273, &c273);
+    cylindrical_worm_zn_zn_seldom_sincos(t265, &s273, &c273);
     const double t275 = 1.0 - t266;
     const double t276 = s[18] * t267;
     const double t277 = MW_FNMA(s[40], t266, t224);
@@ -2978,7 +2978,7 @@ static inline void cylindrical_worm_zn_zn_generation(const double *s, const doub
     (void)s;
     (void)q;
     double s0, c0;
-    cylindrical_worm_zn_zn_sincos(q[1], &s0, &c0);
+    cylindrical_worm_zn_zn_seldom_sincos(q[1], &s0, &c0);
     const double t2 = MW_FMA(q[0], s[5], s[6]);
     const double t3 = MW_FMS(q[0], s[10], s[11]);
     const double t4 = q[0] * s[16];
@@ -3077,7 +3077,7 @@ static inline void cylindrical_worm_zn_zn_generation(const double *s, const doub
     const double t97 = t47 / t80;
     const double t98 = t88 - t84;
     double s99, c99;
-    cylindrical_worm_zn_zn_sincos(t95, &s99, &c99);
+    cylindrical_worm_zn_zn_seldom_sincos(t95, &s99, &c99);
     const double t101 = MW_FMS(s[5], t98, s[102]);
     const double t102 = t90 + t87;
     const double t103 = t92 + t91;

@@ -209,18 +209,18 @@ MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
 {
     face_worm_sincos(a, sine, cosine);
@@ -3757,9 +3757,9 @@ static inline void face_worm_start_eval(const double *s, const double *y, double
     (void)s, (void)y, (void)R;
     const double t0 = y[0] * 0.5;
     double s1, c1;
-    face_worm_sincos(y[0], &s1, &c1);
+    face_worm_seldom_sincos(y[0], &s1, &c1);
     double s3, c3;
-    face_worm_sincos(t0, &s3, &c3);
+    face_worm_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FNMA(c1, s[77], s[78]);
     const double t6 = MW_FNMA(c1, s[70], s[71]);
     const double t7 = MW_FNMA(c1, s[73], s[74]);
@@ -3892,31 +3892,31 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
 {
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    face_worm_sincos(x[1], &s1, &c1);
+    face_worm_seldom_sincos(x[1], &s1, &c1);
     double s3, c3;
-    face_worm_sincos(t0, &s3, &c3);
+    face_worm_seldom_sincos(t0, &s3, &c3);
     const double t5 = x[2] * s[14];
     double s6, c6;
-    face_worm_sincos(x[4], &s6, &c6);
+    face_worm_seldom_sincos(x[4], &s6, &c6);
     double s8, c8;
-    face_worm_sincos(t5, &s8, &c8);
+    face_worm_seldom_sincos(t5, &s8, &c8);
     const double t10 = s[134] - x[2];
     const double t11 = x[5] + s[135];
     const double t12 = x[2] * s[19];
     double s13, c13;
-    face_worm_sincos(t10, &s13, &c13);
+    face_worm_seldom_sincos(t10, &s13, &c13);
     const double t15 = x[4] * 0.5;
     double s16, c16;
-    face_worm_sincos(t11, &s16, &c16);
+    face_worm_seldom_sincos(t11, &s16, &c16);
     double s18, c18;
-    face_worm_sincos(t12, &s18, &c18);
+    face_worm_seldom_sincos(t12, &s18, &c18);
     double s20, c20;
-    face_worm_sincos(t15, &s20, &c20);
+    face_worm_seldom_sincos(t15, &s20, &c20);
     const double t22 = x[2] * 0.5;
     double s23, c23;
-    face_worm_sincos(x[2], &s23, &c23);
+    face_worm_seldom_sincos(x[2], &s23, &c23);
     double s25, c25;
-    face_worm_sincos(t22, &s25, &c25);
+    face_worm_seldom_sincos(t22, &s25, &c25);
     const double t27 = x[0] * x[0];
     const double t28 = x[0] * s[5];
     const double t29 = MW_FMS(x[0], s[33], s[2]);
@@ -3944,7 +3944,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t51 = MW_FMA(t33, s[39], t43);
     const double t52 = MW_FMA(c3, t32, t44);
     double s53, c53;
-    face_worm_sincos(t40, &s53, &c53);
+    face_worm_seldom_sincos(t40, &s53, &c53);
     const double t55 = s[17] * t52;
     const double t56 = MW_FMA(t29, t37, t46);
     const double t57 = MW_FNMA(t27, s[3], t41);
@@ -3985,7 +3985,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t92 = t67 * c8;
     const double t93 = s18 * s[21];
     double s94, c94;
-    face_worm_sincos(t77, &s94, &c94);
+    face_worm_seldom_sincos(t77, &s94, &c94);
     const double t96 = MW_FMA(s[6], t78, s[5]);
     const double t97 = s[55] * c3;
     const double t98 = t32 * t79;
@@ -4492,17 +4492,17 @@ static inline void face_worm_flank_pinion(const double *s, const double *q, doub
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    face_worm_sincos(q[1], &s1, &c1);
+    face_worm_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    face_worm_sincos(t0, &s3, &c3);
+    face_worm_seldom_sincos(t0, &s3, &c3);
     const double t5 = q[2] * s[14];
     const double t6 = q[2] * s[19];
     double s7, c7;
-    face_worm_sincos(q[2], &s7, &c7);
+    face_worm_seldom_sincos(q[2], &s7, &c7);
     double s9, c9;
-    face_worm_sincos(t5, &s9, &c9);
+    face_worm_seldom_sincos(t5, &s9, &c9);
     double s11, c11;
-    face_worm_sincos(t6, &s11, &c11);
+    face_worm_seldom_sincos(t6, &s11, &c11);
     const double t13 = q[2] * 0.5;
     const double t14 = q[0] * q[0];
     const double t15 = q[0] * s[5];
@@ -4512,7 +4512,7 @@ static inline void face_worm_flank_pinion(const double *s, const double *q, doub
     const double t19 = s3 * s[9];
     const double t20 = MW_FMA(q[0], s[35], s[5]);
     double s21, c21;
-    face_worm_sincos(t13, &s21, &c21);
+    face_worm_seldom_sincos(t13, &s21, &c21);
     const double t23 = MW_FMA(t14, s[6], t15);
     const double t24 = c1 * s[40];
     const double t25 = t16 * t17;
@@ -4821,9 +4821,9 @@ static inline void face_worm_flank_wheel(const double *s, const double *q, doubl
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    face_worm_sincos(q[1], &s1, &c1);
+    face_worm_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    face_worm_sincos(t0, &s3, &c3);
+    face_worm_seldom_sincos(t0, &s3, &c3);
     const double t5 = q[0] * s[5];
     const double t6 = MW_FNMA(q[0], s[2], s[92]);
     const double t7 = q[0] - s[93];
@@ -4929,13 +4929,13 @@ static inline void face_worm_fillet_wheel(const double *s, const double *q, doub
 {
     (void)s;
     double s0, c0;
-    face_worm_sincos(q[1], &s0, &c0);
+    face_worm_seldom_sincos(q[1], &s0, &c0);
     double s2, c2;
-    face_worm_sincos(q[0], &s2, &c2);
+    face_worm_seldom_sincos(q[0], &s2, &c2);
     const double t4 = q[1] * 0.5;
     const double t5 = s[111] - q[0];
     double s6, c6;
-    face_worm_sincos(t4, &s6, &c6);
+    face_worm_seldom_sincos(t4, &s6, &c6);
     const double t8 = c0 * s[103];
     const double t9 = c0 * s[100];
     const double t10 = c0 * s[106];
@@ -5052,9 +5052,9 @@ static inline void face_worm_flank_reference_wheel(const double *s, const double
     const double t3 = MW_FMA(q[0], s[118], s[119]);
     const double t4 = q[2] + t0;
     double s5, c5;
-    face_worm_sincos(t1, &s5, &c5);
+    face_worm_seldom_sincos(t1, &s5, &c5);
     double s7, c7;
-    face_worm_sincos(t4, &s7, &c7);
+    face_worm_seldom_sincos(t4, &s7, &c7);
     const double t9 = MW_FMA(q[1], s[112], t2);
     const double t10 = MW_FMA(q[1], s[117], t3);
     const double t11 = t9 * s[121];

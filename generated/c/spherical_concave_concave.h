@@ -204,18 +204,18 @@ MW_INLINE void spherical_concave_concave_sincos(double a, double *sine, double *
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_concave_concave_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_concave_concave_sincos(a, sine, cosine);
@@ -1500,14 +1500,14 @@ static inline void spherical_concave_concave_observe(const double *s, const doub
 {
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    spherical_concave_concave_sincos(x[1], &s1, &c1);
+    spherical_concave_concave_seldom_sincos(x[1], &s1, &c1);
     double s3, c3;
-    spherical_concave_concave_sincos(t0, &s3, &c3);
+    spherical_concave_concave_seldom_sincos(t0, &s3, &c3);
     const double t5 = x[3] * 0.5;
     double s6, c6;
-    spherical_concave_concave_sincos(x[3], &s6, &c6);
+    spherical_concave_concave_seldom_sincos(x[3], &s6, &c6);
     double s8, c8;
-    spherical_concave_concave_sincos(t5, &s8, &c8);
+    spherical_concave_concave_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMS(x[0], s[1], s[11]);
     const double t11 = MW_FMS(x[2], s[1], s[2]);
     const double t12 = MW_FNMA(x[0], s[6], s[17]);
@@ -1580,14 +1580,14 @@ static inline void spherical_concave_concave_observe(const double *s, const doub
     const double t79 = MW_FMS(c3, t76, t43);
     const double t80 = t52 + s[78];
     double s81, c81;
-    spherical_concave_concave_sincos(t52, &s81, &c81);
+    spherical_concave_concave_seldom_sincos(t52, &s81, &c81);
     double s83, c83;
-    spherical_concave_concave_sincos(t80, &s83, &c83);
+    spherical_concave_concave_seldom_sincos(t80, &s83, &c83);
     const double t85 = t14 - t69;
     double s86, c86;
-    spherical_concave_concave_sincos(t85, &s86, &c86);
+    spherical_concave_concave_seldom_sincos(t85, &s86, &c86);
     double s88, c88;
-    spherical_concave_concave_sincos(t69, &s88, &c88);
+    spherical_concave_concave_seldom_sincos(t69, &s88, &c88);
     const double t90 = s[4] * s83;
     const double t91 = s83 * t19;
     const double t92 = MW_FMS(c8, t40, t67);
@@ -1957,9 +1957,9 @@ static inline void spherical_concave_concave_flank_pinion(const double *s, const
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_concave_concave_sincos(q[1], &s1, &c1);
+    spherical_concave_concave_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_concave_concave_sincos(t0, &s3, &c3);
+    spherical_concave_concave_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[1], s[11]);
     const double t6 = MW_FNMA(q[0], s[6], s[17]);
     const double t7 = s[13] * t6;
@@ -2004,7 +2004,7 @@ static inline void spherical_concave_concave_flank_pinion(const double *s, const
     const double t46 = MW_FMA(s[4], t45, t28);
     const double t47 = s[18] * t46;
     double s48, c48;
-    spherical_concave_concave_sincos(t35, &s48, &c48);
+    spherical_concave_concave_seldom_sincos(t35, &s48, &c48);
     const double t50 = MW_FMA(t35, s[19], t7);
     const double t51 = MW_FMA(t35, s1, t47);
     const double t52 = s[43] + t44;
@@ -2106,9 +2106,9 @@ static inline void spherical_concave_concave_flank_wheel(const double *s, const 
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_concave_concave_sincos(q[1], &s1, &c1);
+    spherical_concave_concave_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_concave_concave_sincos(t0, &s3, &c3);
+    spherical_concave_concave_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[1], s[2]);
     const double t6 = MW_FNMA(q[0], s[6], s[7]);
     const double t7 = s[8] * t6;
@@ -2152,7 +2152,7 @@ static inline void spherical_concave_concave_flank_wheel(const double *s, const 
     const double t45 = MW_FMA(s[4], t44, t25);
     const double t46 = s[9] * t45;
     double s47, c47;
-    spherical_concave_concave_sincos(t34, &s47, &c47);
+    spherical_concave_concave_seldom_sincos(t34, &s47, &c47);
     const double t49 = MW_FMA(t34, s[14], t8);
     const double t50 = MW_FMA(t34, s1, t46);
     const double t51 = s[49] + t43;
@@ -2253,11 +2253,11 @@ static inline void spherical_concave_concave_fillet_pinion(const double *s, cons
     const double t0 = q[1] * 0.5;
     const double t1 = s[53] + q[0];
     double s2, c2;
-    spherical_concave_concave_sincos(q[1], &s2, &c2);
+    spherical_concave_concave_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_concave_concave_sincos(t0, &s4, &c4);
+    spherical_concave_concave_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_concave_concave_sincos(t1, &s6, &c6);
+    spherical_concave_concave_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[60] - q[0];
     const double t9 = c2 * s[58];
     const double t10 = s4 * s4;
@@ -2312,7 +2312,7 @@ static inline void spherical_concave_concave_fillet_pinion(const double *s, cons
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[59] * t59;
     double s61, c61;
-    spherical_concave_concave_sincos(t53, &s61, &c61);
+    spherical_concave_concave_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t45, t60);
     const double t64 = MW_FNMA(t53, t27, t58);
     const double t65 = MW_FMS(s[19], t53, t28);
@@ -2407,11 +2407,11 @@ static inline void spherical_concave_concave_fillet_wheel(const double *s, const
     const double t0 = q[1] * 0.5;
     const double t1 = s[53] + q[0];
     double s2, c2;
-    spherical_concave_concave_sincos(q[1], &s2, &c2);
+    spherical_concave_concave_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_concave_concave_sincos(t0, &s4, &c4);
+    spherical_concave_concave_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_concave_concave_sincos(t1, &s6, &c6);
+    spherical_concave_concave_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[60] - q[0];
     const double t9 = c2 * s[65];
     const double t10 = s4 * s4;
@@ -2466,7 +2466,7 @@ static inline void spherical_concave_concave_fillet_wheel(const double *s, const
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[66] * t59;
     double s61, c61;
-    spherical_concave_concave_sincos(t53, &s61, &c61);
+    spherical_concave_concave_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t45, t60);
     const double t64 = MW_FNMA(t53, t27, t58);
     const double t65 = MW_FMS(s[14], t53, t28);

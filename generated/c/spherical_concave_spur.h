@@ -204,18 +204,18 @@ MW_INLINE void spherical_concave_spur_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_concave_spur_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_concave_spur_sincos(a, sine, cosine);
@@ -1307,9 +1307,9 @@ static inline void spherical_concave_spur_observe(const double *s, const double 
 {
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    spherical_concave_spur_sincos(x[1], &s1, &c1);
+    spherical_concave_spur_seldom_sincos(x[1], &s1, &c1);
     double s3, c3;
-    spherical_concave_spur_sincos(t0, &s3, &c3);
+    spherical_concave_spur_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(x[0], s[0], s[9]);
     const double t6 = MW_FNMA(x[0], s[4], s[15]);
     const double t7 = MW_FMA(x[2], s[0], s[1]);
@@ -1328,9 +1328,9 @@ static inline void spherical_concave_spur_observe(const double *s, const double 
     const double t20 = sqrt(t14);
     const double t21 = t9 - t18;
     double s22, c22;
-    spherical_concave_spur_sincos(t18, &s22, &c22);
+    spherical_concave_spur_seldom_sincos(t18, &s22, &c22);
     double s24, c24;
-    spherical_concave_spur_sincos(t21, &s24, &c24);
+    spherical_concave_spur_seldom_sincos(t21, &s24, &c24);
     const double t26 = MW_FMA(t5, c1, s[13]);
     const double t27 = c1 * s[6];
     const double t28 = s3 * s3;
@@ -1396,9 +1396,9 @@ static inline void spherical_concave_spur_observe(const double *s, const double 
     const double t88 = MW_FMS(s24, s[24], t80);
     const double t89 = t58 + s[78];
     double s90, c90;
-    spherical_concave_spur_sincos(t58, &s90, &c90);
+    spherical_concave_spur_seldom_sincos(t58, &s90, &c90);
     double s92, c92;
-    spherical_concave_spur_sincos(t89, &s92, &c92);
+    spherical_concave_spur_seldom_sincos(t89, &s92, &c92);
     const double t94 = MW_FMA(c24, s[24], t87);
     const double t95 = t88 * t88;
     const double t96 = MW_FMA(t58, s[17], t12);
@@ -1672,9 +1672,9 @@ static inline void spherical_concave_spur_flank_pinion(const double *s, const do
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_concave_spur_sincos(q[1], &s1, &c1);
+    spherical_concave_spur_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_concave_spur_sincos(t0, &s3, &c3);
+    spherical_concave_spur_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[0], s[9]);
     const double t6 = MW_FNMA(q[0], s[4], s[15]);
     const double t7 = s[11] * t6;
@@ -1719,7 +1719,7 @@ static inline void spherical_concave_spur_flank_pinion(const double *s, const do
     const double t46 = MW_FMA(s[2], t45, t28);
     const double t47 = s[16] * t46;
     double s48, c48;
-    spherical_concave_spur_sincos(t35, &s48, &c48);
+    spherical_concave_spur_seldom_sincos(t35, &s48, &c48);
     const double t50 = MW_FMA(t35, s[17], t7);
     const double t51 = MW_FMA(t35, s1, t47);
     const double t52 = s[41] + t44;
@@ -1830,7 +1830,7 @@ static inline void spherical_concave_spur_flank_wheel(const double *s, const dou
     const double t8 = t7 * s[7];
     const double t9 = MW_FMA(t7, s[12], t5);
     double s10, c10;
-    spherical_concave_spur_sincos(t8, &s10, &c10);
+    spherical_concave_spur_seldom_sincos(t8, &s10, &c10);
     const double t12 = s[49] - t6;
     const double t13 = s[2] * c10;
     const double t14 = s[0] * c10;
@@ -1902,11 +1902,11 @@ static inline void spherical_concave_spur_fillet_pinion(const double *s, const d
     const double t0 = q[1] * 0.5;
     const double t1 = s[51] + q[0];
     double s2, c2;
-    spherical_concave_spur_sincos(q[1], &s2, &c2);
+    spherical_concave_spur_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_concave_spur_sincos(t0, &s4, &c4);
+    spherical_concave_spur_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_concave_spur_sincos(t1, &s6, &c6);
+    spherical_concave_spur_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[58] - q[0];
     const double t9 = c2 * s[56];
     const double t10 = s4 * s4;
@@ -1961,7 +1961,7 @@ static inline void spherical_concave_spur_fillet_pinion(const double *s, const d
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[57] * t59;
     double s61, c61;
-    spherical_concave_spur_sincos(t53, &s61, &c61);
+    spherical_concave_spur_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t45, t60);
     const double t64 = MW_FNMA(t53, t27, t58);
     const double t65 = MW_FMS(s[17], t53, t28);
@@ -2056,7 +2056,7 @@ static inline void spherical_concave_spur_fillet_wheel(const double *s, const do
     const double t0 = s[51] + q[0];
     const double t1 = s[58] - q[0];
     double s2, c2;
-    spherical_concave_spur_sincos(t0, &s2, &c2);
+    spherical_concave_spur_seldom_sincos(t0, &s2, &c2);
     const double t4 = s2 - s[4];
     const double t5 = s2 * s[63];
     const double t6 = s2 * s[61];
@@ -2082,7 +2082,7 @@ static inline void spherical_concave_spur_fillet_wheel(const double *s, const do
     const double t26 = s[64] * t24;
     const double t27 = t25 / s2;
     double s28, c28;
-    spherical_concave_spur_sincos(t27, &s28, &c28);
+    spherical_concave_spur_seldom_sincos(t27, &s28, &c28);
     const double t30 = MW_FNMA(c2, t27, t26);
     const double t31 = MW_FMS(s[65], t27, t16);
     const double t32 = t7 * t30;

@@ -204,18 +204,18 @@ MW_INLINE void spherical_convex_convex_sincos(double a, double *sine, double *co
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_convex_convex_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_convex_convex_sincos(a, sine, cosine);
@@ -1498,14 +1498,14 @@ static inline void spherical_convex_convex_observe(const double *s, const double
 {
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    spherical_convex_convex_sincos(x[1], &s1, &c1);
+    spherical_convex_convex_seldom_sincos(x[1], &s1, &c1);
     double s3, c3;
-    spherical_convex_convex_sincos(t0, &s3, &c3);
+    spherical_convex_convex_seldom_sincos(t0, &s3, &c3);
     const double t5 = x[3] * 0.5;
     double s6, c6;
-    spherical_convex_convex_sincos(x[3], &s6, &c6);
+    spherical_convex_convex_seldom_sincos(x[3], &s6, &c6);
     double s8, c8;
-    spherical_convex_convex_sincos(t5, &s8, &c8);
+    spherical_convex_convex_seldom_sincos(t5, &s8, &c8);
     const double t10 = MW_FMS(x[0], s[1], s[13]);
     const double t11 = MW_FMS(x[2], s[1], s[2]);
     const double t12 = MW_FNMA(x[0], s[6], s[16]);
@@ -1582,14 +1582,14 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t83 = MW_FMS(s[12], t75, t52);
     const double t84 = t51 + s[79];
     double s85, c85;
-    spherical_convex_convex_sincos(t51, &s85, &c85);
+    spherical_convex_convex_seldom_sincos(t51, &s85, &c85);
     double s87, c87;
-    spherical_convex_convex_sincos(t84, &s87, &c87);
+    spherical_convex_convex_seldom_sincos(t84, &s87, &c87);
     const double t89 = t14 - t68;
     double s90, c90;
-    spherical_convex_convex_sincos(t89, &s90, &c90);
+    spherical_convex_convex_seldom_sincos(t89, &s90, &c90);
     double s92, c92;
-    spherical_convex_convex_sincos(t68, &s92, &c92);
+    spherical_convex_convex_seldom_sincos(t68, &s92, &c92);
     const double t94 = s[4] * s87;
     const double t95 = s87 * t19;
     const double t96 = MW_FMA(c8, t40, t73);
@@ -1950,9 +1950,9 @@ static inline void spherical_convex_convex_flank_pinion(const double *s, const d
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_convex_convex_sincos(q[1], &s1, &c1);
+    spherical_convex_convex_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_convex_convex_sincos(t0, &s3, &c3);
+    spherical_convex_convex_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[1], s[13]);
     const double t6 = MW_FNMA(q[0], s[6], s[16]);
     const double t7 = s[10] * t6;
@@ -1995,7 +1995,7 @@ static inline void spherical_convex_convex_flank_pinion(const double *s, const d
     const double t44 = MW_FMA(s[4], t41, t27);
     const double t45 = s[17] * t44;
     double s46, c46;
-    spherical_convex_convex_sincos(t32, &s46, &c46);
+    spherical_convex_convex_seldom_sincos(t32, &s46, &c46);
     const double t48 = MW_FMA(t32, s[18], t7);
     const double t49 = MW_FMA(s1, t32, t45);
     const double t50 = s[46] - t42;
@@ -2096,9 +2096,9 @@ static inline void spherical_convex_convex_flank_wheel(const double *s, const do
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_convex_convex_sincos(q[1], &s1, &c1);
+    spherical_convex_convex_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_convex_convex_sincos(t0, &s3, &c3);
+    spherical_convex_convex_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[1], s[2]);
     const double t6 = MW_FNMA(q[0], s[6], s[7]);
     const double t7 = s[8] * t6;
@@ -2141,7 +2141,7 @@ static inline void spherical_convex_convex_flank_wheel(const double *s, const do
     const double t44 = MW_FMA(s[4], t43, t25);
     const double t45 = s[9] * t44;
     double s46, c46;
-    spherical_convex_convex_sincos(t33, &s46, &c46);
+    spherical_convex_convex_seldom_sincos(t33, &s46, &c46);
     const double t48 = MW_FMA(t33, s[11], t8);
     const double t49 = MW_FMA(t33, s1, t45);
     const double t50 = s[51] + t42;
@@ -2241,11 +2241,11 @@ static inline void spherical_convex_convex_fillet_pinion(const double *s, const 
     const double t0 = q[1] * 0.5;
     const double t1 = s[54] + q[0];
     double s2, c2;
-    spherical_convex_convex_sincos(q[1], &s2, &c2);
+    spherical_convex_convex_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_convex_convex_sincos(t0, &s4, &c4);
+    spherical_convex_convex_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_convex_convex_sincos(t1, &s6, &c6);
+    spherical_convex_convex_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[61] - q[0];
     const double t9 = c2 * s[59];
     const double t10 = s4 * s4;
@@ -2300,7 +2300,7 @@ static inline void spherical_convex_convex_fillet_pinion(const double *s, const 
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[60] * t59;
     double s61, c61;
-    spherical_convex_convex_sincos(t53, &s61, &c61);
+    spherical_convex_convex_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t44, t60);
     const double t64 = MW_FNMA(t53, t26, t58);
     const double t65 = MW_FMS(s[18], t53, t27);
@@ -2394,11 +2394,11 @@ static inline void spherical_convex_convex_fillet_wheel(const double *s, const d
     const double t0 = q[1] * 0.5;
     const double t1 = s[54] + q[0];
     double s2, c2;
-    spherical_convex_convex_sincos(q[1], &s2, &c2);
+    spherical_convex_convex_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_convex_convex_sincos(t0, &s4, &c4);
+    spherical_convex_convex_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_convex_convex_sincos(t1, &s6, &c6);
+    spherical_convex_convex_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[61] - q[0];
     const double t9 = c2 * s[66];
     const double t10 = s4 * s4;
@@ -2454,7 +2454,7 @@ static inline void spherical_convex_convex_fillet_wheel(const double *s, const d
     const double t60 = MW_FMS(c6, t58, t56);
     const double t61 = s[67] * t60;
     double s62, c62;
-    spherical_convex_convex_sincos(t54, &s62, &c62);
+    spherical_convex_convex_seldom_sincos(t54, &s62, &c62);
     const double t64 = MW_FMA(t54, t45, t61);
     const double t65 = MW_FNMA(t54, t27, t59);
     const double t66 = MW_FMS(s[11], t54, t28);

@@ -204,18 +204,18 @@ MW_INLINE void spherical_convex_spur_sincos(double a, double *sine, double *cosi
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_convex_spur_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_convex_spur_sincos(a, sine, cosine);
@@ -1303,9 +1303,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
 {
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    spherical_convex_spur_sincos(x[1], &s1, &c1);
+    spherical_convex_spur_seldom_sincos(x[1], &s1, &c1);
     double s3, c3;
-    spherical_convex_spur_sincos(t0, &s3, &c3);
+    spherical_convex_spur_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(x[0], s[0], s[11]);
     const double t6 = MW_FNMA(x[0], s[4], s[14]);
     const double t7 = MW_FMA(x[2], s[0], s[1]);
@@ -1324,9 +1324,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t20 = sqrt(t14);
     const double t21 = t9 - t18;
     double s22, c22;
-    spherical_convex_spur_sincos(t18, &s22, &c22);
+    spherical_convex_spur_seldom_sincos(t18, &s22, &c22);
     double s24, c24;
-    spherical_convex_spur_sincos(t21, &s24, &c24);
+    spherical_convex_spur_seldom_sincos(t21, &s24, &c24);
     const double t26 = MW_FMA(t5, c1, s[12]);
     const double t27 = c1 * s[6];
     const double t28 = s3 * s3;
@@ -1390,9 +1390,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t86 = s[2] * s24;
     const double t87 = t59 + s[79];
     double s88, c88;
-    spherical_convex_spur_sincos(t59, &s88, &c88);
+    spherical_convex_spur_seldom_sincos(t59, &s88, &c88);
     double s90, c90;
-    spherical_convex_spur_sincos(t87, &s90, &c90);
+    spherical_convex_spur_seldom_sincos(t87, &s90, &c90);
     const double t92 = MW_FMS(s24, s[25], t79);
     const double t93 = MW_FMA(c24, s[25], t86);
     const double t94 = MW_FMA(t59, s[16], t12);
@@ -1666,9 +1666,9 @@ static inline void spherical_convex_spur_flank_pinion(const double *s, const dou
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_convex_spur_sincos(q[1], &s1, &c1);
+    spherical_convex_spur_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_convex_spur_sincos(t0, &s3, &c3);
+    spherical_convex_spur_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[0], s[11]);
     const double t6 = MW_FNMA(q[0], s[4], s[14]);
     const double t7 = s[8] * t6;
@@ -1711,7 +1711,7 @@ static inline void spherical_convex_spur_flank_pinion(const double *s, const dou
     const double t44 = MW_FMA(s[2], t41, t27);
     const double t45 = s[15] * t44;
     double s46, c46;
-    spherical_convex_spur_sincos(t32, &s46, &c46);
+    spherical_convex_spur_seldom_sincos(t32, &s46, &c46);
     const double t48 = MW_FMA(t32, s[16], t7);
     const double t49 = MW_FMA(s1, t32, t45);
     const double t50 = s[44] - t42;
@@ -1821,7 +1821,7 @@ static inline void spherical_convex_spur_flank_wheel(const double *s, const doub
     const double t8 = t7 * s[7];
     const double t9 = MW_FMA(t7, s[9], t5);
     double s10, c10;
-    spherical_convex_spur_sincos(t8, &s10, &c10);
+    spherical_convex_spur_seldom_sincos(t8, &s10, &c10);
     const double t12 = s[50] - t6;
     const double t13 = s[2] * c10;
     const double t14 = s[0] * c10;
@@ -1893,11 +1893,11 @@ static inline void spherical_convex_spur_fillet_pinion(const double *s, const do
     const double t0 = q[1] * 0.5;
     const double t1 = s[52] + q[0];
     double s2, c2;
-    spherical_convex_spur_sincos(q[1], &s2, &c2);
+    spherical_convex_spur_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_convex_spur_sincos(t0, &s4, &c4);
+    spherical_convex_spur_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_convex_spur_sincos(t1, &s6, &c6);
+    spherical_convex_spur_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[59] - q[0];
     const double t9 = c2 * s[57];
     const double t10 = s4 * s4;
@@ -1952,7 +1952,7 @@ static inline void spherical_convex_spur_fillet_pinion(const double *s, const do
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[58] * t59;
     double s61, c61;
-    spherical_convex_spur_sincos(t53, &s61, &c61);
+    spherical_convex_spur_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t44, t60);
     const double t64 = MW_FNMA(t53, t26, t58);
     const double t65 = MW_FMS(s[16], t53, t27);
@@ -2046,7 +2046,7 @@ static inline void spherical_convex_spur_fillet_wheel(const double *s, const dou
     const double t0 = s[52] + q[0];
     const double t1 = s[59] - q[0];
     double s2, c2;
-    spherical_convex_spur_sincos(t0, &s2, &c2);
+    spherical_convex_spur_seldom_sincos(t0, &s2, &c2);
     const double t4 = s2 - s[4];
     const double t5 = s2 * s[64];
     const double t6 = s2 * s[62];
@@ -2072,7 +2072,7 @@ static inline void spherical_convex_spur_fillet_wheel(const double *s, const dou
     const double t26 = s[65] * t24;
     const double t27 = t25 / s2;
     double s28, c28;
-    spherical_convex_spur_sincos(t27, &s28, &c28);
+    spherical_convex_spur_seldom_sincos(t27, &s28, &c28);
     const double t30 = MW_FNMA(c2, t27, t26);
     const double t31 = MW_FMS(s[66], t27, t16);
     const double t32 = t7 * t30;

@@ -204,18 +204,18 @@ MW_INLINE void spherical_spur_concave_sincos(double a, double *sine, double *cos
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_spur_concave_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_spur_concave_sincos(a, sine, cosine);
@@ -1268,9 +1268,9 @@ static inline void spherical_spur_concave_observe(const double *s, const double 
 {
     const double t0 = x[3] * 0.5;
     double s1, c1;
-    spherical_spur_concave_sincos(x[3], &s1, &c1);
+    spherical_spur_concave_seldom_sincos(x[3], &s1, &c1);
     double s3, c3;
-    spherical_spur_concave_sincos(t0, &s3, &c3);
+    spherical_spur_concave_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(x[2], s[2], s[3]);
     const double t6 = MW_FNMA(x[2], s[7], s[8]);
     const double t7 = MW_FMA(x[0], s[2], s[13]);
@@ -1292,9 +1292,9 @@ static inline void spherical_spur_concave_observe(const double *s, const double 
     const double t23 = sqrt(t15);
     const double t24 = t20 + s[81];
     double s25, c25;
-    spherical_spur_concave_sincos(t20, &s25, &c25);
+    spherical_spur_concave_seldom_sincos(t20, &s25, &c25);
     double s27, c27;
-    spherical_spur_concave_sincos(t24, &s27, &c27);
+    spherical_spur_concave_seldom_sincos(t24, &s27, &c27);
     const double t29 = MW_FMA(c1, t5, s[4]);
     const double t30 = s3 * s3;
     const double t31 = MW_FMA(t30, s[1], t29);
@@ -1352,9 +1352,9 @@ static inline void spherical_spur_concave_observe(const double *s, const double 
     const double t83 = MW_FMA(c27, s[41], t74);
     const double t84 = t9 - t59;
     double s85, c85;
-    spherical_spur_concave_sincos(t59, &s85, &c85);
+    spherical_spur_concave_seldom_sincos(t59, &s85, &c85);
     double s87, c87;
-    spherical_spur_concave_sincos(t84, &s87, &c87);
+    spherical_spur_concave_seldom_sincos(t84, &s87, &c87);
     const double t89 = s[18] * t81;
     const double t90 = MW_FMA(s27, s[25], t82);
     const double t91 = s[24] * t81;
@@ -1627,7 +1627,7 @@ static inline void spherical_spur_concave_flank_pinion(const double *s, const do
     const double t8 = t7 * s[16];
     const double t9 = MW_FMA(t7, s[17], t5);
     double s10, c10;
-    spherical_spur_concave_sincos(t8, &s10, &c10);
+    spherical_spur_concave_seldom_sincos(t8, &s10, &c10);
     const double t12 = s[45] - t6;
     const double t13 = s[5] * c10;
     const double t14 = s[2] * c10;
@@ -1700,9 +1700,9 @@ static inline void spherical_spur_concave_flank_wheel(const double *s, const dou
     (void)s;
     const double t0 = q[1] * 0.5;
     double s1, c1;
-    spherical_spur_concave_sincos(q[1], &s1, &c1);
+    spherical_spur_concave_seldom_sincos(q[1], &s1, &c1);
     double s3, c3;
-    spherical_spur_concave_sincos(t0, &s3, &c3);
+    spherical_spur_concave_seldom_sincos(t0, &s3, &c3);
     const double t5 = MW_FMS(q[0], s[2], s[3]);
     const double t6 = MW_FNMA(q[0], s[7], s[8]);
     const double t7 = s[9] * t6;
@@ -1746,7 +1746,7 @@ static inline void spherical_spur_concave_flank_wheel(const double *s, const dou
     const double t45 = MW_FMA(s[5], t44, t25);
     const double t46 = s[10] * t45;
     double s47, c47;
-    spherical_spur_concave_sincos(t34, &s47, &c47);
+    spherical_spur_concave_seldom_sincos(t34, &s47, &c47);
     const double t49 = MW_FMA(t34, s[12], t8);
     const double t50 = MW_FMA(t34, s1, t46);
     const double t51 = s[49] + t43;
@@ -1847,7 +1847,7 @@ static inline void spherical_spur_concave_fillet_pinion(const double *s, const d
     const double t0 = s[53] + q[0];
     const double t1 = s[62] - q[0];
     double s2, c2;
-    spherical_spur_concave_sincos(t0, &s2, &c2);
+    spherical_spur_concave_seldom_sincos(t0, &s2, &c2);
     const double t4 = s2 - s[7];
     const double t5 = s2 * s[58];
     const double t6 = s2 * s[56];
@@ -1873,7 +1873,7 @@ static inline void spherical_spur_concave_fillet_pinion(const double *s, const d
     const double t26 = s[59] * t24;
     const double t27 = t25 / s2;
     double s28, c28;
-    spherical_spur_concave_sincos(t27, &s28, &c28);
+    spherical_spur_concave_seldom_sincos(t27, &s28, &c28);
     const double t30 = MW_FNMA(c2, t27, t26);
     const double t31 = MW_FMS(s[60], t27, t16);
     const double t32 = t7 * t30;
@@ -1943,11 +1943,11 @@ static inline void spherical_spur_concave_fillet_wheel(const double *s, const do
     const double t0 = q[1] * 0.5;
     const double t1 = s[53] + q[0];
     double s2, c2;
-    spherical_spur_concave_sincos(q[1], &s2, &c2);
+    spherical_spur_concave_seldom_sincos(q[1], &s2, &c2);
     double s4, c4;
-    spherical_spur_concave_sincos(t0, &s4, &c4);
+    spherical_spur_concave_seldom_sincos(t0, &s4, &c4);
     double s6, c6;
-    spherical_spur_concave_sincos(t1, &s6, &c6);
+    spherical_spur_concave_seldom_sincos(t1, &s6, &c6);
     const double t8 = s[62] - q[0];
     const double t9 = c2 * s[67];
     const double t10 = s4 * s4;
@@ -2002,7 +2002,7 @@ static inline void spherical_spur_concave_fillet_wheel(const double *s, const do
     const double t59 = MW_FMS(c6, t57, t55);
     const double t60 = s[68] * t59;
     double s61, c61;
-    spherical_spur_concave_sincos(t53, &s61, &c61);
+    spherical_spur_concave_seldom_sincos(t53, &s61, &c61);
     const double t63 = MW_FMA(t53, t45, t60);
     const double t64 = MW_FNMA(t53, t27, t58);
     const double t65 = MW_FMS(s[12], t53, t28);

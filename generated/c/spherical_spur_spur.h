@@ -203,18 +203,18 @@ MW_INLINE void spherical_spur_spur_sincos(double a, double *sine, double *cosine
     const double v_z4 = v_z2 * v_z2;
     const double v = MW_FMA(v_z4, v1_2, v2_0);
     s.number = MW_FMA(r * z, u, r);
-    const double half = 0.5 * z;
-    const double w = 1.0 - half; /* what its rounding loses, up to half a unit of the cosine, is added to the rest */
-    c.number = w + MW_FMA(z * z, v, (1.0 - w) - half);
+    const double w = MW_FNMA(z, 0.5, 1.0); /* what rounding loses, up to half a unit of the cosine, joins the rest */
+    c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));
     const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1); /* modulo 4; all bits if it is odd */
     const unsigned long long exchanged = (s.bits ^ c.bits) & odd;
-    s.bits ^= exchanged ^ (quadrant >> 1 << 63);
-    c.bits ^= exchanged ^ ((quadrant + 1) >> 1 << 63);
+    const unsigned long long sign = quadrant << 62 & 0x8000000000000000;
+    s.bits ^= exchanged ^ sign;
+    c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));
     *sine = s.number;
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what is computed once for a design. */
+/* The same, called instead of written out in place, for what no solution of a contact waits for. */
 MW_CALLED void spherical_spur_spur_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_spur_spur_sincos(a, sine, cosine);
@@ -1125,14 +1125,14 @@ static inline void spherical_spur_spur_observe(const double *s, const double *x,
     const double t23 = MW_FMA(t16, s[10], t11);
     const double t24 = t20 + s[76];
     double s25, c25;
-    spherical_spur_spur_sincos(t20, &s25, &c25);
+    spherical_spur_spur_seldom_sincos(t20, &s25, &c25);
     double s27, c27;
-    spherical_spur_spur_sincos(t24, &s27, &c27);
+    spherical_spur_spur_seldom_sincos(t24, &s27, &c27);
     const double t29 = t4 - t22;
     double s30, c30;
-    spherical_spur_spur_sincos(t22, &s30, &c30);
+    spherical_spur_spur_seldom_sincos(t22, &s30, &c30);
     double s32, c32;
-    spherical_spur_spur_sincos(t29, &s32, &c32);
+    spherical_spur_spur_seldom_sincos(t29, &s32, &c32);
     const double t34 = s[3] * s27;
     const double t35 = t21 * s25;
     const double t36 = t0 * s25;
@@ -1368,7 +1368,7 @@ static inline void spherical_spur_spur_flank_pinion(const double *s, const doubl
     const double t8 = t7 * s[14];
     const double t9 = MW_FMA(t7, s[15], t5);
     double s10, c10;
-    spherical_spur_spur_sincos(t8, &s10, &c10);
+    spherical_spur_spur_seldom_sincos(t8, &s10, &c10);
     const double t12 = s[39] - t6;
     const double t13 = s[3] * c10;
     const double t14 = s[1] * c10;
@@ -1450,7 +1450,7 @@ static inline void spherical_spur_spur_flank_wheel(const double *s, const double
     const double t8 = t7 * s[8];
     const double t9 = MW_FMA(t7, s[10], t5);
     double s10, c10;
-    spherical_spur_spur_sincos(t8, &s10, &c10);
+    spherical_spur_spur_seldom_sincos(t8, &s10, &c10);
     const double t12 = s[45] - t6;
     const double t13 = s[3] * c10;
     const double t14 = s[1] * c10;
@@ -1522,7 +1522,7 @@ static inline void spherical_spur_spur_fillet_pinion(const double *s, const doub
     const double t0 = s[47] + q[0];
     const double t1 = s[56] - q[0];
     double s2, c2;
-    spherical_spur_spur_sincos(t0, &s2, &c2);
+    spherical_spur_spur_seldom_sincos(t0, &s2, &c2);
     const double t4 = s2 - s[5];
     const double t5 = s2 * s[52];
     const double t6 = s2 * s[50];
@@ -1548,7 +1548,7 @@ static inline void spherical_spur_spur_fillet_pinion(const double *s, const doub
     const double t26 = s[53] * t24;
     const double t27 = t25 / s2;
     double s28, c28;
-    spherical_spur_spur_sincos(t27, &s28, &c28);
+    spherical_spur_spur_seldom_sincos(t27, &s28, &c28);
     const double t30 = MW_FNMA(c2, t27, t26);
     const double t31 = MW_FMS(s[54], t27, t16);
     const double t32 = t7 * t30;
@@ -1618,7 +1618,7 @@ static inline void spherical_spur_spur_fillet_wheel(const double *s, const doubl
     const double t0 = s[47] + q[0];
     const double t1 = s[56] - q[0];
     double s2, c2;
-    spherical_spur_spur_sincos(t0, &s2, &c2);
+    spherical_spur_spur_seldom_sincos(t0, &s2, &c2);
     const double t4 = s2 - s[5];
     const double t5 = s2 * s[61];
     const double t6 = s2 * s[59];
@@ -1644,7 +1644,7 @@ static inline void spherical_spur_spur_fillet_wheel(const double *s, const doubl
     const double t26 = s[62] * t24;
     const double t27 = t25 / s2;
     double s28, c28;
-    spherical_spur_spur_sincos(t27, &s28, &c28);
+    spherical_spur_spur_seldom_sincos(t27, &s28, &c28);
     const double t30 = MW_FNMA(c2, t27, t26);
     const double t31 = MW_FMS(s[63], t27, t16);
     const double t32 = t7 * t30;
