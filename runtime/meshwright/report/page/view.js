@@ -227,7 +227,9 @@
   }
 
   function fixed(value, digits) {
-    return value === null ? "–" : value.toFixed(digits).replace("-", "−");
+    if (value === null) return "–";
+    const rounded = Number(value.toFixed(digits)) || 0; // no minus before a zero
+    return rounded.toFixed(digits).replace("-", "−");
   }
 
   function draw() {
