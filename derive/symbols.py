@@ -58,8 +58,8 @@ class Parameter:
     """One entry of a drive's parameter vector and the key that sets it in a design file.
 
     ``default`` is in inner units. ``required`` parameters must be given. The domain is open; ``lower_included`` adds
-    its lower end. A parameter that is neither given nor
-    derived (see :class:`Rule`) stays "not a number": a limit that uses it is then not applied.
+    its lower end. Where both are given, it must exceed the one with the key ``above`` in the same table. A parameter
+    that is neither given nor derived (see :class:`Rule`) stays "not a number": a limit that uses it is not applied.
     """
 
     symbol: Quantity
@@ -69,6 +69,7 @@ class Parameter:
     required: bool = False
     integer: bool = False
     lower_included: bool = False
+    above: str | None = None
     choices: tuple[tuple[str, int], ...] = ()
 
     @property

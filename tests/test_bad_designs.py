@@ -35,6 +35,7 @@ CASES = [
     ({"misalignment": 3.0}, ("misalignment", "3.0", "table", "[misalignment]")),
     ({"name": 3}, ("name", "3", "text", "quotes")),
     ({"drive": ["cylindrical-worm"]}, ("drive", "cylindrical-worm", "no such family", "use one of")),
+    ({"blank.worm_tip_radius_mm": 18.0, "blank.worm_root_radius_mm": 18.5}, ("blank.worm_tip_radius_mm", "18", "18.5")),
     ({"drive": "cylindrical-wurm"}, ("drive", "cylindrical-wurm", "cylindrical-worm")),
 ]  # fmt: skip
 

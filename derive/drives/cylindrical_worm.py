@@ -76,8 +76,10 @@ wheel_throat = parameter(
     "wheel_throat_radius_mm", "R_throat", "throat circle of the wheel", table=Table.BLANK, domain=POSITIVE
 )
 face_width = parameter("wheel_face_width_mm", "b_wheel", "face width of the wheel", table=Table.BLANK, domain=POSITIVE)
-worm_tip = parameter("worm_tip_radius_mm", "rho_tip", "tip radius of the worm", table=Table.BLANK, domain=POSITIVE)
 worm_root = parameter("worm_root_radius_mm", "rho_root", "root radius of the worm", table=Table.BLANK, domain=POSITIVE)
+worm_tip = parameter(
+    "worm_tip_radius_mm", "rho_tip", "tip radius of the worm", table=Table.BLANK, domain=POSITIVE, above=worm_root.key
+)
 hob_tip = parameter(
     "hob_tip_addendum_mm", "h_hob", "end of the blade beyond the pitch line", table=Table.BLANK, domain=POSITIVE
 )

@@ -159,6 +159,7 @@ def _parameter(p):
         "default": None if p.default is None else _float(p.default),
         **_bounds(p.symbol),
         "lower_included": p.lower_included,
+        "above": p.above,
         "integer": p.integer,
         "required": p.required,
         "choices": {word: value for word, value in p.choices},

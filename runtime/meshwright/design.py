@@ -120,6 +120,7 @@ def check(tables):
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
     _check_needed(description, checked["design"])
+    _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
     p = ffi.from_buffer("double[]", parameters)
@@ -207,6 +208,14 @@ def _check_needed(description, design):
     for key in description["excluded"]:
         if design.get(key) is not None:
             raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+
+
+def _check_order(description, checked):
+    for p in description["parameters"]:
+        table = checked.get(p["table"])
+        if p["above"] and None not in (table[p["key"]], table[p["above"]]) and table[p["key"]] <= table[p["above"]]:
+            reason = f"must be greater than {p['above']}, which is {table[p['above']]:g}"
+            raise DesignError(f"{p['table']}.{p['key']}", table[p["key"]], reason, "choose a larger value")
 
 
 def _vector(description, checked):
