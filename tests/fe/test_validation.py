@@ -9,23 +9,21 @@ import pytest
 from meshwright import Drive
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, prepare
-from meshwright.fe.compliance import tooth_compliance
-from meshwright.fe.grading import MeshDensity
+from meshwright.fe.compliance import neighbours_of, tooth_compliance
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
 
 pytestmark = pytest.mark.slow
 
 TORQUE = Load(100e3, "pinion")
-DENSITY = MeshDensity(growth=3.0, rim_rows=3, coarse_fillet_rows=4)
 MOST_ELEMENTS = 11_000
 HERTZ = {"concave": (1054, 604), "spur": (1364, 801), "convex": (1542, 918)}
 
 
-def solve(ccx, drive, folder, angle=0.0, pairs=1, torque=TORQUE, neighbours=1):
+def solve(ccx, drive, folder, angle=0.0, pairs=1, torque=TORQUE):
     gear = gear_pair(drive)
-    compliance = {name: tooth_compliance(getattr(gear, name), neighbours) for name in ("pinion", "wheel")}
-    settings = Settings(pairs, 3600.0, density=DENSITY)
+    compliance = {name: tooth_compliance(getattr(gear, name), neighbours_of(pairs)) for name in ("pinion", "wheel")}
+    settings = Settings(pairs, 3600.0)
     prepared = prepare(gear, compliance, np.radians(angle), torque, settings, folder)
     document = analysis.solve(prepared, ccx, settings)
     assert all(check["held"] for check in document["gate"].values()), document["gate"]
@@ -89,7 +87,7 @@ def test_face_worm(ccx, tmp_path):
     it gives neither blade parabola nor tooth heights nor rounding, nor the place of its largest stresses.
     """
     drive, load = Drive.load("face-worm-conical-convex"), Load(50e3, "wheel")
-    document, loaded = solve(ccx, drive, tmp_path, 0.0, 5, load, neighbours=2)
+    document, loaded = solve(ccx, drive, tmp_path, 0.0, 5, load)
     forces = np.array([pair["force_n"] for pair in document["pairs"]])
     expected = np.array([pair.force for pair in loaded.pairs])
     assert np.count_nonzero(forces) == 3

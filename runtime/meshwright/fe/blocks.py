@@ -108,6 +108,12 @@ def graded(length: float, zone: FineZone, growth: float, count: int | None = Non
     )
 
 
+def geometric(ratio: float, count: int) -> Floats:
+    """(count + 1,) positions from 0 to 1, each interval ``ratio`` times the one after it."""
+    intervals = ratio ** np.arange(count, dtype=np.float64)[::-1]
+    return np.concatenate([[0.0], np.cumsum(intervals) / intervals.sum()])
+
+
 def graded_count(length: float, zone: FineZone, growth: float) -> int:
     """Least number of intervals that :func:`graded` needs."""
     return sum(_counts(length, zone, growth))

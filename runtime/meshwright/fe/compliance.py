@@ -4,11 +4,15 @@ The compliance of a flank is C = half-space(fine cells) + W [FE(patches) - half-
 smooth, so a coarse mesh gives it well, and it is factorised once for a tooth shape and used for every position and
 load.  Source of the method: S. Vijayakar, A combined surface integral and finite element solution for a
 three-dimensional contact problem (1991).
+
+A coarse mesh is too stiff, most of all right below a pressed patch.  The FE term is therefore taken from two meshes,
+the finer one with twice the rows of the other in every direction, and extrapolated as an error of second order (L. F.
+Richardson, The approximate arithmetical solution by finite differences of physical problems, 1911).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,14 +20,16 @@ from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.elastic import factorise
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.halfspace import mean_displacement
-from meshwright.fe.hexahedra import Floats, nodal_areas
+from meshwright.fe.hexahedra import Floats, Ints, nodal_areas
 from meshwright.fe.pair import Member
 
-_PATCH = 2
 _MOST_NEIGHBOURS = 2
-_TOOTH = MeshDensity(coarse_rows=(4, 12, 16), coarse_fillet_rows=4, rim_rows=4)
-# The portion of a thread is several faces long: patches longer than the contact would tell too high a pressure.
-_THREAD = replace(_TOOTH, coarse_rows=(4, 12, 40))
+# Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
+# contact would tell too high a pressure.
+_TOOTH_PATCHES = (6, 8)
+_THREAD_PATCHES = (6, 20)
+# Rows with one element to a patch: across the tooth, in a fillet, in the rim and the growth of the last.
+_ACROSS, _FILLET, _RIM, _RIM_GROWTH = 3, 2, 2, 2.25
 
 
 @dataclass(frozen=True)
@@ -50,7 +56,7 @@ class ToothCompliance:
         return self.later[distance - 1] if distance > 0 else self.later[-distance - 1].T
 
     def weights(self, profile: Floats, face: Floats) -> Floats:
-        """Bilinear weights (N, P Q) of the patches at N places on the flank; held constant past the outer centres."""
+        """Bilinear weights (N, P Q) of the patches at N places on the flank, carried on past the outer centres."""
         along, across = _linear_weights(self.profile, profile), _linear_weights(self.face, face)
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
 
@@ -60,47 +66,71 @@ def neighbours_of(pairs: int) -> int:
     return min((pairs + 1) // 2, _MOST_NEIGHBOURS)
 
 
-def tooth_compliance(member: Member, neighbours: int = 1) -> ToothCompliance:
+def tooth_compliance(member: Member, neighbours: int = 1, per_patch: int = 1) -> ToothCompliance:
     """Compute it from a tooth and its neighbours on either side, whose rim is held at the bore and the outer cuts.
 
-    Of a thread it is that of the portion at member angle 0.
+    per_patch: elements on either side of a patch in the coarser of the two meshes; the finer one has one more.
+    Of a thread it is the compliance of the portion at member angle 0.
     """
-    order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
-    density = _THREAD if member.tooth(0.0).cut_ends else _TOOTH
-    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], density)
-    name = f"flank_{member.working}"
-
-    def patches(later: int) -> Floats:
-        tooth = body.teeth[order.index(later)]
-        return _patch_vectors(body.mesh.nodes, body.mesh.face_nodes(tooth[name]), density)
-
-    forces = np.moveaxis(patches(0), 0, -1)
-    moved = factorise(body.mesh, member.material, body.rim).displacements(-forces)
-    whole, *later = (-np.einsum("pnd,ndq->pq", patches(k), moved) for k in range(neighbours + 1))
-    shape = (density.coarse_rows[1] // _PATCH, density.coarse_rows[2] // _PATCH)
-    corners = body.mesh.nodes[body.mesh.face_nodes(body.teeth[order.index(0)][name])]
-    own = whole - _half_space(member, corners, shape)
+    shape = _THREAD_PATCHES if member.tooth(0.0).cut_ends else _TOOTH_PATCHES
+    coarse, fine = (_moved(member, neighbours, shape, rows) for rows in (per_patch, per_patch + 1))
+    errors = ((per_patch + 1) / per_patch) ** 2  # of the coarse mesh over that of the fine one
+    own, *later = (f + (f - c) / (errors - 1.0) for c, f in zip(coarse, fine, strict=True))
     centres = [(np.arange(count) + 0.5) / count for count in shape]
     return ToothCompliance(centres[0], centres[1], 0.5 * (own + own.T), tuple(later))
 
 
-def _patch_vectors(nodes: Floats, quads: Floats, density: MeshDensity) -> Floats:
+def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: int) -> list[Floats]:
+    """(P Q, P Q) mean displacements in mm of patches by unit loads on those of the middle tooth.
+
+    Those of the middle tooth itself, less what a half-space gives, then those of its later neighbours; from a mesh of
+    ``per_patch`` x ``per_patch`` elements to a patch.
+    """
+    order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
+    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _density(shape, per_patch))
+
+    def corners(later: int) -> Floats:
+        flank = body.teeth[order.index(later)][f"flank_{member.working}"]
+        return _by_patch(body.mesh.face_nodes(flank), shape, per_patch)
+
+    patches = [_patch_vectors(body.mesh.nodes, corners(k)) for k in range(neighbours + 1)]
+    moved = factorise(body.mesh, member.material, body.rim).displacements(-np.moveaxis(patches[0], 0, -1))
+    own, *later = (-np.einsum("pnd,ndq->pq", patch, moved) for patch in patches)
+    middles = body.mesh.nodes[corners(0)].mean(axis=(1, 2)).reshape(*shape, 3)
+    return [own - _half_space(member, middles), *later]
+
+
+def _density(shape: tuple[int, int], per_patch: int) -> MeshDensity:
+    return MeshDensity(
+        coarse_rows=(_ACROSS * per_patch, shape[0] * per_patch, shape[1] * per_patch),
+        coarse_fillet_rows=_FILLET * per_patch,
+        rim_rows=_RIM * per_patch,
+        rim_growth=_RIM_GROWTH ** (1.0 / per_patch),
+    )
+
+
+def _by_patch(quads: Ints, shape: tuple[int, int], per_patch: int) -> Ints:
+    """Faces (P Q, F, 4) of each patch, out of those of a flank row by row (P Q F, 4)."""
+    split = quads.reshape(shape[0], per_patch, shape[1], per_patch, 4)
+    return split.transpose(0, 2, 1, 3, 4).reshape(shape[0] * shape[1], per_patch**2, 4)
+
+
+def _patch_vectors(nodes: Floats, patches: Ints) -> Floats:
     """(P Q, N, 3) consistent nodal forces of a unit load along the outward normal, spread evenly over each patch."""
-    rows, columns = density.coarse_rows[1:]
-    by_patch = quads.reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH, 4).transpose(0, 2, 1, 3, 4)
-    vectors = np.zeros((rows * columns // _PATCH**2, len(nodes), 3))
-    for patch, faces in zip(vectors, by_patch.reshape(len(vectors), -1, 4), strict=True):
+    vectors = np.zeros((len(patches), len(nodes), 3))
+    for patch, faces in zip(vectors, patches, strict=True):
         used, areas = nodal_areas(nodes, faces)
         patch[used] = areas / np.linalg.norm(areas.sum(axis=0))
     return vectors
 
 
-def _half_space(member: Member, corners: Floats, shape: tuple[int, int]) -> Floats:
-    """(P Q, P Q) mean half-space displacement in mm of patches by unit loads, on the flank laid flat."""
-    rows, columns = (count * _PATCH for count in shape)
-    grid = corners.reshape(rows, columns, 4, 3).mean(axis=2)
-    steps = [np.linalg.norm(np.diff(grid, axis=axis), axis=-1).mean() for axis in (0, 1)]
-    half = [0.5 * _PATCH * step for step in steps]
+def _half_space(member: Member, middles: Floats) -> Floats:
+    """(P Q, P Q) mean half-space displacement in mm of patches by unit loads, on the flank laid flat.
+
+    middles: of the patches (P, Q, 3).
+    """
+    shape = middles.shape[:2]
+    half = [0.5 * float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
     offset = [2.0 * h * np.arange(count) for h, count in zip(half, shape, strict=True)]
     x, y = np.meshgrid(*offset, indexing="ij")
     area = 4.0 * half[0] * half[1]
@@ -111,9 +141,8 @@ def _half_space(member: Member, corners: Floats, shape: tuple[int, int]) -> Floa
 
 def _linear_weights(centres: Floats, places: Floats) -> Floats:
     """(N, P) weights of linear interpolation between ``centres`` (P,) at ``places`` (N,)."""
-    held = np.clip(places, centres[0], centres[-1])
-    index = np.clip(np.searchsorted(centres, held) - 1, 0, len(centres) - 2)
-    share = (held - centres[index]) / (centres[index + 1] - centres[index])
+    index = np.clip(np.searchsorted(centres, places) - 1, 0, len(centres) - 2)
+    share = (places - centres[index]) / (centres[index + 1] - centres[index])
     weights = np.zeros((len(places), len(centres)))
     rows = np.arange(len(places))
     weights[rows, index], weights[rows, index + 1] = 1.0 - share, share

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
-from meshwright.fe.profile import SectionCurves
+from meshwright.fe.profile import Rail, SectionCurves
 
 _NEWTON_STEPS = 20
 _STEP_TOLERANCE = 1e-13
@@ -80,7 +80,8 @@ class _Footprint:
         rotation = pose[:3, :3]
         feet_body = (feet - pose[:3, 3]) @ rotation
         plane_body = plane @ rotation
-        profile, face = _pierce(curves, form.faces, feet_body, plane_body)
+        rail = curves.rail(np.clip(np.atleast_1d(curves.section(feet_body.mean(axis=0))), *form.faces))
+        profile, face = _pierce(curves, rail, feet_body, plane_body)
         points = curves.surface(profile, face)[0]
         pierced = np.abs((points - feet_body) @ plane_body[:2].T).max(axis=1) < _PIERCED
         section = curves.section(points)
@@ -90,13 +91,13 @@ class _Footprint:
         fraction = (profile - first) / (last - first)
         inside = pierced & (section >= low) & (section <= high) & (fraction >= 0.0) & (fraction <= 1.0)
         # A cell off the flank has no pressure; its gap only has to be finite.
-        place = np.stack([fraction, (section - low) / (high - low)], axis=1)
+        place = np.stack([_arc_share(rail, fraction), (section - low) / (high - low)], axis=1)
         return _Footprint(points @ rotation.T + pose[:3, 3], inside, place)
 
 
-def _pierce(curves: SectionCurves, faces: tuple[float, float], feet: Floats, plane: Floats) -> tuple[Floats, Floats]:
+def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> tuple[Floats, Floats]:
     """Surface parameters (N,), (N,) with tangent-plane coordinates equal to those of ``feet`` (N, 3)."""
-    profile, face = (np.full(len(feet), value) for value in _nearest(curves, faces, feet.mean(axis=0)))
+    profile, face = (np.full(len(feet), value) for value in _nearest(rail, feet.mean(axis=0)))
     tangents = plane[:2]
     for _ in range(_NEWTON_STEPS):
         miss = (curves.surface(profile, face)[0] - feet) @ tangents.T
@@ -113,10 +114,14 @@ def _pierce(curves: SectionCurves, faces: tuple[float, float], feet: Floats, pla
     return profile, face
 
 
-def _nearest(curves: SectionCurves, faces: tuple[float, float], point: Floats) -> tuple[float, float]:
-    """Parameters of the tabulated flank point next to ``point``, a start for Newton's method."""
-    section = np.clip(np.atleast_1d(curves.section(point)), *faces)
-    rail = curves.rail(section)
+def _nearest(rail: Rail, point: Floats) -> tuple[float, float]:
+    """Parameters of the point of a single tabulated section next to ``point``, a start for Newton's method."""
     index = int(np.argmin(np.linalg.norm(rail.table[0] - point, axis=1)))
     profile = rail.profile[:, index : index + 1]
-    return float(profile[0, 0]), float(curves.solve(section, profile)[0, 0])
+    return float(profile[0, 0]), float(rail.curves.solve(rail.values, profile)[0, 0])
+
+
+def _arc_share(rail: Rail, fraction: Floats) -> Floats:
+    """Fractions (N,) of the arc length at fractions (N,) of the profile parameter, in the section of the contact."""
+    (profile,), (lengths,) = rail.profile, rail.lengths
+    return np.interp(fraction, (profile - profile[0]) / (profile[-1] - profile[0]), lengths / lengths[-1])

@@ -45,21 +45,30 @@ class ContactZone:
 class MeshDensity:
     """How finely a tooth is divided; sizes in the contact zone are fractions of the Hertz ellipse's semi-axes.
 
-    largest_section: longest element along the face, in parts of the face width.
+    depth_reach: depth to which the layers below the contact are as thin as the first, in semi-minor axes; growth,
+    depth_growth: factor between neighbouring elements beyond the zone, on the flank and below it.  largest_section:
+    longest element along the face, in parts of the face width; largest_layer: thickest one below the contact, in parts
+    of the tooth's thickness.  rim_growth: factor from a row of the rim to the one below it.
+
+    Too few rows in the rim and too fast a growth below the contact are what makes a tooth too stiff; the rows of the
+    fillets and the upper ones of the rim make its root stress.
     """
 
     per_semi_minor: float = 3.5
-    per_semi_major: float = 5.0
+    per_semi_major: float = 4.0
     first_layer: float = 0.33
     profile_reach: float = 1.2
     face_reach: float = 1.15
-    depth_reach: float = 1.0
+    depth_reach: float = 0.5
     growth: float = 3.0
+    depth_growth: float = 2.0
     largest_section: float = 1.0 / 6.0
-    fillet_rows: int = 6
+    largest_layer: float = 0.3
+    fillet_rows: int = 8
     land_rows: int = 1
-    rim_rows: int = 3
-    coarse_rows: tuple[int, int, int] = (2, 4, 6)
+    rim_rows: int = 4
+    rim_growth: float = 2.0
+    coarse_rows: tuple[int, int, int] = (1, 4, 6)
     coarse_fillet_rows: int = 4
     fillet_split: float = 0.5
 
@@ -150,6 +159,6 @@ def across_divisions(zone: ContactZone | None, profile: dict[str, Floats], densi
     gap = np.linalg.norm(profile["right"] - profile["left"], axis=-1)
     thickness = float(np.median(gap))
     reach = density.depth_reach * zone.semi_minor
-    fine = FineZone(0.0, reach, density.first_layer * zone.semi_minor)
-    inward = graded(thickness, fine, density.growth) / thickness
+    fine = FineZone(0.0, reach, density.first_layer * zone.semi_minor, density.largest_layer * thickness)
+    inward = graded(thickness, fine, density.depth_growth) / thickness
     return inward if zone.side == "left" else 1.0 - inward[::-1]

@@ -20,7 +20,7 @@ from typing import Literal
 
 import numpy as np
 
-from meshwright.fe.blocks import Block, FineZone, graded, transfinite
+from meshwright.fe.blocks import Block, geometric, transfinite
 from meshwright.fe.grading import ContactZone, MeshDensity, across_divisions, face_divisions, least_rows, profile_rows
 from meshwright.fe.hexahedra import FaceSet, Floats, HexMesh, Ints, merge
 from meshwright.fe.profile import Rail, SectionCurves
@@ -205,7 +205,7 @@ class _Sections:
         self.left, self.right = left, right
         self.tip = _around(left[:, -1], right[:, -1], across)
         self.bottom = _straight(left[:, 0], right[:, 0], across)
-        depth = graded(1.0, FineZone(1.0, 0.0, 0.5 / density.rim_rows), 2.0, density.rim_rows)
+        depth = geometric(density.rim_growth, density.rim_rows)
         self.left_line = _straight(form.bore(left[:, 0]), left[:, 0], depth)
         self.right_line = _straight(form.bore(right[:, 0]), right[:, 0], depth)
         self.bore = _around(self.left_line[:, 0], self.right_line[:, 0], across)
