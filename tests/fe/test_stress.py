@@ -161,6 +161,8 @@ def test_without_solver_the_input_is_written(monkeypatch, capsys, tmp_path):
     text = Path(document["files"]["input"]).read_text()
     assert "C3D8I" in text and "TYPE=MORTAR" in text and "PRESSURE-OVERCLOSURE=HARD" in text and "*RIGID BODY" in text
     assert document["pairs"] == [] and document["elements"] > 1000
+    main(["fe", "spherical-table-4-4-concave", *arguments, "--refine", "1.5"])
+    assert json.loads(capsys.readouterr().out)["elements"] > 1.5 * document["elements"]
 
 
 def test_no_pair_at_this_angle(capsys):

@@ -7,7 +7,7 @@ divide the ellipse as they would divide one whose axes they are.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -71,6 +71,15 @@ class MeshDensity:
     coarse_rows: tuple[int, int, int] = (1, 4, 6)
     coarse_fillet_rows: int = 4
     fillet_split: float = 0.5
+
+    def refined(self, factor: float) -> MeshDensity:
+        """The same with elements in the contact zone, along both semi-axes and in depth, so many times smaller."""
+        return replace(
+            self,
+            per_semi_minor=self.per_semi_minor * factor,
+            per_semi_major=self.per_semi_major * factor,
+            first_layer=self.first_layer / factor,
+        )
 
 
 def least_rows(flank: SectionCurves, faces: tuple[float, float], zone: ContactZone, density: MeshDensity) -> int:
