@@ -12,6 +12,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands.fe import page
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, judge, prepare
 from meshwright.fe.compliance import tooth_compliance
@@ -116,6 +117,7 @@ def test_gate_refuses_a_recorded_run_with_wrong_pressures(concave, compliance, t
     assert run.finished and solution is None
     refused(document, "pair_moment_error")
     assert document["gate"]["pair_moment_error"]["value"] > 1.0
+    assert "pair_moment_error" in page(document) and "no stress is given; --refine" in page(document)
     assert document["gate"]["reaction_moment_error"]["held"] and document["gate"]["rotation_rad"]["held"]
 
 

@@ -95,14 +95,15 @@ def _write(options, gear, positions):
     if options.json:
         write_json(options.json, positions[0] if len(positions) == 1 else whole)
     else:
-        write_text("-", loading.blank_note(gear) + "".join(map(_page, positions)))
+        write_text("-", loading.blank_note(gear) + "".join(map(page, positions)))
 
 
 def _or_none(value):
     return "–" if value is None else f"{value:.5g}"
 
 
-def _page(position):
+def page(position):
+    """What the command prints of one position."""
     lines = [
         f"{position['torque_nm']:g} N m on the {position['torque_on']}, "
         f"pinion at {position['pinion_angle_deg']:.6g} deg: "
@@ -113,6 +114,8 @@ def _page(position):
         lines.append(
             f"  gate {name:<24} {value:>10}  limit {check['limit']:<8g} {'held' if check['held'] else 'MISSED'}"
         )
+    if position["gate"]["finished"]["held"] and not _accepted(position):
+        lines.append("  no stress is given; --refine 1.3 divides the contact zone more finely")
     for pair in position["pairs"]:
         lines.append(
             f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, "
