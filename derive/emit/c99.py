@@ -56,8 +56,8 @@ def estrin(name, variable, coefficients):
 class Printer:
     """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read.
 
-    What is computed ``seldom``, for a design, a solved contact or a point of a flank, calls sine and cosine instead of
-    having them written out in place, for the C compiler's sake.
+    What is computed ``seldom``, for a design, a start, a solved contact or a point of a flank, calls sine and cosine
+    instead of having them written out in place, for the C compiler's sake.
     """
 
     def __init__(self, tape, prefix, leaves, suffix="", seldom=False):

@@ -237,7 +237,7 @@ MW_INLINE void cylindrical_worm_zk_zi_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what no solution of a contact waits for. */
+/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zk_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zi_sincos(a, sine, cosine);

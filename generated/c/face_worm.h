@@ -220,7 +220,7 @@ MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what no solution of a contact waits for. */
+/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
 {
     face_worm_sincos(a, sine, cosine);

@@ -215,7 +215,7 @@ MW_INLINE void spherical_concave_concave_sincos(double a, double *sine, double *
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for what no solution of a contact waits for. */
+/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void spherical_concave_concave_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_concave_concave_sincos(a, sine, cosine);

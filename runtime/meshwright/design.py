@@ -212,10 +212,12 @@ def _check_needed(description, design):
 
 def _check_order(description, checked):
     for p in description["parameters"]:
-        table = checked.get(p["table"])
-        if p["above"] and None not in (table[p["key"]], table[p["above"]]) and table[p["key"]] <= table[p["above"]]:
-            reason = f"must be greater than {p['above']}, which is {table[p['above']]:g}"
-            raise DesignError(f"{p['table']}.{p['key']}", table[p["key"]], reason, "choose a larger value")
+        if p["above"] is None:
+            continue
+        value, least = (checked[p["table"]][key] for key in (p["key"], p["above"]))
+        if None not in (value, least) and value <= least:
+            reason = f"must be greater than {p['above']}, which is {least:g}"
+            raise DesignError(f"{p['table']}.{p['key']}", value, reason, "choose a larger value")
 
 
 def _vector(description, checked):
