@@ -8,6 +8,11 @@ three-dimensional contact problem (1991).
 A coarse mesh is too stiff, most of all right below a pressed patch.  The FE term is therefore taken from two meshes,
 the finer one with twice the rows of the other in every direction, and extrapolated as an error of second order (L. F.
 Richardson, The approximate arithmetical solution by finite differences of physical problems, 1911).
+
+A load bends the flank within a few patches of itself, and a patch knows only its mean. W is therefore the spline whose
+means are those of the patches: the derivative of the cubic spline through their sums (L. I. Boneva, D. Kendall and I.
+Stefanov, Spline transformations, 1971). Linear interpolation between centres would put a kink there, and a ripple of
+the length of a patch on the pressure.
 """
 
 from __future__ import annotations
@@ -15,6 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.elastic import factorise
@@ -36,13 +42,12 @@ _ACROSS, _FILLET, _RIM, _RIM_GROWTH = 3, 2, 2, 2.25
 class ToothCompliance:
     """Smooth part of the compliance of the working flank of a member.
 
-    profile, face: patch centres, as fractions of the flank's arc length (P,) and of its face width (Q,).
+    shape: patches P along the flank's arc length and Q along its face width, equal fractions of either.
     own: (P Q, P Q) mm/N between patches of one tooth; later: for one, two, … pitches the (P Q, P Q) displacement of
     the tooth so much later (``pairs_later`` + 1, + 2, …) by load on this one; its transpose is the reverse.
     """
 
-    profile: Floats
-    face: Floats
+    shape: tuple[int, int]
     own: Floats
     later: tuple[Floats, ...]
 
@@ -56,8 +61,8 @@ class ToothCompliance:
         return self.later[distance - 1] if distance > 0 else self.later[-distance - 1].T
 
     def weights(self, profile: Floats, face: Floats) -> Floats:
-        """Bilinear weights (N, P Q) of the patches at N places on the flank, carried on past the outer centres."""
-        along, across = _linear_weights(self.profile, profile), _linear_weights(self.face, face)
+        """Weights (N, P Q) of the patches at N places on the flank, given as fractions of arc length and face width."""
+        along, across = (spline_weights(n, at) for n, at in zip(self.shape, (profile, face), strict=True))
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
 
 
@@ -76,8 +81,7 @@ def tooth_compliance(member: Member, neighbours: int = 1, per_patch: int = 1) ->
     coarse, fine = (_moved(member, neighbours, shape, rows) for rows in (per_patch, per_patch + 1))
     errors = ((per_patch + 1) / per_patch) ** 2  # of the coarse mesh over that of the fine one
     own, *later = (f + (f - c) / (errors - 1.0) for c, f in zip(coarse, fine, strict=True))
-    centres = [(np.arange(count) + 0.5) / count for count in shape]
-    return ToothCompliance(centres[0], centres[1], 0.5 * (own + own.T), tuple(later))
+    return ToothCompliance(shape, 0.5 * (own + own.T), tuple(later))
 
 
 def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: int) -> list[Floats]:
@@ -139,11 +143,10 @@ def _half_space(member: Member, middles: Floats) -> Floats:
     return kernel[np.abs(p[:, None] - p[None]), np.abs(q[:, None] - q[None])]
 
 
-def _linear_weights(centres: Floats, places: Floats) -> Floats:
-    """(N, P) weights of linear interpolation between ``centres`` (P,) at ``places`` (N,)."""
-    index = np.clip(np.searchsorted(centres, places) - 1, 0, len(centres) - 2)
-    share = (places - centres[index]) / (centres[index + 1] - centres[index])
-    weights = np.zeros((len(places), len(centres)))
-    rows = np.arange(len(places))
-    weights[rows, index], weights[rows, index + 1] = 1.0 - share, share
-    return weights
+def spline_weights(count: int, places: Floats) -> Floats:
+    """(N, count) values at ``places`` (N,) in 0..1 of the splines whose mean is 1 on one of ``count`` equal patches.
+
+    The mean of each is 0 on all other patches.
+    """
+    sums = np.tri(count + 1, count, -1) / count
+    return CubicSpline(np.linspace(0.0, 1.0, count + 1), sums).derivative()(places)
