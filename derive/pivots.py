@@ -73,14 +73,16 @@ def _eliminate(values, present, rows, columns, pivot):
 
 
 def _solve(tape, matrix, right, order):
-    """Gaussian elimination on nodes in the given pivot order; entries known to be zero cost nothing."""
-    a = [list(row) for row in matrix]
-    b = list(right)
-    one = tape.constant(1)
+    """Gaussian elimination on nodes in the given pivot order; entries known to be zero cost nothing.
+
+    The last two unknowns follow together from Cramer's rule: for as many operations, one division less in the chain
+    in which each waits for the one before.
+    """
+    a, b = [list(row) for row in matrix], list(right)
+    singly, last = order[:-2], order[-2:]
     inverse = {}
-    for step, (i, j) in enumerate(order):
-        with tape.within(Origin(ELIMINATION, f"pivot {step + 1} of the Newton step")):
-            inverse[i] = tape.div(one, a[i][j])
+    for step, (i, j) in enumerate(singly):
+        inverse[i] = _reciprocal(tape, a[i][j], f"pivot {step + 1}")
         for k, _ in order[step + 1 :]:
             if tape.const_value(a[k][j]) == 0:
                 continue
@@ -88,11 +90,32 @@ def _solve(tape, matrix, right, order):
             for _, m in order[step + 1 :]:
                 a[k][m] = tape.sub(a[k][m], tape.mul(factor, a[i][m]))
             b[k] = tape.sub(b[k], tape.mul(factor, b[i]))
-    solution = {}
-    for step in reversed(range(len(order))):
-        i, j = order[step]
+    solution = _cramer(tape, a, b, last)
+    for step, (i, j) in reversed([*enumerate(singly)]):
         total = b[i]
         for _, m in order[step + 1 :]:
             total = tape.sub(total, tape.mul(a[i][m], solution[m]))
         solution[j] = tape.mul(total, inverse[i])
     return [solution[j] for j in range(len(order))]
+
+
+def _cramer(tape, a, b, pivots):
+    """Column → unknown, of the one or two equations that are left."""
+    if len(pivots) == 1:
+        [(i, j)] = pivots
+        return {j: tape.mul(b[i], _reciprocal(tape, a[i][j], "last pivot"))}
+    (i, j), (k, m) = pivots
+
+    def determinant(p, q, r, s):
+        return tape.sub(tape.mul(p, s), tape.mul(q, r))
+
+    over = _reciprocal(tape, determinant(a[i][j], a[i][m], a[k][j], a[k][m]), "determinant of the last two pivots")
+    return {
+        j: tape.mul(determinant(b[i], a[i][m], b[k], a[k][m]), over),
+        m: tape.mul(determinant(a[i][j], b[i], a[k][j], b[k]), over),
+    }
+
+
+def _reciprocal(tape, divisor, meaning):
+    with tape.within(Origin(ELIMINATION, f"{meaning} of the Newton step")):
+        return tape.div(tape.constant(1), divisor)

@@ -85,10 +85,12 @@ LINEAR = scope(
 p2 = a22 - a21*a12/a11
 p2c = a23 - a21*a13/a11
 p2r = b2 - a21*b1/a11
-q2 = a32 - a31*a12/a11
-p3 = a33 - a31*a13/a11 - q2*p2c/p2
-x3 = (b3 - a31*b1/a11 - q2*p2r/p2)/p3
-x2 = (p2r - p2c*x3)/p2
+p3 = a32 - a31*a12/a11
+p3c = a33 - a31*a13/a11
+p3r = b3 - a31*b1/a11
+det = p2*p3c - p2c*p3
+x3 = (p2*p3r - p2r*p3)/det
+x2 = (p2r*p3c - p2c*p3r)/det
 x1 = (b1 - a12*x2 - a13*x3)/a11
 turning = A_x*dx
 """,
@@ -242,14 +244,15 @@ CLAIMS = (
     identity(
         "elimination",
         "Newton step: pivots",
-        "Elimination in a fixed order of pivots, then substitution backwards, solves the linear system.",
+        "Elimination in a fixed order of pivots down to two equations, Cramer's rule for these, then substitution "
+        "backwards solves the linear system.",
         [
             "a11*x1 + a12*x2 + a13*x3 = b1",
             "a21*x1 + a22*x2 + a23*x3 = b2",
             "a31*x1 + a32*x2 + a33*x3 = b3",
         ],
         LINEAR,
-        conditions=["each pivot ≠ 0"],
+        conditions=["each pivot ≠ 0", "the determinant of the last two equations ≠ 0"],
     ),
     identity(
         "angles",
