@@ -16,6 +16,7 @@ from operator import or_
 
 from derive.formula import formula
 from derive.origin import ARCCOSINE, PARTIAL
+from derive.quotients import by_reciprocal
 from derive.tape import Lowering, Stage, Tape
 
 #: What answers where a condition fails, by the name under which side conditions refer to it.
@@ -63,7 +64,7 @@ def solving(plan):
     """Nodes that the solution of a contact needs."""
     flat = [e for row in (*plan.jacobian, *plan.start_jacobian) for e in row]
     start = [*plan.start_residual, *plan.start_guess, *plan.start_scales, *plan.start_solution]
-    return [*plan.residual, *plan.scales, *plan.step, *plan.step_size, *start, *flat]
+    return [*plan.residual, *plan.scales, *plan.newton_step, *start, *flat]
 
 
 def functions(plan):
@@ -88,7 +89,7 @@ def functions(plan):
     yield on_tape("set_phi", slots[plan.design_slots :], "step size", design)
     matrix = [e for row in plan.jacobian for e in row]
     yield on_tape("eval", [*plan.residual, *matrix], "residual")
-    yield on_tape("step", [*plan.step, *plan.step_size], "step size")
+    yield on_tape("step", plan.newton_step, "step size")
     yield on_tape("guess", plan.start_guess, "start")
     yield on_tape("start_scale", plan.start_scales, "start")
     start_matrix = [e for row in plan.start_jacobian for e in row]
@@ -120,10 +121,11 @@ def _of_system(plan):
 
 
 def partial_operations(evaluated):
-    """Nodes of a function that are not defined everywhere; quotients by a constant are."""
+    """Nodes of a function that are not defined everywhere; quotients by a constant, and products, are."""
     tape = evaluated.tape
-    needed = tape.needed(evaluated.outputs, evaluated.known)
-    return [i for i in needed if i in tape.origins and not _by_constant(tape, i)]
+    products = by_reciprocal(tape, evaluated.outputs, evaluated.known)
+    needed = tape.needed(evaluated.outputs, evaluated.known, products)
+    return [i for i in needed if i in tape.origins and i not in products and not _by_constant(tape, i)]
 
 
 def _by_constant(tape, i):

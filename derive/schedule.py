@@ -76,7 +76,8 @@ class Schedule:
     jacobian: list[list[int]] = field(default_factory=list)
     scales: list[int] = field(default_factory=list)
     step: list[int] = field(default_factory=list)
-    step_size: list[int] = field(default_factory=list)
+    change: list[int] = field(default_factory=list)
+    weight: list[int] = field(default_factory=list)
     start_residual: list[int] = field(default_factory=list)
     start_jacobian: list[list[int]] = field(default_factory=list)
     start_guess: list[int] = field(default_factory=list)
@@ -99,6 +100,14 @@ class Schedule:
     def unknowns(self):
         return [u.symbol for u in self.drive.unknowns]
 
+    @property
+    def newton_step(self):
+        """Results of the fused Newton step: the unknowns after it, their changes, and one over their natural sizes.
+
+        The size of the step is the sum of the changes' magnitudes by these weights.
+        """
+        return [*self.step, *self.change, *self.weight]
+
 
 def schedule(drive):
     """All functions of a drive on one tape."""
@@ -120,9 +129,9 @@ def schedule(drive):
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
     plan.sample = newton.sample_contact(plan)
-    plan.step, changes = pivots.newton_step(plan)
+    plan.step, plan.change = pivots.newton_step(plan)
     with tape.within(STEP_SIZE):
-        plan.step_size = [tape.div(c, s) for c, s in zip(changes, plan.scales, strict=True)]
+        plan.weight = [tape.div(tape.constant(1), s) for s in plan.scales]
     _observe(plan)
     for body in drive.bodies:
         limits = [Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins]
@@ -280,8 +289,7 @@ def iterate_outputs(plan):
     for row in plan.jacobian:
         yield from row
     yield from plan.scales
-    yield from plan.step
-    yield from plan.step_size
+    yield from plan.newton_step
     yield from plan.start_residual
     for row in plan.start_jacobian:
         yield from row

@@ -308,9 +308,12 @@ class Tape:
 
     # -- reading ----------------------------------------------------------------------------------------------
 
-    def needed(self, outputs, known=frozenset()):
-        """Indices of the operations behind ``outputs`` in an order of evaluation, stopping at ``known``."""
-        nodes, order, seen = self.nodes, [], set(known)
+    def needed(self, outputs, known=frozenset(), instead=None):
+        """Indices of the operations behind ``outputs`` in an order of evaluation, stopping at ``known``.
+
+        ``instead`` holds the arguments of nodes that are computed from others than their own.
+        """
+        nodes, order, seen, instead = self.nodes, [], set(known), instead or {}
         stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
         while stack:
             i = stack.pop()
@@ -318,7 +321,7 @@ class Tape:
                 order.append(~i)
             elif i not in seen:
                 seen.add(i)
-                if args := nodes[i].args:
+                if args := instead.get(i, nodes[i].args):
                     stack.append(~i)
                     stack.extend(args[::-1])
         return order

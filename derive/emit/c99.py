@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from derive.drive import PATH
 from derive.emit import approximation
 from derive.emit.fusion import fused_products
-from derive.emit.order import latency_order
+from derive.emit.order import Operation, latency_order
 from derive.emit.render import render
+from derive.quotients import by_reciprocal
 from derive.schedule import Schedule
 from derive.tape import Stage
 
@@ -67,25 +68,34 @@ class Printer:
         self.suffix = suffix  # of local names
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
-    def body(self, outputs, known=None):
+    def body(self, outputs, known=None, later=()):
         """C that computes ``outputs``; ``known`` maps nodes to operands of earlier statements of the function.
 
-        Returns the body and ``known`` extended by what it computed.
+        Returns the body and ``known`` extended by what it computed. The function goes on to ``later``.
         """
         operands = dict(known or {})
-        return side_by_side([self], outputs, [operands]), operands
+        return side_by_side([self], outputs, [operands], later), operands
 
-    def program(self, outputs, known):
-        """What each operation behind ``outputs`` waits for, in an order of evaluation; and the products in sums."""
-        needed = self.tape.needed(outputs, known.keys() | self.leaves.keys())
+    def program(self, outputs, known, later=()):
+        """The operations behind ``outputs`` as they are printed, by node, in an order of evaluation.
+
+        Products that sums take are no operations of their own.
+        """
+        readable = known.keys() | self.leaves.keys()
+        factors = by_reciprocal(self.tape, [*outputs, *later], readable)
+        needed = self.tape.needed(outputs, readable, factors)
         products = fused_products(self.tape, needed, outputs)
         inside = set(products.values())
-        return {i: self._arguments(i, products.get(i)) for i in needed if i not in inside}, products
+        return {i: self._operation(i, products.get(i), factors.get(i)) for i in needed if i not in inside}
 
-    def _arguments(self, i, product):
-        """Arguments of a node; the factors stand for a product that it takes."""
-        args = self.tape.nodes[i].args
-        return args if product is None else (*self.tape.nodes[product].args, *(a for a in args if a != product))
+    def _operation(self, i, product, factors):
+        node = self.tape.nodes[i]
+        if factors is not None:
+            return Operation("mul", factors)
+        if product is not None:
+            others = (a for a in node.args if a != product)
+            return Operation(node.op, (*self.tape.nodes[product].args, *others), product)
+        return Operation(node.op, node.args)
 
     def results(self, outputs, operands):
         """The operands of ``outputs``."""
@@ -97,29 +107,17 @@ class Printer:
             return number(value) if value >= 0 else f"({number(value)})"
         return operands[i] if i in operands else self.leaves[i]
 
-    def _fused(self, i, product, operands):
-        """A sum that takes a product; product ± product takes one of them."""
-        node = self.tape.nodes[i]
-        factors = ", ".join(self._operand(a, operands) for a in self.tape.nodes[product].args)
-        first, second = node.args
-        other = self._operand(second if first == product else first, operands)
-        if node.op == "add":
-            return f"MW_FMA({factors}, {other})"
-        return f"MW_FMS({factors}, {other})" if first == product else f"MW_FNMA({factors}, {other})"
-
-    def statement(self, i, operands, product=None):
+    def statement(self, i, operation, operands):
         """Statements that compute a node, which is added to ``operands``; none if it is there already."""
         if i in operands:
             return []
-        node, serial = self.tape.nodes[i], f"{len(operands)}{self.suffix}"
-        if product is not None:
-            operands[i] = f"t{serial}"
-            return [f"const double t{serial} = {self._fused(i, product, operands)};"]
-        args = [self._operand(a, operands) for a in node.args]
-        if node.op in ("sin", "cos"):
-            return self._sincos(node.args[0], args[0], serial, operands)
+        serial, args = f"{len(operands)}{self.suffix}", [self._operand(a, operands) for a in operation.args]
+        if operation.op in ("sin", "cos"):
+            return self._sincos(operation.args[0], args[0], serial, operands)
         operands[i] = f"t{serial}"
-        match node.op:
+        match operation.op:
+            case _ if operation.product is not None:
+                value = self._fused(i, operation, args)
             case "neg":
                 value = f"-{args[0]}"
             case "sqrt":
@@ -129,6 +127,14 @@ class Printer:
             case op:
                 value = f"{args[0]} {_INFIX[op]} {args[1]}"
         return [f"const double t{serial} = {value};"]
+
+    def _fused(self, i, operation, args):
+        """A sum that takes a product; product ± product takes one of them."""
+        if operation.op == "add":
+            name = "MW_FMA"
+        else:
+            name = "MW_FMS" if self.tape.nodes[i].args[0] == operation.product else "MW_FNMA"
+        return f"{name}({', '.join(args)})"
 
     def _sincos(self, argument, operand, serial, operands):
         for op, letter in (("sin", "s"), ("cos", "c")):
@@ -141,21 +147,21 @@ class Printer:
 
 
 #: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
-LAG = 100
+LAG = 80
 
 
-def side_by_side(printers, outputs, operands):
+def side_by_side(printers, outputs, operands, later=()):
     """One body that computes ``outputs`` by each of several printers of the same tape, statement beside statement.
 
     ``operands`` holds what is known to each printer and receives what is computed. Results come printer by printer.
     """
-    first = printers[0]
-    arguments, products = first.program(outputs, operands[0])
+    program = printers[0].program(outputs, operands[0], later)
     statements = []
-    for copy, i in latency_order(first.tape, arguments, tuple(LAG * k for k in range(len(printers)))):
-        statements += printers[copy].statement(i, operands[copy], products.get(i))
+    for copy, i in latency_order(program, outputs, tuple(LAG * k for k in range(len(printers)))):
+        statements += printers[copy].statement(i, program[i], operands[copy])
     results = [r for printer, known in zip(printers, operands, strict=True) for r in printer.results(outputs, known)]
-    return Body(tuple(statements), tuple(results), len(arguments) + len(set(products.values())))
+    products = {operation.product for operation in program.values()} - {None}
+    return Body(tuple(statements), tuple(results), len(program) + len(products))
 
 
 @dataclass(frozen=True)
@@ -191,8 +197,8 @@ def header(plan: Schedule, description: dict, model_source: str):
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)
-    residual, known = iterate.body(plan.residual)
-    start_residual, start_known = start.body(plan.start_residual)
+    residual, jacobian = _linearised(iterate, plan.residual, plan.jacobian)
+    start_residual, start_jacobian = _linearised(start, plan.start_residual, plan.start_jacobian)
     return render(
         "drive.h.jinja",
         plan=plan,
@@ -206,13 +212,13 @@ def header(plan: Schedule, description: dict, model_source: str):
         setup=design.body(slots[: plan.design_slots])[0],
         set_phi=instant.body(slots[plan.design_slots :])[0],
         residual=residual,
-        jacobian=iterate.body([e for row in plan.jacobian for e in row], known)[0],
-        step=iterate.body([*plan.step, *plan.step_size])[0],
+        jacobian=jacobian,
+        step=iterate.body(plan.newton_step)[0],
         scale=iterate.body(plan.scales)[0],
         guess=iterate.body(plan.start_guess)[0],
         start_scale=iterate.body(plan.start_scales)[0],
         start_residual=start_residual,
-        start_jacobian=start.body([e for row in plan.start_jacobian for e in row], start_known)[0],
+        start_jacobian=start_jacobian,
         start_solution=start.body(plan.start_solution)[0],
         observed=solved.body([i for o in plan.observed for i in o.nodes])[0],
         flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
@@ -223,6 +229,13 @@ def header(plan: Schedule, description: dict, model_source: str):
         approximation=approximation,
         estrin=estrin,
     )
+
+
+def _linearised(printer, residual, jacobian):
+    """Bodies of one function: of the residual, and of the Jacobian that may follow it."""
+    flat = [e for row in jacobian for e in row]
+    body, known = printer.body(residual, later=flat)
+    return body, printer.body(flat, known)[0]
 
 
 def _flank(plan, flank, state, tests=None):
@@ -239,14 +252,14 @@ def _system(plan, drive):
     leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
     printer = Printer(plan.tape, drive.name, leaves, seldom=True)
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    residual, statements = printer.body(plan.residual)
+    residual, jacobian = _linearised(printer, plan.residual, plan.jacobian)
     return {
         "name": plan.system.name,
         "unknowns": plan.unknowns,
         "guess": printer.body(plan.guess)[0],
         "scale": printer.body(plan.scales)[0],
         "residual": residual,
-        "jacobian": printer.body([e for row in plan.jacobian for e in row], statements)[0],
+        "jacobian": jacobian,
         "watch": None if plan.watch is None else printer.body([plan.watch])[0],
         "values": printer.body(plan.values)[0],
         "fills": [index[target] for target in plan.system.fills],

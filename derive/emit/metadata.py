@@ -107,7 +107,7 @@ def operations(plan):
         "set_phi": count(slots[plan.design_slots :], Stage.DESIGN),
         "residual": count(plan.residual, Stage.INSTANT),
         "residual_and_jacobian": count([*plan.residual, *flat], Stage.INSTANT),
-        "step": count([*plan.step, *plan.step_size], Stage.INSTANT),
+        "step": count(plan.newton_step, Stage.INSTANT),
         "observe": count([i for o in plan.observed for i in o.nodes], Stage.INSTANT),
     }
 

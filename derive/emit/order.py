@@ -1,64 +1,123 @@
 """The order in which a straight-line program is printed.
 
-Any order that respects the arguments gives the same numbers. A processor looks only some hundred operations ahead, so
-the program starts early what most other operations wait for (list scheduling).
+Any order that respects the arguments gives the same numbers. A processor looks only some hundred operations ahead and
+has sixteen or thirty-two registers, so the program starts early what most other operations wait for, and soon what the
+last use of a value is (list scheduling).
 """
 
 import heapq
+from collections import Counter
+from dataclasses import dataclass
 
 #: Cycles until a result can be used, on a current desktop or server processor; only the proportions matter.
 _LATENCY = {"add": 4, "sub": 4, "mul": 4, "div": 24, "sqrt": 30, "neg": 1, "sin": 56, "cos": 56, "atan2": 120}
 
 #: Operations behind one node, where it is more than one; sine and cosine of one argument come together.
-_OPERATIONS = {"div": 3, "sqrt": 3, "sin": 16, "cos": 16, "atan2": 40}
+_OPERATIONS = {"div": 3, "sqrt": 3, "sin": 44, "cos": 44, "atan2": 40}
 
 #: Operations started in one cycle.
 _WIDTH = 2
 
+#: Cycles by which an operation may be printed before its arguments are there.
+_AHEAD = 4
 
-def latency_order(tape, arguments, lags=(0,)):
-    """Pairs (copy, node) of a program, each after its arguments, those with the longest chain behind them first.
+#: Cycles of urgency for each register that an operation sets free, or that it takes.
+_REGISTER = 30
 
-    ``arguments`` lists what each node waits for, in any order of evaluation. The program is printed once for each of
-    ``lags``, copy beside copy; a copy's operations count as so many cycles less urgent.
+
+@dataclass(frozen=True)
+class Operation:
+    """An operation as it is printed; the factors of a ``product`` that it takes come first among its arguments."""
+
+    op: str
+    args: tuple[int, ...]
+    product: int | None = None
+
+
+def latency_order(program, outputs, lags=(0,)):
+    """Pairs (copy, node) of a program, each after its arguments, the most urgent first.
+
+    ``program`` holds the :class:`Operation` of each node, in any order of evaluation; of sine and cosine of one
+    argument the first stands for both. Urgent is what a long chain waits for, and what is the last to use a value.
+    The program is printed once for each of ``lags``, copy beside copy; a copy's operations count as so many cycles
+    less urgent.
     """
-    users, waits = _dependencies(arguments)
-    height = {}
-    for i in reversed(arguments):
-        height[i] = _LATENCY[tape.nodes[i].op] + max((height[u] for u in users[i]), default=0)
-    rank = {i: k for k, i in enumerate(arguments)}
-    waiting = [dict(waits) for _ in lags]
-
-    def entry(copy, i):
-        return lags[copy] - height[i], rank[i], copy, i
-
-    ready = [entry(copy, i) for copy in range(len(lags)) for i in arguments if not waits[i]]
-    heapq.heapify(ready)
-    running, result, time, free = [], [], 0, 0
-    while ready or running:
-        while ready and free <= time:
-            *_, copy, i = heapq.heappop(ready)
-            op = tape.nodes[i].op
-            result.append((copy, i))
-            heapq.heappush(running, (time + _LATENCY[op], copy, i))
-            free += _OPERATIONS.get(op, 1) / _WIDTH
-        time = max(time, min([*(r[0] for r in running[:1]), *([free] if ready else [])]))
-        free = max(free, time)
-        while running and running[0][0] <= time:
-            _, copy, i = heapq.heappop(running)
-            for u in users[i]:
-                waiting[copy][u] -= 1
-                if not waiting[copy][u]:
-                    heapq.heappush(ready, entry(copy, u))
+    graph = _Graph(program, outputs)
+    copies = [_Copy(graph, lag) for lag in lags]
+    coming = [(0, k, i) for k in range(len(lags)) for i in graph.args if not graph.args[i]]
+    heapq.heapify(coming)
+    ready, result, time = [], [], 0
+    while coming or ready:
+        while coming and (coming[0][0] <= time + _AHEAD or not ready):
+            at, k, i = heapq.heappop(coming)
+            time = max(time, at - _AHEAD)
+            copies[k].ready.add(i)
+            heapq.heappush(ready, (*copies[k].urgency(i), k, i))
+        *_, k, i = heapq.heappop(ready)
+        if i not in copies[k].ready:  # it was more urgent, and came sooner
+            continue
+        result.append((k, i))
+        for n in copies[k].start(i, time):
+            heapq.heappush(ready, (*copies[k].urgency(n), k, n))
+        for n in copies[k].released(i):
+            heapq.heappush(coming, (copies[k].possible[n], k, n))
+        time += graph.cost[i] / _WIDTH
     return result
 
 
-def _dependencies(arguments):
-    """Who uses each node, and for how many arguments each node waits."""
-    users, waits = {i: [] for i in arguments}, {}
-    for i, args in arguments.items():
-        within = {a for a in args if a in users}
-        waits[i] = len(within)
-        for a in within:
-            users[a].append(i)
-    return users, waits
+class _Graph:
+    """What each operation waits for and who waits for it, how long the chain behind it is, what it costs."""
+
+    def __init__(self, program, outputs):
+        turned = {}
+        alone = {i: turned.setdefault(o.args, i) if o.op in ("sin", "cos") else i for i, o in program.items()}
+        nodes = dict.fromkeys(alone.values())
+        within = {i: dict.fromkeys(alone[a] for a in program[i].args if a in alone) for i in nodes}
+        self.args = {i: tuple(args) for i, args in within.items()}
+        self.users = {i: [] for i in nodes}
+        for i, args in self.args.items():
+            for a in args:
+                self.users[a].append(i)
+        self.latency = {i: _LATENCY[program[i].op] for i in nodes}
+        self.cost = {i: _OPERATIONS.get(program[i].op, 1) for i in nodes}
+        self.height = {}
+        for i in reversed(nodes):
+            self.height[i] = self.latency[i] + max((self.height[u] for u in self.users[i]), default=0)
+        self.rank = {i: k for k, i in enumerate(nodes)}
+        self.results = Counter(alone.values())
+        self.kept = {alone[i] for i in outputs if i in alone}
+
+
+class _Copy:
+    """How far one copy of the program has come."""
+
+    def __init__(self, graph, lag):
+        self._graph, self._lag = graph, lag
+        self._uses = {i: len(users) + (i in graph.kept) for i, users in graph.users.items()}
+        self._waits = {i: len(args) for i, args in graph.args.items()}
+        self._finished = dict.fromkeys(graph.args)
+        self.possible = dict.fromkeys(graph.args, 0)  # when the arguments are there
+        self.ready = set()
+
+    def urgency(self, i):
+        """Sorts operations, the most urgent first; it only grows."""
+        graph = self._graph
+        registers = sum(self._uses[a] == 1 for a in graph.args[i]) - graph.results[i]
+        return self._lag - graph.height[i] - _REGISTER * registers, graph.rank[i]
+
+    def start(self, i, time):
+        """Start operation i; returns those ready that have become more urgent."""
+        self.ready.remove(i)
+        self._finished[i] = max(time, self.possible[i]) + self._graph.latency[i]
+        for a in self._graph.args[i]:
+            self._uses[a] -= 1
+            if self._uses[a] == 1:
+                yield from (u for u in self._graph.users[a] if u in self.ready)
+
+    def released(self, i):
+        """Operations that waited for i last."""
+        for u in self._graph.users[i]:
+            self._waits[u] -= 1
+            self.possible[u] = max(self.possible[u], self._finished[i])
+            if not self._waits[u]:
+                yield u

@@ -32,7 +32,7 @@ CASES = (
 POINTS = 20000
 
 #: Floating-point operations of one sine and cosine together, the selection by quadrant not counted.
-SINCOS = 40
+SINCOS = 41
 
 
 #: Options for everything that this processor has.
@@ -168,12 +168,14 @@ def measure(case, folder):
 
 
 def operations(plan):
-    """Floating-point operations of one Newton step."""
+    """Floating-point operations of one Newton step and its size."""
     tape = plan.tape
     known = {i for i, stage in enumerate(tape.stages) if stage <= Stage.INSTANT}
-    order = tape.needed([*plan.step, *plan.step_size], known)
+    order = tape.needed(plan.newton_step, known)
     turned = {tape.nodes[i].args[0] for i in order if tape.nodes[i].op in ("sin", "cos")}
-    return sum(tape.nodes[i].op not in ("sin", "cos") for i in order) + SINCOS * len(turned)
+    weighed = sum(tape.const_value(i) != 1 for i in plan.weight)
+    size = weighed + len(plan.weight) - 1
+    return sum(tape.nodes[i].op not in ("sin", "cos") for i in order) + SINCOS * len(turned) + size
 
 
 def main():
