@@ -31,6 +31,9 @@ CASES = (
 )
 POINTS = 20000
 
+#: How often each kernel is measured.
+TURNS = 5
+
 #: Floating-point operations of one sine and cosine together, the selection by quadrant not counted.
 SINCOS = 41
 
@@ -144,21 +147,33 @@ def casadi_program(case, folder):
     return compile_c([HERE / "casadi_trace.c", folder / "solver.c"], folder / "casadi", *options)
 
 
+def _in_turns(kernels):
+    """The highest rate of each kernel; as the clock changes from second to second, each has its turn several times."""
+    rates = dict.fromkeys(kernels)
+    for _ in range(TURNS):
+        for name, points_a_second in kernels.items():
+            rate = points_a_second()
+            rates[name] = rate and max(rate, rates[name] or 0.0)
+    return rates
+
+
 def measure(case, folder):
     """Points a second of every kernel, and instructions a point where callgrind counts them."""
     plan = schedule(drives.catalogue()[case.name]())
     scalar, generated = scalar_program(case, folder), casadi_program(case, folder)
-    rates = {
-        "scalar": _run(scalar, case, POINTS, 20),
-        "lanes2": lane_points(case, 2),
-        "lanes4": lane_points(case, 4),
-        "lanes8": lane_points(case, 8),
-        "casadi-c": _run(generated, case, POINTS, 20, 0),
-        "casadi-c-extrapolated": _run(generated, case, POINTS, 20, 1),
-        "casadi-rootfinder": baselines.casadi_rootfinder_points(casadi_function(case), case),
-        "scipy": baselines.scipy_points(plan, case),
-        "numpy-batched": baselines.numpy_points(plan, case),
-    }
+    rates = _in_turns(
+        {
+            "scalar": lambda: _run(scalar, case, POINTS, 20),
+            "lanes2": lambda: lane_points(case, 2),
+            "lanes4": lambda: lane_points(case, 4),
+            "lanes8": lambda: lane_points(case, 8),
+            "casadi-c": lambda: _run(generated, case, POINTS, 20, 0),
+            "casadi-c-extrapolated": lambda: _run(generated, case, POINTS, 20, 1),
+            "casadi-rootfinder": lambda: baselines.casadi_rootfinder_points(casadi_function(case), case),
+            "scipy": lambda: baselines.scipy_points(plan, case),
+            "numpy-batched": lambda: baselines.numpy_points(plan, case),
+        }
+    )
     counts = {
         "scalar": _counted(scalar, case, folder),
         "casadi-c": _counted(generated, case, folder, 1, 0),
