@@ -57,9 +57,10 @@ def latency_order(program, outputs, lags=(0,)):
         if i not in copies[k].ready:  # it was more urgent, and came sooner
             continue
         result.append((k, i))
-        for n in copies[k].start(i, time):
+        released, hastened = copies[k].start(i, time)
+        for n in hastened:
             heapq.heappush(ready, (*copies[k].urgency(n), k, n))
-        for n in copies[k].released(i):
+        for n in released:
             heapq.heappush(coming, (copies[k].possible[n], k, n))
         time += graph.cost[i] / _WIDTH
     return result
@@ -95,7 +96,6 @@ class _Copy:
         self._graph, self._lag = graph, lag
         self._uses = {i: len(users) + (i in graph.kept) for i, users in graph.users.items()}
         self._waits = {i: len(args) for i, args in graph.args.items()}
-        self._finished = dict.fromkeys(graph.args)
         self.possible = dict.fromkeys(graph.args, 0)  # when the arguments are there
         self.ready = set()
 
@@ -106,18 +106,14 @@ class _Copy:
         return self._lag - graph.height[i] - _REGISTER * registers, graph.rank[i]
 
     def start(self, i, time):
-        """Start operation i; returns those ready that have become more urgent."""
+        """Start operation i; returns those that may come now, and those ready that have become more urgent."""
+        graph, finished = self._graph, max(time, self.possible[i]) + self._graph.latency[i]
         self.ready.remove(i)
-        self._finished[i] = max(time, self.possible[i]) + self._graph.latency[i]
-        for a in self._graph.args[i]:
+        for a in graph.args[i]:
             self._uses[a] -= 1
-            if self._uses[a] == 1:
-                yield from (u for u in self._graph.users[a] if u in self.ready)
-
-    def released(self, i):
-        """Operations that waited for i last."""
-        for u in self._graph.users[i]:
+        for u in graph.users[i]:
             self._waits[u] -= 1
-            self.possible[u] = max(self.possible[u], self._finished[i])
-            if not self._waits[u]:
-                yield u
+            self.possible[u] = max(self.possible[u], finished)
+        released = [u for u in graph.users[i] if not self._waits[u]]
+        last_used = (a for a in graph.args[i] if self._uses[a] == 1)
+        return released, [u for a in last_used for u in graph.users[a] if u in self.ready]

@@ -38,8 +38,11 @@ TURNS = 5
 SINCOS = 41
 
 
-#: Options for everything that this processor has.
-WIDEST = ("-march=native", "-mprefer-vector-width=512")
+#: Lane kernel → width of its vectors and compiler options; the last for everything that this processor has.
+LANE_KERNELS = {
+    "AVX2": (4, ("-mavx2", "-mfma")),
+    "widest": (0, ("-march=native", "-mprefer-vector-width=512")),
+}
 
 
 @dataclass(frozen=True)
@@ -118,15 +121,15 @@ def scalar_program(case, folder, *options):
     return compile_c(sources, folder / "scalar", f"-I{GENERATED}", f"-I{RUNTIME}", *defines, *options)
 
 
-def kernel_steps(case, folder):
-    """Newton steps a second of the widest lane kernel alone, without what a trace adds; and beside it, in turns, the
-    fused multiply-add peak of the core, floating-point operations a second."""
+def kernel_steps(case, folder, options):
+    """Newton steps a second of a lane kernel alone, without what a trace adds; and beside it, in turns, the peak of
+    fused multiply-adds with the same vectors, floating-point operations a second."""
     name = case.name
     functions = {"SETUP": "setup_lanes", "SET_PHI": "set_phi_lanes", "STEP": "step_lanes"}
     defines = [f"-D{key}={name}_{function}" for key, function in functions.items()]
     defines += [f'-DHEADER="{name}_lanes.h"', f"-DMODEL_NX={name}_NX"]
-    peak = compile_c([HERE / "peak.c"], folder / "peak.o", "-c", *WIDEST, "-ffp-contract=fast", "-funroll-loops")
-    program = compile_c([HERE / "lane_step.c", peak], folder / "step", f"-I{GENERATED}", *WIDEST, *defines)
+    peak = compile_c([HERE / "peak.c"], folder / "peak.o", "-c", *options, "-ffp-contract=fast", "-funroll-loops")
+    program = compile_c([HERE / "lane_step.c", peak], folder / "step", f"-I{GENERATED}", *options, *defines)
     steps, top, *_ = _numbers(program, case)
     return steps, top
 
@@ -205,15 +208,24 @@ def main():
             for kernel, rate in rates.items():
                 shown = f"{rate:.4g} points/s {rate / rates['scipy']:.1f}x SciPy" if rate else "not on this processor"
                 print(f"{case.name} {kernel} {shown}", flush=True)
-            steps, top = kernel_steps(case, folder)
+            top = _kernels(case, folder, operations(plan))
             _remarks(rates, counts, operations(plan) / top)
-            share = steps * operations(plan) / top
-            print(f"  lane kernel: {operations(plan)} operations a step, {100 * share:.0f} % of the peak {top:.3g}/s")
             growth.append((case.name, len(case.start), operations(plan), rates["scalar"]))
     print("\ncost over the number of unknowns: drive, unknowns, operations a step, ns a point, ns an unknown")
     for name, unknowns, count, rate in growth:
         print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
     regeneration.report(growth[0][0])
+
+
+def _kernels(case, folder, count):
+    """Print each lane kernel's share of its peak, ``count`` operations a step; returns the peak of the widest."""
+    for name, (width, options) in LANE_KERNELS.items():
+        if library().mw_lanes(width) == ffi.NULL:
+            continue
+        steps, top = kernel_steps(case, folder, options)
+        share = 100 * steps * count / top
+        print(f"  lane kernel, {name}: {count} operations a step, {share:.1f} % of the peak {top:.3g}/s")
+    return top
 
 
 def _remarks(rates, counts, share_of_peak):
