@@ -46,8 +46,9 @@ def test_gear_lags_along_a_parabola_with_its_vertex_in_the_middle(name):
 def test_path_of_contact_is_longitudinal(name):
     """The radius runs across the whole face; |u| on the gear stays below 0.25 mm for a turn of the worm to either side.
 
-    Another pair leads from half a pitch on, a quarter of a turn. Towards the ends of the face |u| grows with the square
-    of the turn: up to 0.64 mm on the conical concave side.
+    Another pair leads from half a pitch on, a quarter of a turn; under the report's 50 N m a pair carries up to seven
+    eighths of a turn. Towards the ends of the face |u| grows with the square of the turn: up to 0.64 mm on the conical
+    concave side.
     """
     drive = Drive.load(name)
     result = drive.tca(np.radians(np.arange(-700.0, 701.0, 5.0)))
