@@ -107,17 +107,20 @@ def meshing_axes(rack):
     A helicoid's normal resists no motion in its own screw, so the relative twist may be completed by any share τ of
     it; an axis is where the sum is a pure rotation, direction · velocity = 0, quadratic in τ. No real root: no axis.
     """
+    definitions = rack.flank.definitions
     tau = sp.Symbol("_tau")
     omega = v.scale(-rack.ratio, wheel_axis(rack.shaft_angle))
     direction = v.add(v.sub(omega, v.K), v.scale(tau, v.K))
     arm = (rack.center_distance, sp.Integer(0), sp.Integer(0))
     velocity = v.add(v.cross(arm, omega), v.scale(tau * rack.screw_parameter, v.K))
     a, b, c = sp.Poly(v.dot(direction, velocity), tau).all_coeffs()
-    discriminant = b**2 - 4 * a * c
+    discriminant = definitions.let("axes_discriminant", b**2 - 4 * a * c, "negative where there are no meshing axes")
     axes = []
-    for sign in (-1, 1):
-        root = {tau: (-b + sign * v.root(discriminant)) / (2 * a)}
-        line = tuple(replaced(d, root) for d in direction)
-        foot = replaced(v.cross(direction, velocity)[0], root) / v.dot(line, line)
+    for k, sign in enumerate((-1, 1), 1):
+        root = (-b + sign * v.root(discriminant)) / (2 * a)
+        share = {tau: definitions.let(f"axis_{k}_share", root, "share of the screw that makes the twist a rotation")}
+        line = tuple(replaced(d, share) for d in direction)
+        square = definitions.let(f"axis_{k}_square", v.dot(line, line), "squared angular velocity about the axis")
+        foot = replaced(v.cross(direction, velocity)[0], share) / square
         axes.append(((foot, sp.Integer(0), sp.Integer(0)), line))
     return discriminant, tuple(axes)

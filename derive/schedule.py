@@ -14,7 +14,6 @@ from derive.completion import ParameterTape, SystemTape, lower_system, on_parame
 from derive.drive import Body, Drive, System
 from derive.limits import singular_function
 from derive.origin import STEP_SIZE, UNIT, Origin
-from derive.replace import replaced
 from derive.tape import Lowering, Stage, Tape
 
 
@@ -195,6 +194,8 @@ def _observe(plan):
         put(Output(f"normal_{body.name}_f", tuple(normal), "", "f"))
     for body in drive.bodies:
         local = tuple(_vector(plan, body.surface.body_point()))
+        if body.point:
+            plan.lower.stand(body.point, local)
         put(Output(f"point_{body.name}", local, "mm", body.name))
     put(Output("wheel_angle", (plan.lower(drive.wheel_angle),), "rad", "f"))
     for body in drive.bodies:
@@ -248,9 +249,8 @@ def _regular(plan, body):
 
 
 def _margin(plan, body, margin):
-    """A margin in terms of surface parameters; body coordinates are replaced by the surface's own."""
-    coordinates = dict(zip(body.point, body.surface.body_point(), strict=True))
-    node = plan.lower(replaced(margin.positive, coordinates))
+    """A margin in terms of surface parameters; body coordinates stand for the surface's own."""
+    node = plan.lower(margin.positive)
     if margin.along is not None:
         node = plan.tape.derivative(node, plan.lower(margin.along))
     return _relative(plan, body, node) if margin.relative else node

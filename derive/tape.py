@@ -390,8 +390,12 @@ class Lowering:
         """Node → name of the definition whose value it is, for those that have been needed."""
         return self._names
 
+    def stand(self, symbols, nodes):
+        """From now on these symbols stand for these nodes."""
+        self._done.update(zip(symbols, nodes, strict=True))
+
     def __call__(self, expression):
-        """Node of an expression; its symbols are inputs or definitions."""
+        """Node of an expression; its symbols are inputs, definitions or stand for nodes."""
         expression = sp.sympify(expression)
         if expression not in self._done:
             node = self._done[expression] = self._lower(expression)
