@@ -29,7 +29,7 @@ def report(drive):
         print(f"  {stage:<9} {total[stage]:7.2f} {single[stage]:7.2f}")
     print("whole processes, seconds")
     print(f"  {every:7.2f} python -m derive")
-    print(f"  {one + compiled:7.2f} python -m derive {drive} ({one:.2f}) and its C compiled ({compiled:.2f}), quickest of")
+    print(f"  {one + compiled:7.2f} python -m derive {drive} ({one:.2f}), its C compiled ({compiled:.2f}); quickest of")
     print(f"          {' '.join(f'{a + b:.2f}' for a, b, _ in turns)}")
     print(f"  {checked:7.2f} generated/audit/check.py")
 
