@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from meshwright import DesignError, Drive, design
+from meshwright import DesignError, Drive, UsageError, design
 from meshwright.cli import main
 
 CASES = [
@@ -72,6 +72,12 @@ def test_missing_keys_are_named():
         ["tca", "recess-action-full", "--phi-deg", "500", "--json", "/"],
         ["tca", "recess-action-full", "--phi-deg", "500", "--json", ""],
         ["tca", "recess-action-full", "--phi-deg", "0:1e400:1"],
+        ["tca", "plain-zi", "--phi-deg", "1e300"],
+        ["tca", "plain-zi", "--phi-deg=-6e7:0:1e7"],
+        ["tca", "plain-zi", "--phi-deg", "0", "--contour", "100000000", "--json", "-"],
+        ["tca", "plain-zi", "--phi-deg", "0", "--csv", "-", "--json", "-"],
+        ["surface", "plain-zi", "--member", "wheel", "--vtu", "-", "--stl", "-"],
+        ["limits", "zk-zn-90", "--grid", "100000000"],
         ["limits", "zk-zn-90", "--section-y-mm", "1e9"],
         ["limits", "spherical-table-2-3", "--section-y-mm", "5"],
         ["surface", "recess-action-full", "--member", "wheel", "--grid", "99999x99999"],
@@ -87,6 +93,13 @@ def test_the_command_line_answers_bad_input_with_status_two_and_no_traceback(arg
     assert captured.out == ""
     assert captured.err.startswith("meshwright: ")
     assert "Traceback" not in captured.err
+
+
+@pytest.mark.parametrize("angles", [[float("nan")], [0.0, float("inf")], [-1e9], [[0.0, 1.0]]])
+@pytest.mark.parametrize("analysis", [Drive.tca, Drive.trace])
+def test_angles_that_cannot_be_traced_are_refused(analysis, angles):
+    with pytest.raises(UsageError, match="angles: .*; give none beyond 1e.06 rad"):
+        analysis(Drive.load("plain-zi"), angles)
 
 
 def test_a_file_that_is_not_toml_is_refused(tmp_path, capsys):

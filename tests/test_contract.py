@@ -45,6 +45,30 @@ def test_tca_writes_every_key_of_every_point(capsys):
         assert point["ellipse"]["semi_major_mm"] > point["ellipse"]["semi_minor_mm"]
 
 
+ONE_OF_EACH = ("plain-zn", "face-worm-cylindrical-concave", "spherical-table-4-4-spur")
+
+
+def _choices():
+    """One design of each family under every word of every choice of its parameters."""
+    for name in ONE_OF_EACH:
+        for parameter in Drive.load(name).design.description["parameters"]:
+            place = ".".join(dict.fromkeys((parameter["table"], parameter["key"])))
+            yield from ((name, place, word) for word in parameter["choices"])
+
+
+CASES = [("tca", *case) for case in _choices()]
+CASES.append(("ratio", "spherical-table-4-4-spur", "contact.limit", "cutter"))
+
+
+@pytest.mark.parametrize(("command", "name", "place", "word"), CASES)
+def test_a_size_that_a_choice_leaves_open_is_null(command, name, place, word, capsys):
+    assert {Drive.load(n).design.family for n in ONE_OF_EACH} == set(metadata.families())
+    assert main([command, name, "--phi-deg", "0", "--set", f"{place}={word}", "--json", "-"]) in (0, 1)
+    shown = json.loads(capsys.readouterr().out)["design"]["design"]
+    sizes = Drive.from_tables(design.changed(design.read(name), {place: word})).design.sizes
+    assert {key for key in sizes if shown[key] is None} == {key for key in sizes if np.isnan(sizes[key])}
+
+
 def test_points_off_the_blank_are_written_with_a_flag_and_status_zero(capsys):
     document = _json(["tca", "recess-action-full", "--phi-deg", "-100"], capsys)
     assert "off_tip" in document["points"][0]["flags"]
@@ -80,6 +104,16 @@ def test_interference_exits_one_with_its_numbers(capsys):
     assert "interference" in point["flags"]
     assert point["contact_point_mm"] is not None
     assert point["ellipse"]["semi_major_mm"] is None
+
+
+def test_a_binary_result_goes_to_standard_output(tmp_path, capsysbinary, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    command = ["surface", "plain-zn", "--member", "wheel", "--grid", "3x4", "--stl"]
+    assert main([*command, "-"]) == 0
+    shown = capsysbinary.readouterr().out
+    assert main([*command, "file"]) == 0
+    assert shown == (tmp_path / "file").read_bytes()
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
 def test_csv_has_a_row_a_point(tmp_path):

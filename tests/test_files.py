@@ -31,6 +31,16 @@ def test_a_file_keeps_its_mode_and_a_new_one_follows_the_mask(tmp_path):
     assert new.stat().st_mode & 0o777 == 0o640
 
 
+def test_the_mask_of_the_process_is_left_alone_and_a_failed_write_leaves_nothing(tmp_path, monkeypatch):
+    """Files that other threads make meanwhile would be open to everybody."""
+    monkeypatch.setattr(os, "umask", lambda _: pytest.fail("the mask was changed"))
+    write_text(str(tmp_path / "new"), "text")
+    monkeypatch.setattr(os, "replace", lambda *_: (_ for _ in ()).throw(OSError(5, "broken")))
+    with pytest.raises(UsageError, match="broken"):
+        write_text(str(tmp_path / "other"), "text")
+    assert [path.name for path in tmp_path.iterdir()] == ["new"]
+
+
 def test_a_pipe_is_written_to(tmp_path):
     pipe, read = tmp_path / "pipe", []
     os.mkfifo(pipe)

@@ -6,7 +6,11 @@ from functools import cached_property
 import numpy as np
 
 from meshwright._library import ffi, library, text
+from meshwright.errors import UsageError
 from meshwright.results import TCA
+
+#: Largest input angle, rad: sine and cosine of the generated functions hold up to 1.6 times that.
+LARGEST_ANGLE = 1e6
 
 #: ``mw_info`` and ``mw_contact`` of meshwright.h as NumPy records.
 _INFO = np.dtype(
@@ -25,6 +29,16 @@ _CONTACT = np.dtype(
 def pointer(array):
     """A contiguous float array as a ``double *``."""
     return ffi.from_buffer("double[]", array)
+
+
+def checked_angles(angles):
+    """Angles (rad) as an array (N,); raises :class:`~meshwright.errors.UsageError` for what cannot be traced."""
+    angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
+    if angles.ndim != 1 or not np.all(np.abs(angles) <= LARGEST_ANGLE):
+        raise UsageError(
+            f"angles: must be a one-dimensional array of finite numbers; give none beyond {LARGEST_ANGLE:g} rad"
+        )
+    return angles
 
 
 def trace(drive, angles):

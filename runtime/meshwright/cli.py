@@ -44,6 +44,7 @@ def main(arguments=None):
         sys.stdout.reconfigure(errors="replace")  # a terminal without a letter of ours shows "?"
     try:
         _refuse_empty(options)
+        _refuse_mixed(options)
         status = options.run(options)
         sys.stdout.flush()
         return status
@@ -65,6 +66,13 @@ def _refuse_empty(options):
     for name, value in vars(options).items():
         if value == "":
             raise UsageError(f"{name}: an empty word; give it a value or leave it out")
+
+
+def _refuse_mixed(options):
+    """Two results on one standard output could not be told apart."""
+    outputs = [f"--{name.replace('_', '-')} -" for name, value in vars(options).items() if value == "-"]
+    if len(outputs) > 1:
+        raise UsageError(f"{' '.join(outputs)}: two results on standard output; name a file for one of them")
 
 
 def _forget(stream):

@@ -56,7 +56,10 @@ def changed(tables, changes):
 
 @dataclass(frozen=True)
 class Design:
-    """A checked design: the drive that solves it and its complete parameter vector (inner units)."""
+    """A checked design: the drive that solves it and its complete parameter vector (inner units).
+
+    ``sizes`` are derived, in the units of their keys; NaN where they follow from what the design leaves open.
+    """
 
     tables: dict
     description: dict
@@ -81,14 +84,14 @@ class Design:
         raise KeyError(f"{table}.{key}")
 
     def as_solved(self):
-        """The design with every default and derived size filled in, in the units of the keys."""
+        """The design with every default and derived size filled in, in the units of the keys; None where it is open."""
         solved = {"drive": self.family, "name": self.tables.get("name", ""), "flank": self.tables["flank"]}
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["table"] != "flank":
                 solved.setdefault(p["table"], {})[p["key"]] = _shown(p, float(number))
         words = {**self.description["variant"], "hand": None}
         solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
-        solved["design"] |= self.sizes
+        solved["design"] |= {key: number if math.isfinite(number) else None for key, number in self.sizes.items()}
         if "placement" in solved:
             solved["placement"] |= _vectors(solved["placement"])
         return solved

@@ -100,9 +100,7 @@ class Drive:
 
     def tca(self, angles):
         """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.results.TCA`."""
-        angles = np.atleast_1d(np.asarray(angles, dtype=float))
-        if angles.ndim != 1 or not np.all(np.isfinite(angles)):
-            raise UsageError("angles must be a one-dimensional array of finite numbers")
+        angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
         if any("off_tip" in flags for flags in result.flags) and self.past_the_tips:
             return analysis.without_contact(self, angles)
@@ -126,7 +124,7 @@ class Drive:
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""
-        x, records = analysis.trace(self, np.ascontiguousarray(angles, dtype=float))
+        x, records = analysis.trace(self, analysis.checked_angles(angles))
         return x, [text(library().mw_status_word(code)) for code in records["status"]]
 
 

@@ -5,7 +5,7 @@ import io
 import json
 import os
 import sys
-import tempfile
+from contextlib import contextmanager
 from pathlib import Path
 
 from meshwright.errors import UsageError
@@ -20,10 +20,14 @@ def write_text(place, content):
 
 
 def write_bytes(place, content):
-    """Replace a file, keeping its mode, or the file that a link names; an interrupted write leaves the old one.
+    """Write to standard output ("-") or replace a file, keeping its mode, or the file that a link names.
 
-    What is not a regular file (a device, a pipe) is written to.
+    An interrupted write leaves the old file. What is not a regular file (a device, a pipe) is written to.
     """
+    if place == "-":
+        sys.stdout.flush()
+        sys.stdout.buffer.write(content)
+        return
     path = Path(place)
     if path.is_dir():
         raise UsageError(f"{place}: a folder; name a file in it")
@@ -31,28 +35,26 @@ def write_bytes(place, content):
         if path.exists() and (not path.is_file() or path.is_relative_to("/dev")):
             path.write_bytes(content)
         else:
-            _replace(path.resolve(), content)
+            with replaced(path.resolve()) as temporary:
+                temporary.write_bytes(content)
     except OSError as error:
         raise UsageError(f"{place}: cannot be written ({error.strerror}); name a file in an existing folder") from error
 
 
-def _replace(path, content):
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+@contextmanager
+def replaced(path):
+    """An empty file beside ``path`` that takes its place and mode at the end; after an error it is removed."""
+    temporary = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
+    mode = path.stat().st_mode & 0o7777 if path.exists() else None
+    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if mode is None else 0o600))
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        os.chmod(temporary, path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_mask())
+        yield temporary
+        if mode is not None:
+            os.chmod(temporary, mode)
         os.replace(temporary, path)
     except BaseException:
         os.unlink(temporary)
         raise
-
-
-def _mask():
-    """The mode bits that new files of this process do without."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def write_json(place, data):

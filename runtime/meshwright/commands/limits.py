@@ -1,8 +1,12 @@
 """Undercut lines, edges of regression, limit points of contact, meshing axes and branch points."""
 
 from meshwright.commands import options as common
+from meshwright.errors import UsageError
 from meshwright.files import write_json, write_text
 from meshwright.limits import Request
+
+#: More lines than this are taken for a mistake.
+MOST_LINES = 10_000
 
 
 def add_arguments(parser):
@@ -15,6 +19,8 @@ def add_arguments(parser):
 
 
 def run(options):
+    if options.grid > MOST_LINES:
+        raise UsageError(f"--grid {options.grid}: {MOST_LINES} lines at most; choose fewer")
     drive = common.drive_of(options)
     found = drive.limits(Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid))
     if options.json:

@@ -7,6 +7,7 @@ import tomllib
 import numpy as np
 
 from meshwright import design as designs
+from meshwright.analysis import LARGEST_ANGLE
 from meshwright.drive import BACKENDS, Drive
 from meshwright.errors import UsageError
 
@@ -48,12 +49,12 @@ def angles(text):
     if re.fullmatch(rf"{_NUMBER}:{_NUMBER}:{_NUMBER}", text):
         return np.radians(_spaced(text))
     if re.fullmatch(rf"{_NUMBER}(,{_NUMBER})*", text):
-        return np.radians(_finite(text, text.split(",")))
+        return np.radians(_degrees(text, text.split(",")))
     raise UsageError(f"--phi-deg {text}: not A:B:STEP and not v1,v2,…; for example --phi-deg=-400:400:50")
 
 
 def _spaced(text):
-    begin, end, step = _finite(text, text.split(":"))
+    begin, end, step = _degrees(text, text.split(":"))
     if step == 0 or (end - begin) / step < 0:
         raise UsageError(f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign")
     steps = np.floor((end - begin) / step + 1e-9)
@@ -62,10 +63,11 @@ def _spaced(text):
     return begin + step * np.arange(int(steps) + 1)
 
 
-def _finite(text, words):
+def _degrees(text, words):
     values = [float(word) for word in words]
-    if not np.all(np.isfinite(values)):
-        raise UsageError(f"--phi-deg {text}: an angle is not finite; give angles in degrees")
+    if not np.all(np.abs(values) <= np.degrees(LARGEST_ANGLE)):
+        most = int(np.degrees(LARGEST_ANGLE))
+        raise UsageError(f"--phi-deg {text}: an angle is beyond {most} degrees; give smaller angles")
     return values
 
 

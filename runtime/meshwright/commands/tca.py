@@ -12,6 +12,9 @@ from meshwright.errors import UsageError
 from meshwright.files import write_csv, write_json, write_text
 from meshwright.pattern import contour
 
+#: More directions than this are taken for a mistake.
+MOST_DIRECTIONS = 36_000
+
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5
 
@@ -27,7 +30,7 @@ def add_arguments(parser):
         help="search for further contacts of the same tooth pair at each angle (worm drives; CSV gives their number)",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
-    parser.add_argument("--csv", metavar="FILE", help="write as CSV")
+    parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
 
 
 def run(options):
@@ -36,6 +39,8 @@ def run(options):
         raise UsageError(
             f"--contour {options.contour}: needs 3 or more directions and --json; for example --contour 72 --json -"
         )
+    if options.contour is not None and options.contour > MOST_DIRECTIONS:
+        raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
     result = drive.tca(common.angles_of(options, drive))
     points = result.to_points()
     if options.contour is not None:
