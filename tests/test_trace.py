@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from meshwright import Drive
+from meshwright import Drive, analysis
+from meshwright._library import library, text
 
 
 @pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-3-1-concave", "face-worm-conical-convex"])
@@ -15,3 +16,16 @@ def test_a_trace_in_whole_pitches_follows_one_pair(name):
     coarse = drive.tca(whole)
     assert coarse.error == pytest.approx(fine.error[::16], abs=1e-12)
     assert coarse.points == pytest.approx(fine.points[::16], abs=1e-8, nan_ok=True)
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-2-3", "face-worm-conical-convex"])
+def test_an_angle_out_of_range_is_bad_input_and_its_neighbours_are_not(name):
+    drive = Drive.load(name)
+    angles = np.array([0.0, 0.01, np.nan, 0.02, np.inf, -1e300, 10_000.1, 0.03])
+    x, records = analysis.trace(drive, angles)
+    out = ~(np.abs(angles) <= 10_000.0)
+    assert {text(library().mw_status_word(code)) for code in records["status"][out]} == {"bad_input"}
+    assert not records["guard"].any() and np.isnan(x[out]).all()
+    alone, statuses = analysis.trace(drive, angles[~out])
+    assert x[~out] == pytest.approx(alone, abs=1e-11)
+    assert (statuses["status"] >= 0).all() and (records["status"][~out] >= 0).all()

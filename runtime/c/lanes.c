@@ -96,6 +96,24 @@ static size_t again(const mw_model *m, const double *p, const double *phi, size_
     return succeeded;
 }
 
+/* Designs of which no lane is traced. */
+static size_t all_again(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n, const room *r,
+                        double *x, int *status)
+{
+    size_t succeeded = 0;
+    for (size_t d = 0; d < designs; d++)
+        succeeded += again(m, p + d * (size_t)m->np, phi, n, r, x + d * n * (size_t)m->nx, status + d * n);
+    return succeeded;
+}
+
+/* Whether there are lane kernels for this model table, and angles for them. */
+static int in_lanes(const mw_lane_model *k, const double *phi, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!mw_angle_in_range(phi[i])) return 0;
+    return k != NULL && n > 0;
+}
+
 static size_t converged(size_t n, int *status)
 {
     for (size_t k = 0; k < n; k++) status[k] = MW_CONVERGED;
@@ -111,6 +129,7 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
     double valid[MW_MAX_LANES];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_lane_row rows[MW_MAX_LANES];
+    if (!in_lanes(k, phi, n)) return all_again(m, p, designs, phi, n, &r, x, status);
     for (size_t l = 0; l < lanes; l++) {
         spread(lanes, l, phi, n, r.phi);
         spread(lanes, l, start, nx, r.start);
@@ -139,6 +158,7 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_info info[MW_MAX_LANES];
     mw_lane_row rows[MW_MAX_LANES];
+    if (!in_lanes(k, phi, n)) return all_again(m, p, 1, phi, n, &r, x, status);
     const double beyond = n > 1 ? phi[n - 1] - phi[n - 2] : 0.0; /* lanes that end early go on at the last spacing */
     for (size_t l = 0; l < lanes; l++)
         for (size_t i = 0, at = l * part; i < part; i++, at++)

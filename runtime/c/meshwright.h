@@ -22,7 +22,7 @@ extern "C" {
     X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
     X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \
     X(MW_DIVERGED, -5, "diverged", "the iteration did not settle") \
-    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold")
+    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold, or the angle is not finite or out of range")
 
 typedef enum mw_status {
 #define MW_STATUS_ENUM(code, value, word, text) code = value,
@@ -31,13 +31,14 @@ typedef enum mw_status {
     MW_STATUS_END = 1000
 } mw_status;
 
-/* Largest nx, no and np of any model. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128 };
+/* Largest nx, no and np of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Record of one solve. residual: largest |R| at the end; rank_gap: smallest over largest pivot of the scaled
- * Jacobian where it was factorised with complete pivoting, else 0; guard: 1 + index of a failed guard, else 0. */
+/* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
+ * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
+ * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
 typedef struct mw_info {
     int status, iterations, guard;
     double step, residual, rank_gap;

@@ -193,6 +193,25 @@ static size_t on_branch(trace *t, size_t k)
     return k + 1;
 }
 
+int mw_angle_in_range(double phi)
+{
+    return fabs(phi) <= MW_MAX_ANGLE; /* not-a-number is not */
+}
+
+/* Trace the points of `all` from number `begin` on, as long as their angles are in range; returns the number of the
+ * next point. */
+static size_t trace_in_range(const trace *all, size_t begin)
+{
+    trace t = *all;
+    t.phi += begin, t.x += begin * (size_t)t.m->nx, t.info += begin;
+    for (t.n = 0; begin + t.n < all->n && mw_angle_in_range(t.phi[t.n]);) t.n++;
+    if (t.n > 0) t.m->setup(t.p, t.s);
+    begin_walk(&t);
+    for (size_t k = 0; k < t.n && t.reference.count == 0; k++) alone(&t, k);
+    for (size_t k = 0; k < t.n && t.reference.count > 0;) k = on_branch(&t, k);
+    return begin + t.n;
+}
+
 size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                 mw_info *info)
 {
@@ -202,10 +221,8 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     for (size_t k = 0; k < n && guard; k++) info[k] = (mw_info){ .status = MW_BAD_INPUT, .guard = guard };
     if (guard) return 0;
     find_reference(&t);
-    m->setup(p, s);
-    begin_walk(&t);
-    for (size_t k = 0; k < n && t.reference.count == 0; k++) alone(&t, k);
-    for (size_t k = 0; k < n && t.reference.count > 0;) k = on_branch(&t, k);
+    for (size_t k = trace_in_range(&t, 0); k < n; k = trace_in_range(&t, k + 1))
+        info[k] = (mw_info){ .status = MW_BAD_INPUT };
     for (size_t k = 0; k < n; k++) succeeded += info[k].status >= 0;
     return succeeded;
 }

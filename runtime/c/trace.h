@@ -11,4 +11,7 @@ static const double MW_EQUAL_SPACING = 1e-9;
 static const double MW_FUSED_TOLERANCE = 1e-8; /* the step after one this small is below round-off */
 static const double MW_STEP_LIMIT = 0.7;       /* a longer step leads to another branch */
 
+/* Whether an input angle is one that a drive can be solved for. */
+int mw_angle_in_range(double phi);
+
 #endif

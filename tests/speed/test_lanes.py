@@ -74,3 +74,29 @@ def test_lanes_that_fuse_products_agree_to_the_last_bit(name):
     designs, angles = np.tile(drive.design.parameters, (5, 1)), np.linspace(0.0, 0.2, 70) * drive.pitch()
     first, *others = (trace_designs(lanes, drive, designs, angles)[0].tobytes() for lanes in fusing)
     assert all(x == first for x in others)
+
+
+def test_a_model_without_lane_kernels_and_angles_out_of_range_are_traced_one_by_one(lanes):
+    """The user's own model table: its name is none of the library's."""
+    drive = Drive.load("recess-action-full")
+    own = ffi.new("mw_model *", drive.model[0])
+    name = own.drive = ffi.new("char[]", b"own_drive")
+    object.__setattr__(drive, "model", own)
+    angles = np.linspace(0.0, 0.5, 5)
+    for x, status, succeeded in (trace(lanes, drive, angles), _first_of_two(lanes, drive, angles)):
+        assert succeeded % len(angles) == 0 and not status.any(), ffi.string(name)
+        assert np.abs(x - drive.trace(angles)[0]).max() < 1e-12
+    angles[2] = np.inf
+    _, status, succeeded = trace(lanes, Drive.load("recess-action-full"), angles)
+    assert succeeded == 4
+    assert ffi.string(library().mw_status_word(int(status[2]))) == b"bad_input"
+
+
+def _first_of_two(lanes, drive, angles):
+    x, status, succeeded = trace_designs(lanes, drive, np.tile(drive.design.parameters, (2, 1)), angles)
+    return x[0], status[0], succeeded
+
+
+def test_no_angle_is_no_point(lanes):
+    x, _, succeeded = trace(lanes, Drive.load("recess-action-full"), np.empty(0))
+    assert len(x) == 0 and succeeded == 0
