@@ -1,10 +1,12 @@
 """Generated C against CasADi: residual and Jacobian of the same tape, derivatives found in two different ways."""
 
+from functools import cache
+
 import casadi
 import numpy as np
 import pytest
 
-from meshwright import Drive, design
+from meshwright import Drive, casadi_backend, design
 from meshwright._library import SHIPPED, ffi
 
 
@@ -32,3 +34,22 @@ def test_jacobian_agrees_with_casadi_automatic_differentiation(name):
         scale = np.abs(j_casadi).max(axis=1, keepdims=True)
         assert np.abs((j - j_casadi) / scale).max() < 1e-14
         assert np.abs((r - r_casadi.ravel()) / scale.ravel()).max() < 1e-12
+
+
+@pytest.mark.parametrize(("name", "calls"), [("setup", 0), ("step", 7), ("step", 27), ("set_phi", 9)])
+def test_an_exception_in_a_function_that_c_calls_reaches_the_caller(monkeypatch, name, calls):
+    """C goes on with not-a-number; a number found without the function must not come out as a result."""
+    original, left = getattr(casadi_backend._Arithmetic, name), [calls]
+
+    def interrupted(self, *arguments):
+        left[0] -= 1
+        if left[0] == -1:
+            raise KeyboardInterrupt
+        return original(self, *arguments)
+
+    monkeypatch.setattr(casadi_backend._Arithmetic, name, interrupted)
+    monkeypatch.setattr(casadi_backend, "_table", cache(casadi_backend._table.__wrapped__))
+    drive = Drive.load("recess-action-full", backend="casadi")
+    with pytest.raises(KeyboardInterrupt):
+        drive.tca(np.linspace(-0.5, 0.5, 9))
+    assert Drive.load("recess-action-full", backend="casadi").tca([0.0]).complete

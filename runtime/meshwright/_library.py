@@ -1,6 +1,7 @@
 """The compiled library, its interface read from its own headers."""
 
 import re
+import threading
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +11,7 @@ SHIPPED = Path(__file__).parent / "_generated"
 ABI = 1
 
 ffi = cffi.FFI()
+_loading, _thread = threading.Lock(), threading.local()
 
 
 class LibraryError(RuntimeError):
@@ -24,14 +26,48 @@ def _interface():
     return re.sub(r"^#.*$", "", model, flags=re.MULTILINE) + functions
 
 
-@cache
 def library():
-    """The loaded library; raises :class:`LibraryError` with the remedy if it cannot be used."""
+    """The loaded library; raises :class:`LibraryError` with the remedy if it cannot be used. Safe in any thread."""
+    with _loading:
+        return _loaded()
+
+
+class _Calls:
+    """The functions of a library. An exception in a Python function that one of them calls is raised on its return."""
+
+    def __init__(self, functions):
+        self._functions = functions
+
+    def __getattr__(self, name):
+        function = getattr(self._functions, name)
+
+        def call(*arguments):
+            result = function(*arguments)
+            if error := vars(_thread).pop("error", None):
+                raise error
+            return result
+
+        setattr(self, name, call)
+        return call
+
+
+def callback(signature, function):
+    """C's view of a Python function; where it raises, C gets not-a-number or 1, and the exception is raised later."""
+    failed = {"double": float("nan"), "int": 1}.get(signature.result.cname)
+    return ffi.callback(signature, function, error=failed, onerror=_keep)
+
+
+def _keep(kind, error, traceback):
+    vars(_thread).setdefault("error", error)
+
+
+@cache
+def _loaded():
     path = SHIPPED / "libmeshwright.so"
     if not path.exists():
         raise LibraryError(f"{path} does not exist: run `make build` in the checkout, or install the wheel")
     ffi.cdef(_interface())
-    loaded = ffi.dlopen(str(path))
+    loaded = _Calls(ffi.dlopen(str(path)))
     if loaded.mw_abi() != ABI:
         raise LibraryError(
             f"{path} has ABI {loaded.mw_abi()}, this package needs ABI {ABI}: run `make build` again"

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from meshwright import metadata
-from meshwright._library import SHIPPED, ffi, model
+from meshwright._library import SHIPPED, callback, ffi, model
 
 #: Entries of the model table that are replaced; each is the name of a method of :class:`_Arithmetic`.
 REPLACED = (
@@ -29,9 +29,9 @@ def _table(name):
     arithmetic = _Arithmetic(metadata.drives()[name], compiled)
     table = ffi.new("mw_model *", compiled[0])
     table.ns = arithmetic.parameters + 1
-    callbacks = {key: ffi.callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
-    for key, callback in callbacks.items():
-        setattr(table, key, callback)
+    callbacks = {key: callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
+    for key, function in callbacks.items():
+        setattr(table, key, function)
     return table, callbacks
 
 
