@@ -88,6 +88,8 @@ def _of_drive(record, name):
 
 
 def _remove_superseded(folder, files):
-    for path in folder.glob("*/*"):
-        if path.is_file() and path.relative_to(folder).as_posix() not in files:
-            path.unlink()
+    """Remove what an earlier run wrote there, by its manifest, and this one does not."""
+    manifest = folder / "manifest.json"
+    written = json.loads(manifest.read_text(encoding="utf-8"))["files"] if manifest.exists() else {}
+    for path in written.keys() - files.keys():
+        (folder / path).unlink(missing_ok=True)

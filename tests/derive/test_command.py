@@ -1,0 +1,42 @@
+"""``python -m derive``: what it does to the folder it writes to."""
+
+import json
+
+from derive import command
+
+DRIVE = "spherical_spur_spur"
+
+
+def test_one_drive_replaces_its_own_files_alone(tmp_path):
+    other = tmp_path / "c" / "thesis.txt"
+    other.parent.mkdir()
+    other.write_text("a year's work")
+    assert command.main([DRIVE, "--output", str(tmp_path)]) == 0
+    assert other.read_text() == "a year's work"
+    assert {path.name for path in (tmp_path / "c").glob("*.h")} == {
+        f"{DRIVE}.h", f"{DRIVE}_lanes.h", f"{DRIVE}_sensitivity.h"
+    }  # fmt: skip
+
+
+def test_only_what_an_earlier_run_wrote_is_removed(tmp_path):
+    for name in ("c/own.txt", "c/old_drive.h", "c/drive.h", ".ssh/key"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    written = {"c/old_drive.h": "", "c/drive.h": "", "c/gone.h": ""}
+    (tmp_path / "manifest.json").write_text(json.dumps({"files": written}))
+    command._remove_superseded(tmp_path, {"c/drive.h": ""})
+    left = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
+    assert left == {"c/own.txt", "c/drive.h", ".ssh/key", "manifest.json"}
+
+
+def test_a_folder_without_a_manifest_loses_nothing(tmp_path):
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c" / "own.txt").write_text("")
+    command._remove_superseded(tmp_path, {})
+    assert (tmp_path / "c" / "own.txt").exists()
+
+
+def test_an_unknown_drive_is_named_with_those_known(tmp_path, capsys):
+    assert command.main(["worm", "--output", str(tmp_path)]) == 2
+    assert "no drive 'worm'; known: cylindrical_worm_za_za" in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
