@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tarfile
 
 import pytest
 
@@ -100,6 +101,19 @@ def test_the_wheel_holds_library_metadata_and_headers(tmp_path):
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
     assert done.stdout.startswith(str(tmp_path / "site"))
     assert "converged" in done.stdout
+
+
+def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
+    """Every tracked file of the folders that count; make finds in it what the library is compiled from."""
+    c.run(sys.executable, "-m", "build", "--sdist", "--outdir", tmp_path, c.ROOT)
+    (archive,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(archive) as packed:
+        packed.extractall(tmp_path, filter="data")
+    (unpacked,) = (path for path in tmp_path.iterdir() if path.is_dir())
+    tracked = c.run("git", "ls-files", "Makefile", "LICENSE", "derive", "generated", "runtime", "tests", cwd=c.ROOT)
+    assert [name for name in tracked.splitlines() if not (unpacked / name).exists()] == []
+    assert not (c.ROOT / "MANIFEST.in").exists()
+    c.run("make", "--dry-run", "runtime/meshwright/_generated/libmeshwright.so", cwd=unpacked)
 
 
 def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
