@@ -195,7 +195,7 @@ static size_t on_branch(trace *t, size_t k)
 
 int mw_angle_in_range(double phi)
 {
-    return fabs(phi) <= MW_MAX_ANGLE; /* not-a-number is not */
+    return fabs(phi) <= (double)MW_MAX_ANGLE; /* not-a-number is not */
 }
 
 /* Trace the points of `all` from number `begin` on, as long as their angles are in range; returns the number of the
