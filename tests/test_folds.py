@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.folds import fold_angle
+from meshwright.branch import fold_angle
 from meshwright.path import Path
 
 
-@pytest.mark.parametrize("error", [0.02, -0.02])
+@pytest.mark.parametrize("error", [0.02, -0.02, -0.05, 0.1])
 def test_two_contacts_of_a_zk_worm_meet_and_vanish_at_a_fold(error):
     """A centre distance error unfolds the pitchfork of the ZK worm with a ZN-hobbed wheel at right angles."""
     drive = Drive.load("zk-zn-90").with_(misalignment={"center_distance_mm": error})

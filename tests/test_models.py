@@ -1,25 +1,33 @@
 """Every generated model fits the runtime's fixed sizes and carries what the runtime needs."""
 
+import re
+
 import numpy as np
 import pytest
 
-from meshwright import metadata
-from meshwright._library import library, model, text
-from meshwright.analysis import pointer
+from meshwright import analysis, metadata
+from meshwright._library import SHIPPED, library, model, pointer, text
 
-MAX_UNKNOWNS, MAX_OBSERVATION, MAX_PARAMETERS = 8, 512, 128  # MW_MAX_... of meshwright.h
+HEADER = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
+
+#: Name → value of the largest sizes that the runtime has room for.
+MOST = {name: int(value) for name, value in re.findall(r"MW_MAX_(\w+) = (\d+)", HEADER)}
 
 
 @pytest.mark.parametrize("name", metadata.drives())
 def test_a_model_fits_the_runtime(name):
     m = model(name)
     assert m.abi == library().mw_abi()
-    assert m.nx <= MAX_UNKNOWNS
-    assert m.nstart <= MAX_UNKNOWNS
-    assert m.no <= MAX_OBSERVATION
-    assert m.np <= MAX_PARAMETERS
-    assert all(m.systems[k].n <= MAX_UNKNOWNS for k in range(m.nsystems))
+    assert m.nx <= MOST["UNKNOWNS"]
+    assert m.nstart <= MOST["UNKNOWNS"]
+    assert m.no <= MOST["OBSERVATION"]
+    assert m.np <= MOST["PARAMETERS"]
+    assert all(m.systems[k].n <= MOST["UNKNOWNS"] for k in range(m.nsystems))
     assert text(m.hash) == metadata.drives()[name]["specification_hash"]
+
+
+def test_python_and_c_refuse_the_same_angles():
+    assert MOST["ANGLE"] == analysis.LARGEST_ANGLE
 
 
 def test_the_library_and_the_descriptions_list_the_same_drives():

@@ -7,6 +7,7 @@ enum { N = MW_MAX_UNKNOWNS + 1, MAX_CORRECTIONS = 15, MAX_SPLITS = 10 };
 
 static const double ANGLE_STEP = 1e-5;  /* of the difference quotient by the input angle, rad */
 static const double DONE = 1e-12, ENOUGH = 1e-8;
+static const double SMOOTH = 0.9;       /* cosine by which chord and tangent may turn on a step; past it lie other branches */
 
 /* A point of the curve in natural sizes: the unknowns, then the input angle in rad. */
 typedef struct curve {
@@ -117,31 +118,43 @@ static int correct(const curve *c, const double *t, double *y)
     return previous < ENOUGH;
 }
 
+/* From y one step of at most this length along the tangent `before`, shorter where the curve bends: y, the tangent t there
+ * and the bordered determinant. Zero where no step succeeds. */
+static int advance(const curve *c, const double *before, double length, double *y, double *t, double *determinant)
+{
+    for (int splits = 0; splits <= MAX_SPLITS; splits++, length *= 0.5) {
+        double trial[N], chord = 0.0, turn = 0.0;
+        for (int i = 0; i <= c->n; i++) trial[i] = y[i] + length * before[i];
+        if (!correct(c, before, trial)) continue;
+        for (int i = 0; i <= c->n; i++) chord += (trial[i] - y[i]) * (trial[i] - y[i]);
+        if (!(length >= SMOOTH * sqrt(chord))) continue;
+        *determinant = tangent(c, trial, before, t);
+        for (int i = 0; i <= c->n; i++) turn += before[i] * t[i];
+        if (!(turn >= SMOOTH)) continue;
+        memcpy(y, trial, sizeof trial);
+        return 1;
+    }
+    return 0;
+}
+
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant)
 {
     curve c = { m, s, m->nx, { 0.0 } };
-    double y[N], trial[N], t[N], before[N] = { 0.0 };
+    double y[N], t[N], before[N] = { 0.0 };
     if (m->nx > MW_MAX_UNKNOWNS) return 0;
     m->scale(s, c.scale);
     for (int i = 0; i < c.n; i++) y[i] = x0[i] / c.scale[i];
     y[c.n] = phi0;
     before[c.n] = step > 0.0 ? 1.0 : -1.0;
     if (!correct(&c, before, y)) return 0;
-    step = fabs(step);
+    determinant[0] = tangent(&c, y, before, t);
     for (size_t k = 0;; k++) {
-        determinant[k] = tangent(&c, y, before, t);
         unscaled(&c, y, x + k * (size_t)c.n);
         phi[k] = y[c.n];
         slope[k] = t[c.n];
         if (k == count || !(fabs(determinant[k]) < HUGE_VAL)) return k + 1;
         memcpy(before, t, sizeof t);
-        double length = step;
-        for (int splits = 0;; splits++, length *= 0.5) {
-            if (splits > MAX_SPLITS) return k + 1;
-            for (int i = 0; i <= c.n; i++) trial[i] = y[i] + length * t[i];
-            if (correct(&c, t, trial)) break;
-        }
-        memcpy(y, trial, sizeof y);
+        if (!advance(&c, before, fabs(step), y, t, determinant + k + 1)) return k + 1;
     }
 }

@@ -120,8 +120,8 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
 /* The flank of a body, or of a region, at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
 void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o);
 
-/* Follow the branch of contact through (phi0, x0) in arclength: up to count steps of |step| natural sizes, towards
- * larger angles first if step > 0. At each point of phi[count+1], x[(count+1)*nx]: slope = d(phi)/d(arclength), which
+/* Follow the branch of contact through (phi0, x0) in arclength: up to count steps of |step| natural sizes, shorter where
+ * the branch bends, towards larger angles first if step > 0. At each point of phi[count+1], x[(count+1)*nx]: slope = d(phi)/d(arclength), which
  * changes sign at a fold, and the bordered determinant, which changes sign where another branch crosses.
  * s[ns] set up by setup(). Returns the number of points: the first is x0 corrected. */
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,

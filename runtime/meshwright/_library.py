@@ -75,9 +75,14 @@ def _loaded():
     return loaded
 
 
-def text(pointer):
+def text(string):
     """A C string as a Python string."""
-    return ffi.string(pointer).decode()
+    return ffi.string(string).decode()
+
+
+def pointer(array):
+    """A contiguous float array as a ``double *``."""
+    return ffi.from_buffer("double[]", array)
 
 
 def model(name):

@@ -5,12 +5,12 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi, library, text
+from meshwright._library import ffi, library, pointer, text
 from meshwright.errors import UsageError
 from meshwright.results import TCA
 
-#: Largest input angle, rad: sine and cosine of the generated functions hold up to 1.6 times that.
-LARGEST_ANGLE = 1e6
+#: Largest input angle to either side, rad: MW_MAX_ANGLE of meshwright.h.
+LARGEST_ANGLE = 10_000.0
 
 #: ``mw_info`` and ``mw_contact`` of meshwright.h as NumPy records.
 _INFO = np.dtype(
@@ -24,11 +24,6 @@ _CONTACT = np.dtype(
     ],
     align=True,
 )  # fmt: skip
-
-
-def pointer(array):
-    """A contiguous float array as a ``double *``."""
-    return ffi.from_buffer("double[]", array)
 
 
 def checked_angles(angles):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import pointer
 
 #: Step along the line in natural sizes of the unknowns, and how many at most to either side.
 STEP = 0.125
@@ -110,7 +110,7 @@ class _Equations:
     @classmethod
     def of(cls, drive, angle):
         scale, state = np.empty(drive.model.nx), drive.state(angle)
-        drive.model.scale(_pointer(state), _pointer(scale))
+        drive.model.scale(pointer(state), pointer(scale))
         bodies = drive.design.description["bodies"]
         margins = [b["margin"] + i for b in bodies for i in range(len(b["margins"]))] + [b["regular"] for b in bodies]
         return cls(drive, state, scale, tuple(margins))
@@ -119,12 +119,12 @@ class _Equations:
         """Residual (nx,) and Jacobian (nx, nx) by unknowns in natural sizes."""
         n = len(x)
         residual, jacobian = np.empty(n), np.empty((n, n))
-        self.drive.model.eval(_pointer(self.state), _pointer(x), _pointer(residual), _pointer(jacobian))
+        self.drive.model.eval(pointer(self.state), pointer(x), pointer(residual), pointer(jacobian))
         return residual, jacobian * self.scale
 
     def observe(self, x):
         o = np.empty(self.drive.model.no)
-        self.drive.model.observe(_pointer(self.state), _pointer(np.ascontiguousarray(x)), _pointer(o))
+        self.drive.model.observe(pointer(self.state), pointer(np.ascontiguousarray(x)), pointer(o))
         return o
 
     def margin(self, x):
@@ -191,7 +191,3 @@ def _edge(equations, inner, outer):
         else:
             outer = 0.5 * (inner + outer) if middle is None else middle
     return inner
-
-
-def _pointer(array):
-    return ffi.from_buffer("double[]", array)

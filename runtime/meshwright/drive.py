@@ -8,7 +8,7 @@ import numpy as np
 
 from meshwright import analysis, contact_ratio, edge, grids, limits, windows
 from meshwright import design as designs
-from meshwright._library import library, model, text
+from meshwright._library import library, model, pointer, text
 from meshwright.design import Design
 from meshwright.errors import UsageError
 from meshwright.functions import Function
@@ -94,8 +94,8 @@ class Drive:
     def state(self, angle=0.0):
         """The model's state for this design at an input angle: what generated functions read."""
         s = np.empty(self.model.ns)
-        self.model.setup(analysis.pointer(self.design.parameters), analysis.pointer(s))
-        self.model.set_phi(analysis.pointer(s), angle)
+        self.model.setup(pointer(self.design.parameters), pointer(s))
+        self.model.set_phi(pointer(s), angle)
         return s
 
     def tca(self, angles):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import ffi, pointer
 from meshwright.path import NODES_PER_PITCH, Path
 from meshwright.windows import Limit, limits_of
 
@@ -150,7 +150,7 @@ class _Equations:
     def of(cls, path, limit):
         bodies = path.drive.design.description["bodies"]
         model, scale = path.drive.model, np.empty(path.drive.model.nx)
-        model.scale(_pointer(path.state), _pointer(scale))
+        model.scale(pointer(path.state), pointer(scale))
         return cls(path, limit, tuple(bodies), [b["name"] for b in bodies].index(limit.member), scale)
 
     def solve(self, angle, unknowns):
@@ -209,7 +209,7 @@ class _Equations:
         if len(x) == 5:
             return ()
         model, residual = self.path.drive.model, np.empty(len(x))
-        model.eval(_pointer(self.path.state), _pointer(np.ascontiguousarray(x)), _pointer(residual), ffi.NULL)
+        model.eval(pointer(self.path.state), pointer(np.ascontiguousarray(x)), pointer(residual), ffi.NULL)
         return residual[5:]
 
     def _slopes(self, angle, x):
@@ -223,7 +223,3 @@ class _Equations:
                 around.append(self(angle, moved))
             columns.append((around[0] - around[1]) / (2.0 * STEP))
         return np.stack(columns, axis=1)
-
-
-def _pointer(array):
-    return ffi.from_buffer("double[]", array)

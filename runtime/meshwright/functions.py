@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi, library, model
+from meshwright._library import library, model, pointer
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Function:
         """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
         compiled = model(self.drive.design.description["name"])
         s = np.empty(compiled.ns)
-        compiled.setup(ffi.from_buffer("double[]", self.drive.design.parameters), ffi.from_buffer("double[]", s))
+        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
         return s
 
     def __call__(self, *arguments):
@@ -39,8 +39,8 @@ class Function:
         shape = grid[0].shape if grid else ()
         q = np.ascontiguousarray(np.stack([g.ravel() for g in grid], axis=1)) if grid else np.empty((1, 0))
         rows = np.empty((len(q), self.pointer.outputs))
-        buffers = (ffi.from_buffer("double[]", a) for a in (self.state, q))
-        results = ffi.from_buffer("double[]", rows)
+        buffers = (pointer(a) for a in (self.state, q))
+        results = pointer(rows)
         library().mw_flank(self.pointer.evaluate, q.shape[1], rows.shape[1], *buffers, len(q), results)
         return {o["name"]: _values(rows, o, shape) for o in self.description["outputs"]}
 

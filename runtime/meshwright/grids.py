@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import pointer
+from meshwright.analysis import turns
 from meshwright.errors import UsageError
 from meshwright.pairs import Mesh
 from meshwright.pattern import contours
@@ -214,7 +215,7 @@ class _Sheet:
         found = self.flank(values)
         mirror = -1.0 if self.drive.design.mirrored else 1.0
         flip = np.array([1.0, mirror, 1.0])
-        signs = np.array([mirror if name.startswith(("psi_", "phi_")) else 1.0 for name in self.flank.parameters])
+        signs = np.array([mirror if turns(name) else 1.0 for name in self.flank.parameters])
         return Grid(
             self.member, self.region, self.flank.parameters, tuple(shape), signs * values, flip * found.points,
             flip * found.normals,
@@ -252,7 +253,7 @@ def _solved(matrix, residual):
 
 def _scale(drive):
     scale = np.empty(drive.model.nx)
-    drive.model.scale(ffi.from_buffer("double[]", drive.state()), ffi.from_buffer("double[]", scale))
+    drive.model.scale(pointer(drive.state()), pointer(scale))
     return scale
 
 

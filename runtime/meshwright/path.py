@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi, library, text
+from meshwright._library import ffi, library, pointer, text
 from meshwright.analysis import analyse
 
 #: Spacing of the stored solutions as a share of the pitch.
@@ -17,10 +17,6 @@ NODES_PER_PITCH = 16
 
 #: Half the angle by which a member is turned to read off the velocity of rotation: (r(+h) − r(−h))/(2 sin h) is exact.
 TURN = 0.5
-
-
-def _pointer(array):
-    return ffi.from_buffer("double[]", array)
 
 
 @dataclass(frozen=True)
@@ -35,6 +31,11 @@ class Path:
     unknowns: np.ndarray
     ended: tuple[str, str] = ("", "")
     state: np.ndarray = field(default=None, repr=False)
+
+    @property
+    def spacing(self):
+        """Largest spacing of neighbouring solutions, rad."""
+        return self.drive.pitch() / NODES_PER_PITCH
 
     @classmethod
     def through(cls, drive, angle, unknowns):
@@ -60,7 +61,7 @@ class Path:
         """The path continued to the input angle ``to``, or as far towards it as the branch goes."""
         up = bool(to > self.angles[-1])
         first = self.angles[-1] if up else self.angles[0]
-        count = max(1, math.ceil(abs(to - first) / self.drive.pitch() * NODES_PER_PITCH))
+        count = max(1, math.ceil(abs(to - first) / self.spacing))
         wanted = np.linspace(first, to, count + 1)[1:]
         x, word = self._follow(first, self.unknowns[-1 if up else 0], wanted)
         wanted, ended = wanted[: len(x)], list(self.ended)
@@ -78,7 +79,7 @@ class Path:
         x, records = np.empty((len(wanted), model.nx)), ffi.new("mw_info[]", len(wanted))
         wanted, unknowns = np.ascontiguousarray(wanted), np.ascontiguousarray(unknowns)
         solved = library().mw_follow(
-            model, _pointer(self.state), angle, _pointer(unknowns), _pointer(wanted), len(wanted), _pointer(x), records
+            model, pointer(self.state), angle, pointer(unknowns), pointer(wanted), len(wanted), pointer(x), records
         )
         word = "" if solved == len(wanted) else text(library().mw_status_word(records[solved].status))
         return x[:solved], word
@@ -106,9 +107,9 @@ class Path:
         observed = np.full((len(angles), self.drive.model.no), np.nan)
         for k, angle in enumerate(angles):
             if np.all(np.isfinite(unknowns[k])):
-                self.drive.model.set_phi(_pointer(self.state), angle)
+                self.drive.model.set_phi(pointer(self.state), angle)
                 row = np.ascontiguousarray(unknowns[k])
-                self.drive.model.observe(_pointer(self.state), _pointer(row), _pointer(observed[k]))
+                self.drive.model.observe(pointer(self.state), pointer(row), pointer(observed[k]))
         return observed
 
     def levers(self, angles):

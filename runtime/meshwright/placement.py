@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright._library import ffi
+from meshwright._library import pointer
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def _observed(drive, angles, unknowns, number, body):
     for k, (angle, x) in enumerate(zip(angles, unknowns, strict=True)):
         if np.all(np.isfinite(x)):
             state, solution = drive.state(angle), np.ascontiguousarray(x)
-            drive.model.observe(*(ffi.from_buffer("double[]", a) for a in (state, solution, observed[k])))
+            drive.model.observe(*(pointer(a) for a in (state, solution, observed[k])))
     place, tangent = 6 * number, body["at"]
     return observed[:, place : place + 3], observed[:, place + 3 : place + 6], observed[:, tangent : tangent + 3]
 

@@ -12,8 +12,7 @@ import numpy as np
 
 from meshwright import analysis
 from meshwright import design as designs
-from meshwright._library import library, model
-from meshwright.analysis import pointer
+from meshwright._library import library, model, pointer
 
 
 @dataclass(frozen=True)

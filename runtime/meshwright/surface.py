@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright._library import ffi, library, model
+from meshwright._library import library, model, pointer
 from meshwright.errors import UsageError
 
 
@@ -54,7 +54,7 @@ class Flank:
         """State of the compiled model, whatever backend solves the contact: flanks do not depend on it."""
         compiled = model(self.drive.design.description["name"])
         s = np.empty(compiled.ns)
-        compiled.setup(ffi.from_buffer("double[]", self.drive.design.parameters), ffi.from_buffer("double[]", s))
+        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
         return s
 
     @property
@@ -67,8 +67,8 @@ class Flank:
         q = np.atleast_2d(np.asarray(parameters, dtype=float))
         k, n, c = len(self.parameters), len(q), self.body["conditions"]
         rows = np.empty((n, self.body["outputs"]))
-        buffers = (ffi.from_buffer("double[]", np.ascontiguousarray(a)) for a in (self.state, q))
-        results = ffi.from_buffer("double[]", rows)
+        buffers = (pointer(np.ascontiguousarray(a)) for a in (self.state, q))
+        results = pointer(rows)
         library().mw_flank(self.pointer.flank, k, self.body["outputs"], *buffers, n, results)
         at = 7 + 3 * k
         margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from meshwright.folds import fold_angle
+from meshwright.branch import fold_angle
 from meshwright.line_windows import line_ends
 from meshwright.path import Path
 from meshwright.roots import bracketed

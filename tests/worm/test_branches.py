@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, analysis
+from meshwright.branch import follow
 from meshwright.cli import main
-from meshwright.limits.branches import follow
 from meshwright.results import ARCSEC
 from tests.worm.designs import PROFILES, plain
 

@@ -1,44 +1,17 @@
-"""Branches of contact: followed in arclength through folds, their turning points and crossings located."""
-
-from dataclasses import dataclass
+"""Where the branch of contact turns back or another crosses it."""
 
 import numpy as np
 
-from meshwright._library import ffi, library
-from meshwright.analysis import pointer
+from meshwright._library import ffi, library, pointer
+from meshwright.branch import STEP, follow, turning_point
 from meshwright.limits.results import BranchPoint
 from meshwright.limits.zeros import zeros
-
-#: Steps along a branch, in natural sizes of the unknowns and radians of the input angle, and how many each way.
-STEP, STEPS = 0.1, 150
 
 #: A branch is followed this many pitches from where it starts.
 PITCHES = 2.5
 
 #: Fine steps into which a step is divided to locate a branch point on it.
 FINENESS = 8
-
-
-@dataclass(frozen=True)
-class Branch:
-    """Consecutive points of a branch: ``angles`` (N,), ``unknowns`` (N, nx), ``slopes`` dφ/darclength, bordered
-    ``determinants``."""
-
-    angles: np.ndarray
-    unknowns: np.ndarray
-    slopes: np.ndarray
-    determinants: np.ndarray
-
-
-def follow(drive, angle, unknowns, step=STEP, count=STEPS):
-    """The :class:`Branch` through a solved contact; towards larger angles first if ``step`` > 0."""
-    m, s = drive.model, drive.state(angle)
-    angles, slopes, determinants = (np.empty(count + 1) for _ in range(3))
-    x = np.empty((count + 1, m.nx))
-    start = np.ascontiguousarray(unknowns, dtype=float)
-    arrays = (pointer(a) for a in (angles, x, slopes, determinants))
-    n = library().mw_arclength(m, pointer(s), angle, pointer(start), step, count, *arrays)
-    return Branch(angles[:n], x[:n], slopes[:n], determinants[:n])
 
 
 def branch_points(drive):
@@ -50,7 +23,7 @@ def branch_points(drive):
     found = []
     for step in (STEP, -STEP):
         branch = _regular_part(drive, follow(drive, angle, unknowns, step), angle)
-        found += [_located(drive, branch, k, step) for k in _turns(branch)]
+        found += [_located(drive, branch, k, step) for k in np.union1d(branch.turns, branch.crossings)]
     return tuple(sorted((point for point in found if point), key=lambda point: point.angle))
 
 
@@ -79,38 +52,38 @@ def _regular_part(drive, branch, angle):
     for k, (phi, x) in enumerate(zip(branch.angles, branch.unknowns, strict=True)):
         o, _ = _observed(drive, phi, x)
         if abs(phi - angle) > PITCHES * drive.pitch() or not all(o[i] > 0.0 for i in sheets):
-            return Branch(*(a[:k] for a in (branch.angles, branch.unknowns, branch.slopes, branch.determinants)))
+            return branch.up_to(k)
     return branch
 
 
-def _turns(branch):
-    """Steps on which the branch turns back or another crosses it."""
-    turned = branch.slopes[:-1] * branch.slopes[1:] < 0.0
-    crossed = branch.determinants[:-1] * branch.determinants[1:] < 0.0
-    return np.flatnonzero(turned | crossed)
-
-
 def _located(drive, branch, k, step):
-    """The branch point on step k, by interpolation of fine steps on both sides of it.
-
-    At a crossing the equations for a point are singular, beside it they are not: so no point is solved there.
-    """
-    crossed = branch.determinants[k] * branch.determinants[k + 1] < 0.0
-    turned = branch.slopes[k] * branch.slopes[k + 1] < 0.0
-    sense = np.sign(branch.slopes[k])
-    fine = follow(drive, branch.angles[k], branch.unknowns[k], sense * abs(step) / FINENESS, 2 * FINENESS)
-    values = fine.determinants if crossed else fine.slopes
-    change = np.flatnonzero(values[:-1] * values[1:] < 0.0)
-    if not len(change):
+    """The branch point on step k; None if it cannot be located."""
+    if k not in branch.crossings:
+        kind, place = "fold", turning_point(drive, branch, k, step)
+    else:
+        kind, place = "pitchfork" if k in branch.turns else "crossing", _crossing(drive, branch, k, step)
+    if place is None:
         return None
-    near = slice(max(change[0] - 2, 0), change[0] + 4)
-    curve = np.column_stack([fine.unknowns, fine.angles])[near]
-    along = (curve - curve[0]) @ _direction(curve, drive)
-    place = _interpolated_zero(along, values[near])
-    angle, x = _interpolated(along, curve, place)[-1], _interpolated(along, curve, place)[:-1]
-    kind = "fold" if not crossed else "pitchfork" if turned else "crossing"
+    angle, x = place
     o, _ = _observed(drive, float(angle), x)
     return BranchPoint(float(angle), kind, o[0:3].copy())
+
+
+def _crossing(drive, branch, k, step):
+    """(input angle, unknowns) of a crossing, by interpolation of fine steps on both sides of it.
+
+    The equations for a point are singular there, beside it they are not: so no point is solved there.
+    """
+    sense = np.sign(branch.slopes[k])
+    fine = follow(drive, branch.angles[k], branch.unknowns[k], sense * abs(step) / FINENESS, 2 * FINENESS)
+    if not len(fine.crossings):
+        return None
+    first = fine.crossings[0]
+    near = slice(max(first - 2, 0), first + 4)
+    curve = np.column_stack([fine.unknowns, fine.angles])[near]
+    along = (curve - curve[0]) @ _direction(curve, drive)
+    at = _interpolated(along, curve, _interpolated_zero(along, fine.determinants[near]))
+    return at[-1], at[:-1]
 
 
 def _direction(curve, drive):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshwright import analysis
-from meshwright._library import ffi, library
+from meshwright._library import ffi, library, pointer
 from meshwright.limits.profile import Profile
 
 #: Lines Ψ = constant on which contacts are sought, and profile points on each.
@@ -14,9 +14,6 @@ DEPTH = 3.0
 
 #: Steps in Ψ beside a contact that has been found at which others are sought: near a branch point they lie close.
 NEARBY = (-0.1, -0.03, 0.03, 0.1)
-
-#: Places of the hob's parameters (t, Ψ) among the unknowns.
-T_HOB, PSI = 2, 3
 
 #: Two solutions nearer than this, in natural sizes of the unknowns, are one.
 SAME = 1e-6
@@ -33,9 +30,15 @@ def contacts(drive, angle):
     lines, found = np.linspace(*Profile(drive, "hob").sheet(), LINES), []
     for _ in range(2):
         found = _distinct(drive, [*found, *_solutions(drive, angle, lines)])
-        places = np.array([x[PSI] for x in found])
+        places = np.array([_on_wheel(drive, x)[1] for x in found])
         lines = np.concatenate([(places[:-1] + places[1:]) / 2, *(places + step for step in NEARBY)])
     return analysis.at_solutions(drive, np.full(len(found), angle), np.array(found).reshape(-1, drive.model.nx))
+
+
+def _on_wheel(drive, x):
+    """Parameters (t, Ψ) of the wheel's flank among the unknowns."""
+    _, wheel = drive.design.description["bodies"]
+    return x[wheel["unknowns"]]
 
 
 def _solutions(drive, angle, lines):
@@ -74,17 +77,17 @@ def _refined(drive, angle, seed):
     """The solution that Newton reaches from a start; None if none, or one on the spurious sheet."""
     m, s = drive.model, drive.state(angle)
     x, info = np.array(seed, dtype=float), ffi.new("mw_info *")
-    if library().mw_refine(m, analysis.pointer(s), analysis.pointer(x), info) < 0:
+    if library().mw_refine(m, pointer(s), pointer(x), info) < 0:
         return None
-    margins = drive.flank("wheel")([x[T_HOB : PSI + 1]]).margins
+    margins = drive.flank("wheel")([_on_wheel(drive, x)]).margins
     return x if margins["spurious_sheet"][0] > 0.0 else None
 
 
 def _distinct(drive, solutions):
     scale = np.empty(drive.model.nx)
-    drive.model.scale(analysis.pointer(drive.state()), analysis.pointer(scale))
+    drive.model.scale(pointer(drive.state()), pointer(scale))
     kept = []
-    for x in sorted(solutions, key=lambda x: x[PSI]):
+    for x in sorted(solutions, key=lambda x: _on_wheel(drive, x)[1]):
         if all(np.abs((x - other) / scale).max() > SAME for other in kept):
             kept.append(x)
     return kept
