@@ -1,7 +1,7 @@
 """Tooth contact analysis of one drive: trace in C, contact geometry of every point, results as columns."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -63,7 +63,7 @@ def without_contact(drive, angles):
     """:class:`~meshwright.results.TCA` of teeth that do not reach each other, at pinion angles (rad)."""
     mirror = -1.0 if drive.design.mirrored else 1.0
     records = np.zeros(len(angles), _INFO)
-    records["status"] = _code("no_contact")
+    records["status"] = status_codes("no_contact")[0]
     points = _Points.solved(drive, mirror * angles, np.full((len(angles), drive.model.nx), np.nan), records)
     return points.result(angles, np.arange(len(angles)), mirror)
 
@@ -155,7 +155,7 @@ class _Points:
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
     def flags(self):
-        names = _flag_names(self.drive.model)
+        names = flag_names(self.drive.model)
         bits = np.where(self.pointlike, self.contacts["flags"], 0)
         return [tuple(dict.fromkeys(n for k, n in enumerate(names) if b >> k & 1)) for b in bits.tolist()]
 
@@ -204,12 +204,20 @@ def turns(name):
     return name.startswith(("psi_", "phi_"))
 
 
-def _code(word):
-    """The first failure that results call by this word."""
-    return next(code for code in range(-1, -100, -1) if text(library().mw_status_word(code)) == word)
+@cache
+def statuses():
+    """The word of each status by its number in meshwright.h."""
+    words = {code: text(library().mw_status_word(code)) for code in range(-99, 100)}
+    return {code: word for code, word in words.items() if word != "unknown"}
 
 
-def _flag_names(m):
+def status_codes(*words):
+    """Numbers of the statuses that results call by these words."""
+    return [code for code, word in statuses().items() if word in words]
+
+
+def flag_names(m):
+    """Names of a model's flags, from the lowest bit."""
     names = []
     while (name := library().mw_flag(m, len(names))) != ffi.NULL:
         names.append(text(name))

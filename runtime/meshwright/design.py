@@ -3,6 +3,7 @@
 import copy
 import difflib
 import math
+import operator
 import re
 import tomllib
 from dataclasses import dataclass
@@ -218,9 +219,32 @@ def _check_order(description, checked):
         if p["above"] is None:
             continue
         value, least = (checked[p["table"]][key] for key in (p["key"], p["above"]))
-        if None not in (value, least) and value <= least:
+        if not _in_order(value, least):
             reason = f"must be greater than {p['above']}, which is {least:g}"
             raise DesignError(f"{p['table']}.{p['key']}", value, reason, "choose a larger value")
+
+
+def _in_order(value, least):
+    """Whether a number, or each of an array, is above the one that it must be above; an open one, None, is."""
+    return True if value is None or least is None else np.greater(value, least)
+
+
+def allowed(design, varied):
+    """Which samples keep the bounds and the order of the keys: (S,) of bool.
+
+    ``varied`` are values (S,) by key ("table.key"), in the units of the keys; the other keys are the design's.
+    """
+    values = {f"{table}.{key}": v for table, entries in design.tables.items() if isinstance(entries, dict)
+              for key, v in entries.items()} | varied  # fmt: skip
+    keeps = np.logical_and.reduce([np.isfinite(column) for column in varied.values()])
+    for p in design.description["parameters"]:
+        place = f"{p['table']}.{p['key']}"
+        if place in varied:
+            for comparison, bound in schema.bounds(p).items():
+                keeps = keeps & getattr(operator, comparison)(varied[place], bound)
+        if p["above"] is not None:
+            keeps = keeps & _in_order(values[place], values[f"{p['table']}.{p['above']}"])
+    return keeps
 
 
 def _vector(description, checked):

@@ -102,7 +102,7 @@ class Drive:
         """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.results.TCA`."""
         angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
-        if any("off_tip" in flags for flags in result.flags) and self.past_the_tips:
+        if result.past_a_tip and self.past_the_tips:
             return analysis.without_contact(self, angles)
         return edge.flagged(result, self.edge_window)
 

@@ -6,6 +6,8 @@ pair's error is at an end, the pair drives until its contact leaves the flank ov
 
 import dataclasses
 
+import numpy as np
+
 from meshwright.pairs import Mesh
 from meshwright.transmission import rides_on_edge
 from meshwright.windows import contact_window
@@ -23,11 +25,16 @@ def edge_window(drive):
     return tuple(sorted((window.begin.angle, window.end.angle)))
 
 
+def inside(window, angles):
+    """Which pinion angles (N,), rad, lie in a window; none if there is no window, or an empty one."""
+    low, high = window or (np.inf, -np.inf)
+    return (low <= angles) & (angles <= high)
+
+
 def flagged(result, window):
     """The :class:`~meshwright.results.TCA` with the flag at every solved point of the window."""
     if window is None:
         return result
-    low, high = window
-    points = zip(result.angles, result.solved, result.flags, strict=True)
-    flags = tuple((*words, FLAG) if solved and low <= angle <= high else words for angle, solved, words in points)
+    on_edge = result.solved & inside(window, result.angles)
+    flags = tuple((*words, FLAG) if on else words for on, words in zip(on_edge, result.flags, strict=True))
     return dataclasses.replace(result, flags=flags)

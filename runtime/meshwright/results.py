@@ -11,6 +11,9 @@ ARCSEC = np.pi / 648000.0
 #: Status words of points that have numbers.
 SOLVED = ("converged",)
 
+#: Flag of points beyond the tip of a member.
+OFF_TIP = "off_tip"
+
 
 def impossible(flag):
     """Whether a flag marks points that satisfy the equations but that bodies cannot make."""
@@ -66,6 +69,12 @@ class TCA:
     def complete(self):
         """Whether every point converged to a contact that bodies can make."""
         return bool(self.solved.all()) and not any(impossible(f) for flags in self.flags for f in flags)
+
+    @property
+    def past_a_tip(self):
+        """Whether there are contact points and each is past a tip: the teeth may not reach each other at all."""
+        flags = [flags for flags, solved in zip(self.flags, self.solved, strict=True) if solved]
+        return bool(flags) and all(OFF_TIP in words for words in flags)
 
     def ellipse(self, k, points=97):
         """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN without one."""

@@ -17,14 +17,19 @@ def _field(parameter):
     if parameter["choices"]:
         word = Annotated[Literal[tuple(parameter["choices"])], Field(description=parameter["meaning"])]
         return (word, ...) if parameter["required"] else (word | None, None)
-    bounds = {}
-    if parameter["lower"] is not None:
-        bounds["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]
-    if parameter["upper"] is not None:
-        bounds["lt"] = parameter["upper"] / parameter["factor"]
     base = StrictInt if parameter["integer"] else float
-    annotated = Annotated[base, Field(description=parameter["meaning"], **bounds)]
+    annotated = Annotated[base, Field(description=parameter["meaning"], **bounds(parameter))]
     return (annotated, ...) if parameter["required"] else (annotated | None, None)
+
+
+def bounds(parameter):
+    """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``."""
+    found = {}
+    if parameter["lower"] is not None:
+        found["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]
+    if parameter["upper"] is not None:
+        found["lt"] = parameter["upper"] / parameter["factor"]
+    return found
 
 
 def _material_fields():

@@ -113,8 +113,26 @@ def past_the_tips(drive):
     return path is not None and _past_the_tips(path, limits_of(drive))
 
 
+def inside_the_tips(drive):
+    """Pinion angle of the right-hand drive, rad, where the pair's contact is farthest inside the tips.
+
+    None if its path of contact is past them everywhere, or there is none.
+    """
+    path, _ = Path.start(drive)
+    tips = _tips(limits_of(drive))
+    if path is None or not tips:
+        return None
+    path = _searched(path, tips)
+    worst = _worst(path, tips)
+    return float(path.angles[np.argmax(worst)]) if worst.max() >= 0.0 else None
+
+
+def _tips(limits):
+    return [limit for limit in limits if limit.reason in TIPS]
+
+
 def _past_the_tips(path, limits):
-    tips = [limit for limit in limits if limit.reason in TIPS]
+    tips = _tips(limits)
     if not tips:
         return False
     path = _searched(path, tips)
@@ -170,19 +188,21 @@ def _descending(drive):
     return drive.design.flank < 0 and not drive.design.description["ascending_path"]
 
 
-def _worst(path, limits):
-    """The smallest limit function at every node; limits that the design leaves open do not count."""
-    values = path.observe(path.angles, path.unknowns)[:, [limit.index for limit in limits]]
+def _worst(path, limits, nodes=slice(None)):
+    """The smallest limit function at every node, or at some; limits that the design leaves open do not count."""
+    values = path.observe(path.angles[nodes], path.unknowns[nodes])[:, [limit.index for limit in limits]]
     return np.where(np.isnan(values), np.inf, values).min(axis=1)
 
 
 def _searched(path, limits):
     """The path followed both ways until contact has left the flanks again, but no further than half a wheel turn."""
-    farthest = math.pi / path.drive.ratio
+    farthest, worst = math.pi / path.drive.ratio, _worst(path, limits)
     for sign in (1.0, -1.0):
-        while _goes_on(path, limits, sign, farthest):
-            here = path.angles[-1 if sign > 0 else 0]
+        while _goes_on(path, worst, sign, farthest):
+            here, known = path.angles[-1 if sign > 0 else 0], len(path.angles)
             path = path.extended(here + sign * min(CHUNK * path.drive.pitch(), farthest - sign * here))
+            new = slice(known, None) if sign > 0 else slice(0, len(path.angles) - known)
+            worst = np.concatenate([worst, _worst(path, limits, new)][:: int(sign)])
     return path
 
 
@@ -196,11 +216,10 @@ def _with_margin(path, ends):
     return path
 
 
-def _goes_on(path, limits, sign, farthest):
+def _goes_on(path, worst, sign, farthest):
     side = -1 if sign > 0 else 0
     if path.ended[side] or sign * path.angles[side] >= farthest * (1.0 - 1e-12):
         return False
-    worst = _worst(path, limits)
     return worst[side] >= 0.0 or not (worst >= 0.0).any()
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshwright import Drive, sweep
+from meshwright import Drive, analysis, samples, slices, sweep
 from meshwright import design as designs
 from meshwright._library import library, text
 from meshwright.cli import main
@@ -33,8 +33,7 @@ def _plan(samples=50, levels=0, design="recess-action-full"):
 
 def _rows(folder, form="parquet"):
     names = ["sample", "pinion_angle_deg", "transmission_error_arcsec", "contact_x_mm", "contact_y_mm", "contact_z_mm"]
-    slices = [np.stack(sweep.read_slice(path, names)) for path in sorted(folder.glob(f"slice-*.{form}"))]
-    return np.concatenate(slices, axis=1)
+    return np.concatenate([slices.read(path, names) for path in sorted(folder.glob(f"slice-*.{form}"))], axis=1)
 
 
 def test_a_sample_of_a_sweep_is_the_tooth_contact_analysis_of_its_design():
@@ -105,6 +104,90 @@ def test_a_left_hand_drive_is_swept_as_it_is_analysed():
         assert np.abs(rows.points[k] - result.points).max() < 1e-9
 
 
+def _words(rows):
+    return np.vectorize(analysis.statuses().get)(rows.status)
+
+
+def _flags(drive, rows, k):
+    names = samples.flag_names(drive)
+    return tuple({name for bit, name in enumerate(names) if flags >> bit & 1} for flags in rows.flags[k].tolist())
+
+
+def _assert_judged_alike(plan):
+    """Status and flags of each point of each sample are those of its tooth contact analysis."""
+    rows = sweep.solve(plan, 0)
+    for k, values in enumerate(rows.values.tolist()):
+        changes = {v.key: value for v, value in zip(plan.variations, values, strict=True)}
+        drive = Drive.from_tables(designs.changed(plan.tables, changes))
+        result = drive.tca(np.array(plan.angles))
+        assert tuple(_words(rows)[k]) == result.status
+        assert _flags(drive, rows, k) == tuple(map(set, result.flags))
+        assert np.array_equal(np.isnan(rows.error[k]), np.isnan(result.error))
+        assert np.array_equal(np.isnan(rows.points[k]), np.isnan(result.points))
+    return rows
+
+
+def test_teeth_that_do_not_reach_each_other_have_no_contact_in_a_sweep_either(tmp_path):
+    """The nominal wheel reaches the worm far above angle 0; with a tip of 270 mm it does not anywhere."""
+    radius = sweep.Variation("blank.wheel_tip_radius_mm", "uniform", 270.0, 277.38)
+    for tip in (277.38, 270.0):
+        tables = designs.changed(designs.read("recess-action-full"), {"blank.wheel_tip_radius_mm": tip})
+        plan = sweep.Plan(tables, (radius,), tuple(np.radians([-200.0, -100.0])), 0, levels=2)
+        assert _words(_assert_judged_alike(plan)).tolist() == [["no_contact"] * 2, ["converged"] * 2]
+    summary = sweep.run(plan, tmp_path / "s")
+    assert (summary["points_converged"], summary["samples_complete"]) == (2, 1)
+
+
+def test_a_pair_that_runs_on_an_edge_is_flagged_in_a_sweep_too():
+    """Errors of assembly of some signs move the vertex of the face worm's parabola out of its path."""
+    variations = tuple(
+        sweep.Variation(f"misalignment.{key}", "uniform", -error, error)
+        for key, error in (("offset_mm", 0.1), ("axial_mm", 0.1), ("shaft_angle_deg", 0.05))
+    )
+    plan = sweep.Plan(designs.read("face-worm-conical-concave"), variations, tuple(np.radians([-90.0, 90.0])), 0, 2)
+    rows = _assert_judged_alike(plan)
+    on_edge = {"edge_contact" in flags for k in range(8) for flags in _flags(sweep.check(plan), rows, k)}
+    assert on_edge == {True, False}
+
+
+def test_points_that_bodies_cannot_make_are_not_good(tmp_path, capsys):
+    """Exit status as of the tooth contact analysis, which finds interference there."""
+    error = "misalignment.horizontal_deg"
+    assert main(["tca", "spherical-table-2-3", "--phi-deg", "15,20", "--set", f"{error}=0.0485"]) == 1
+    capsys.readouterr()
+    command = ["sweep", "spherical-table-2-3", "--phi-deg", "15,20", "--grid", "1", "--vary", f"{error}=0.0485:0.0485"]
+    assert main([*command, "--out", str(tmp_path / "s")]) == 1
+    summary = json.loads(capsys.readouterr().out)
+    assert (summary["points"], summary["points_converged"], summary["points_impossible"]) == (2, 0, 2)
+    assert summary["peak_to_peak_arcsec"] is None
+    claim = json.loads((tmp_path / "s" / "sweep.json").read_text(encoding="utf-8"))
+    columns = slices.read(tmp_path / "s" / "slice-000000.parquet", ["status", "flags"])
+    assert {claim["statuses"][str(status)] for status in columns[0]} == {"converged"}
+    assert all(flags >> claim["flags"].index("interference") & 1 for flags in columns[1].tolist())
+
+
+@pytest.mark.parametrize(
+    ("name", "tables", "key", "values"),
+    [
+        ("plain-zn", {}, "contact.elastic_allowance_mm", (0.0, 0.01)),
+        ("plain-zn", {}, "design.shaft_angle_deg", (0.0, 180.0)),
+        ("plain-zn", {"blank": {"worm_tip_radius_mm": 40.0}}, "blank.worm_root_radius_mm", (30.0, 50.5)),
+        ("plain-zn", {"blank": {"worm_root_radius_mm": 30.0}}, "blank.worm_tip_radius_mm", (30.0, 40.0)),
+    ],
+)
+def test_a_sweep_takes_the_values_that_a_design_takes(name, tables, key, values):
+    variation = sweep.Variation(key, "uniform", *values)
+    plan = sweep.Plan(designs.read(name) | tables, (variation,), ANGLES[5:6], 0, levels=2)
+    words = _words(sweep.solve(plan, 0))[:, 0]
+    for value, word in zip(values, words, strict=True):
+        try:
+            expected = Drive.from_tables(designs.changed(plan.tables, {key: value})).tca(plan.angles).status[0]
+        except DesignError:
+            expected = "bad_input"
+        assert word == expected
+    assert set(words) <= {"converged", "bad_input"}
+
+
 def test_a_sample_that_is_no_design_is_bad_input_and_the_others_are_solved():
     """A negative module is out of its domain; without an offset there is no pitch point."""
     for name, variation, bad in (
@@ -123,6 +206,13 @@ def test_a_key_that_is_not_free_is_refused(key):
     plan = sweep.Plan(designs.read("plain-zn"), (sweep.Variation(key, "uniform", 19.0, 21.0),), ANGLES, 1)
     with pytest.raises(DesignError, match=key.partition(".")[2]):
         sweep.check(plan)
+
+
+def test_the_levels_of_a_range_include_its_ends():
+    variation = sweep.Variation("misalignment.axial_mm", "uniform", 0.1, 0.3)
+    assert variation.levels(np.arange(3), 3) == pytest.approx([0.1, 0.2, 0.3], abs=1e-16)
+    assert variation.levels(np.arange(3), 3)[-1] == 0.3
+    assert sweep.Variation("", "normal", 1.0, 2.0).levels(np.arange(3), 3).tolist() == [-5.0, 1.0, 7.0]
 
 
 def test_portable_rows_agree_to_round_off_and_are_another_sweep():
@@ -167,12 +257,12 @@ def test_a_killed_process_leaves_no_part_of_a_slice(tmp_path):
     process.kill()
     process.wait()
     for path in tmp_path.glob("s/slice-*.parquet"):
-        assert len(sweep.read_slice(path, ["sample"])[0]) % 41 == 0
+        assert len(slices.read(path, ["sample"])[0]) % 41 == 0
     again = subprocess.run(command, capture_output=True, text=True, check=True)
     assert json.loads(again.stdout)["points"] == 60000 * 41
     assert not list(tmp_path.glob("s/.*"))
     assert again.stderr == ""  # no progress bar outside a terminal
-    samples = np.concatenate([sweep.read_slice(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    samples = np.concatenate([slices.read(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
     assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, 41))
 
 
@@ -190,6 +280,49 @@ def test_quantiles_are_those_of_the_samples(tmp_path):
     peaks = np.ptp(rows.error / ARCSEC, axis=1)
     assert summary["peak_to_peak_arcsec"][0] == pytest.approx(peaks.min())
     assert summary["peak_to_peak_arcsec"][4] == pytest.approx(np.median(peaks))
+
+
+def test_slices_are_begun_as_others_end(tmp_path, monkeypatch):
+    """A sweep of many slices begins at once and can be stopped: it holds none of them ready."""
+    monkeypatch.setattr(sweep, "SLICE_POINTS", 11)
+    monkeypatch.setattr(sweep, "write_slice", lambda plan, folder, number, form: begun.append(number))
+    begun = []
+
+    def stop():
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run(_plan(samples=100_000), tmp_path, threads=2, advance=stop)
+    assert len(begun) <= 4
+
+
+def test_another_compiled_drive_is_another_sweep(monkeypatch):
+    """A sweep is not resumed with another model, or by another version: its rows would not be of one kind."""
+    plan = _plan()
+    known = {plan.identity}
+    for key in ("specification_hash", "generator"):
+        description = Drive.from_tables(plan.tables).design.description
+        monkeypatch.setitem(description, key, "another")
+        known.add(plan.identity)
+    assert len(known) == 3
+
+
+def test_a_damaged_mark_is_named(tmp_path):
+    sweep.run(_plan(samples=2), tmp_path / "s")
+    mark = tmp_path / "s" / "sweep.json"
+    mark.write_bytes(mark.read_bytes()[:40])
+    with pytest.raises(UsageError, match=r"sweep\.json: is damaged; remove"):
+        sweep.run(_plan(samples=2), tmp_path / "s")
+
+
+def test_without_the_extra_csv_is_written_and_parquet_says_what_to_install(tmp_path, monkeypatch):
+    expected = sweep.run(_plan(samples=2), tmp_path / "parquet")
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
+    assert sweep.run(_plan(samples=2), tmp_path / "csv", form="csv") == expected
+    with pytest.raises(UsageError, match=r"pyarrow is not installed; `pip install 'meshwright\[sweep\]'`"):
+        sweep.run(_plan(samples=2), tmp_path / "other")
+    assert not (tmp_path / "other").exists()
 
 
 def test_a_folder_of_another_sweep_is_left_alone(tmp_path):
@@ -235,5 +368,5 @@ def test_a_killed_dask_worker_loses_nothing(tmp_path):
         summary = sweep.run(plan, tmp_path / "s", scheduler=cluster.scheduler_address, advance=kill)
     assert len(killed) == 2
     assert summary["points"] == 60000 * len(ANGLES)
-    samples = np.concatenate([sweep.read_slice(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    samples = np.concatenate([slices.read(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
     assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, len(ANGLES)))

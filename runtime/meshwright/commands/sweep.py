@@ -1,6 +1,7 @@
 """Trace one design under many misalignments and parameter values.
 
-Rows go to slices in a folder; an interrupted sweep goes on where it stopped. Exit status 1 if a point did not converge.
+Rows go to slices in a folder, whose sweep.json names statuses and flags; an interrupted sweep goes on where it stopped.
+Exit status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
 """
 
 import math
