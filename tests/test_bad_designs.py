@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from meshwright import DesignError, Drive, UsageError, design
+from meshwright.analysis import LARGEST_ANGLE
 from meshwright.cli import main
 
 CASES = [
@@ -104,7 +105,7 @@ def test_the_command_line_answers_bad_input_with_status_two_and_no_traceback(arg
 @pytest.mark.parametrize("angles", [[float("nan")], [0.0, float("inf")], [-1e9], [[0.0, 1.0]]])
 @pytest.mark.parametrize("analysis", [Drive.tca, Drive.trace])
 def test_angles_that_cannot_be_traced_are_refused(analysis, angles):
-    with pytest.raises(UsageError, match="angles: .*; give none beyond 1e.06 rad"):
+    with pytest.raises(UsageError, match=f"angles: .*; give none beyond {LARGEST_ANGLE:g} rad"):
         analysis(Drive.load("plain-zi"), angles)
 
 
