@@ -216,6 +216,11 @@ def status_codes(*words):
     return [code for code, word in statuses().items() if word in words]
 
 
+def status_text(word):
+    """What a status word means, in a sentence."""
+    return text(library().mw_status_text(status_codes(word)[0]))
+
+
 def flag_names(m):
     """Names of a model's flags, from the lowest bit."""
     names = []

@@ -7,7 +7,7 @@ import numpy as np
 
 from meshwright.pairs import Mesh
 from meshwright.placement import placements
-from meshwright.transmission import envelopes
+from meshwright.transmission import ROUND_OFF, envelopes
 
 #: Samples of one pitch.
 SAMPLES = 64
@@ -38,6 +38,13 @@ def backlash(drive):
     tooth = drive.pitch() * drive.ratio
     least = float(np.min(play)) if np.isfinite(play).all() else math.nan
     return least - tooth * round(least / tooth) if math.isfinite(least) else least
+
+
+def meaning(backlash):
+    """What a backlash (rad) says of the drive, in words."""
+    if abs(backlash) < ROUND_OFF:
+        return "the teeth just fill the spaces"
+    return "wheel angle between the flanks" if backlash > 0.0 else "negative: the drive jams"
 
 
 def _both_flanks(drive):

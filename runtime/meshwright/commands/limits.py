@@ -1,6 +1,7 @@
 """Undercut lines, edges of regression, limit points of contact, meshing axes and branch points."""
 
 from meshwright.commands import options as common
+from meshwright.commands.shown import shown
 from meshwright.errors import UsageError
 from meshwright.files import write_json, write_text
 from meshwright.limits import Request
@@ -51,4 +52,4 @@ def _cell(value):
         return " ".join(f"{key} {_cell(inner)}" for key, inner in value.items())
     if isinstance(value, list):
         return "(" + ", ".join(map(_cell, value)) + ")"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return shown(value) if isinstance(value, float) else str(value)

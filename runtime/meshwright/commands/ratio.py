@@ -7,10 +7,14 @@ import math
 
 import numpy as np
 
+from meshwright.analysis import status_text
+from meshwright.backlash import meaning
 from meshwright.commands import options as common
+from meshwright.commands.shown import shown
+from meshwright.ends import why_open
 from meshwright.files import write_json, write_text
 from meshwright.results import ARCSEC
-from meshwright.transmission import fourier
+from meshwright.transmission import ROUND_OFF, fourier
 
 #: Tooth orders of the Fourier components that are written.
 ORDERS = 8
@@ -29,7 +33,7 @@ def run(options):
     if options.json:
         write_json(options.json, contents)
     else:
-        write_text("-", _page(drive, contents))
+        write_text("-", _page(drive, found, contents))
     return 0 if found.mesh.window.complete else 1
 
 
@@ -104,36 +108,52 @@ def _number(value):
     return float(value) if math.isfinite(value) else None
 
 
-def _page(drive, contents):
-    error, average = contents["transmission_error"], contents["average_contact_teeth"]
-    transfers = error["transfer_angles_deg"] or [None]
-    rows = [
-        ("contact begins at", *_at(contents["begin"])),
-        ("contact ends at", *_at(contents["end"])),
-        ("contact ratio", _shown(contents["contact_ratio"], "")),
-        ("teeth in contact, over one pitch", _shown(average["over_one_pitch"], "")),
-        ("teeth in contact, begin to end", _shown(average["begin_to_end"], "")),
-        ("transmission error of a pair", _shown(error["pair_peak_to_peak_arcsec"], "arcsec peak to peak")),
-        ("  of the drive", _shown(error["envelope_peak_to_peak_arcsec"], "arcsec peak to peak"),
-         f"{error['envelope'] or 'no'} envelope"),
-        ("  of the drive, edges included", _shown(error["envelope_with_edges_peak_to_peak_arcsec"], "arcsec")),
-        ("  of the other envelope", _shown(error["other_envelope_peak_to_peak_arcsec"], "arcsec peak to peak")),
-        ("pairs change at", ", ".join(_shown(a, "deg") for a in transfers)),
-        ("vertex at", _shown(error["vertex_deg"], "deg")),
-        ("backlash", _shown(contents["backlash_arcsec"], "arcsec of the wheel")),
-    ]  # fmt: skip
+def _page(drive, found, contents):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
-    if contents["status"] != "converged":
-        lines.append(f"no path of contact points: {contents['status']}")
-    lines += [f"{name:<34} {', '.join(values)}" for name, *values in rows]
-    if error["rides_on_edge"]:
+    if found.status == "line_contact":
+        lines.append(f"no path of contact points: {status_text(found.status)}")
+    if why := why_open(found.mesh):
+        lines.append(f"no complete window of contact: {why}")
+    lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
+    if contents["transmission_error"]["rides_on_edge"]:
         lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")
     return "\n".join(lines) + "\n"
 
 
+def _rows(found, contents):
+    """Name, value and remark of each line."""
+    error, average = contents["transmission_error"], contents["average_contact_teeth"]
+    transfers = error["transfer_angles_deg"] or [None]
+    return [
+        ("contact begins at", *_at(contents["begin"])),
+        ("contact ends at", *_at(contents["end"])),
+        ("contact ratio", shown(contents["contact_ratio"])),
+        ("teeth in contact, over one pitch", shown(average["over_one_pitch"])),
+        ("teeth in contact, begin to end", shown(average["begin_to_end"])),
+        ("transmission error of a pair", _arcsec(error["pair_peak_to_peak_arcsec"], "peak to peak"), _constant(found)),
+        ("  of the drive", _arcsec(error["envelope_peak_to_peak_arcsec"], "peak to peak"),
+         f"{error['envelope'] or 'no'} envelope"),
+        ("  of the drive, edges included", _arcsec(error["envelope_with_edges_peak_to_peak_arcsec"])),
+        ("  of the other envelope", _arcsec(error["other_envelope_peak_to_peak_arcsec"], "peak to peak")),
+        ("pairs change at", ", ".join(shown(a, "deg") for a in transfers)),
+        ("vertex at", shown(error["vertex_deg"], "deg")),
+        ("backlash", _arcsec(contents["backlash_arcsec"], "of the wheel"), _backlash(found)),
+    ]  # fmt: skip
+
+
 def _at(event):
-    return _shown(event["pinion_angle_deg"], "deg"), " of the ".join(filter(None, (event["event"], event["member"])))
+    return shown(event["pinion_angle_deg"], "deg"), " of the ".join(filter(None, (event["event"], event["member"])))
 
 
-def _shown(value, unit):
-    return "–" if value is None else f"{value:.6g} {unit}".strip()
+def _arcsec(value, of=""):
+    return shown(value, f"arcsec {of}".strip(), ROUND_OFF / ARCSEC)
+
+
+def _constant(found):
+    error = found.transmission_error
+    return "constant to round-off" if error and error.pair_peak_to_peak < ROUND_OFF else ""
+
+
+def _backlash(found):
+    """A remark on a backlash that is not an ordinary one."""
+    return meaning(found.backlash) if found.backlash < ROUND_OFF else ""

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.backlash import meaning
+from meshwright.ends import event, why_open
 from meshwright.report import words
 from meshwright.report.numbers import fixed, number
 from meshwright.results import ARCSEC, impossible
@@ -67,10 +69,8 @@ def _error_tile(running):
 
 
 def _backlash_tile(backlash):
-    if abs(backlash) < ROUND_OFF:
-        return Tile("Backlash", "0", "arcsec", "the teeth just fill the spaces")
-    note = "wheel angle between the flanks" if backlash > 0.0 else "negative: the drive jams"
-    return Tile("Backlash", number(backlash / ARCSEC, 4), "arcsec", note)
+    value = 0.0 if abs(backlash) < ROUND_OFF else backlash / ARCSEC
+    return Tile("Backlash", number(value, 4), "arcsec", meaning(backlash))
 
 
 def _range(values):
@@ -101,15 +101,13 @@ def findings(analysis):
 def _window(analysis):
     if analysis.running is None:
         return []
-    window = analysis.running.mesh.window
-    said = []
-    for name, end in (("begins", window.begin), ("ends", window.end)):
-        if end.exists:
-            limit = words.event(end.reason, end.member)
-            said.append(Finding("note", f"Contact {name} at {_deg(end.angle, 3)} of the pinion, at {limit}."))
-        else:
-            said.append(Finding("note", f"Nothing in the design limits where contact {name}: no limit is given there."))
-    return said
+    window, why = analysis.running.mesh.window, why_open(analysis.running.mesh)
+    said = [
+        Finding("note", f"Contact {name} at {_deg(end.angle, 3)} of the pinion, at {event(end.reason, end.member)}.")
+        for name, end in (("begins", window.begin), ("ends", window.end))
+        if end.exists
+    ]
+    return said + ([Finding("note", f"{why[0].upper()}{why[1:]}.")] if why else [])
 
 
 def _deg(angle, decimals):

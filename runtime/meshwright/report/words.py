@@ -1,4 +1,4 @@
-"""Events, flags and limits of validity in plain words."""
+"""Flags and limits of validity in plain words."""
 
 #: What each flag of a contact point means, for a reader.
 FLAGS = {
@@ -11,19 +11,6 @@ FLAGS = {
     "off_face": "the point lies outside a face",
     "off_tool": "the point lies beyond the end of the cutting tool",
     "edge_contact": "an edge of a tooth touches, not its flank",
-}
-
-#: What each event at the end of a contact window means.
-EVENTS = {
-    "tip": "the tip",
-    "throat": "the throat",
-    "face": "the end of the face",
-    "root": "the root",
-    "tool_end": "the end of the cutting tool",
-    "undercut": "an undercut line",
-    "regression": "an edge of regression",
-    "fold": "a fold, where the branch of contact turns back",
-    "none": "nothing in the design",
 }
 
 #: What the numbers of every report leave out.
@@ -43,9 +30,3 @@ VALIDITY = (
 def flag(word):
     """A flag in words."""
     return FLAGS.get(word, word.replace("_", " "))
-
-
-def event(reason, member):
-    """An event in words: what limits contact."""
-    what = EVENTS.get(reason, reason.replace("_", " "))
-    return f"{what} of the {member}" if member and reason in ("tip", "throat", "face", "root") else what

@@ -1,0 +1,65 @@
+"""What the commands print for a reader: round-off is no figure, and what is missing has its cause and its remedy."""
+
+import json
+
+import pytest
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.commands.shown import ROUND_OFF, shown
+from meshwright.ends import why_open
+from meshwright.pairs import Mesh
+
+
+def _printed(capsys, *arguments):
+    main(list(arguments))
+    return capsys.readouterr().out
+
+
+def _line(text, name):
+    return next(line for line in text.splitlines() if line.strip().startswith(name))
+
+
+def test_a_constant_transmission_error_and_full_teeth_are_zeros_in_words_and_full_numbers_in_json(capsys):
+    """The rack that cuts both spur gears leaves no backlash and transmits uniformly."""
+    text = _printed(capsys, "ratio", "spherical-table-3-1-spur")
+    assert _line(text, "transmission error of a pair").endswith(" 0 arcsec peak to peak, constant to round-off")
+    assert _line(text, "backlash").endswith(" 0 arcsec of the wheel, the teeth just fill the spaces")
+    exact = json.loads(_printed(capsys, "ratio", "spherical-table-3-1-spur", "--json", "-"))
+    assert 0.0 < exact["transmission_error"]["pair_peak_to_peak_arcsec"] < 1e-8
+
+
+def test_negative_backlash_says_that_the_drive_jams(capsys):
+    assert _line(_printed(capsys, "ratio", "plain-za"), "backlash").endswith(" of the wheel, negative: the drive jams")
+
+
+def test_limits_print_no_round_off(capsys):
+    """At a right angle the limit point of the second type lies in the worm's axial plane: y = z = 0."""
+    text = _printed(capsys, "limits", "zk-zn-90")
+    assert "point_mm (12, 0, 0)" in text
+    assert "e-1" not in text
+
+
+def test_a_number_above_round_off_is_kept():
+    assert (shown(2.0 * ROUND_OFF), shown(-0.5 * ROUND_OFF), shown(None)) == ("2e-09", "0", "–")
+
+
+def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys):
+    line = _line(_printed(capsys, "ratio", "zk-zn-60"), "no complete window")
+    assert "begins or ends" in line and "[blank]: wheel_tip_radius_mm, wheel_throat_radius_mm" in line
+
+
+def test_contact_beyond_a_limit_everywhere_names_the_limit():
+    """At a shaft angle of 120° the wheel is larger than the blank that was meant for 90°."""
+    mesh = Mesh.of(Drive.load("plain-zk").with_(design={"shaft_angle_deg": 120.0}))
+    assert "beyond the throat of the wheel; change [blank]" in why_open(mesh)
+
+
+def test_teeth_that_do_not_reach_each_other_say_so():
+    mesh = Mesh.of(Drive.load("spherical-table-3-1-spur").with_(misalignment={"center_distance_mm": 20.0}))
+    assert why_open(mesh).startswith("the flanks do not touch")
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-2-1"])
+def test_a_complete_window_needs_no_reason(name):
+    assert why_open(Mesh.of(Drive.load(name))) is None
