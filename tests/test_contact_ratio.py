@@ -164,3 +164,14 @@ def test_the_papers_limits_can_be_asked_for_by_name():
     for key in ("wheel_tip_radius_mm", "hob_tip_addendum_mm"):
         assert first.design.value(key, "blank") == pytest.approx(second.design.value(key, "blank"), abs=1e-8)
     assert first.contact_ratio().contact_ratio == pytest.approx(second.contact_ratio().contact_ratio, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("vertical", "word"),
+    [(-0.074, "converged"), (-0.0765, "no_contact"), (-0.0795, "no_contact"), (-0.082, "no_contact")],
+)
+def test_teeth_past_the_tips_do_not_touch_however_far_off_their_path_is(vertical, word):
+    """Misalignment moves the path of these teeth past the tip, and at last all of it away from angle 0."""
+    drive = Drive.load("recess-action-full")
+    drive = drive.with_(misalignment={"center_distance_mm": 0.02, "vertical_deg": vertical})
+    assert set(drive.tca(np.radians([-1000.0, -900.0])).status) == {word}

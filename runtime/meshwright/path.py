@@ -15,6 +15,9 @@ from meshwright.analysis import analyse
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
 
+#: Where a path is looked for to either side of angle 0, in pitches: misalignment may have moved the contact far away.
+TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
+
 #: Half the angle by which a member is turned to read off the velocity of rotation: (r(+h) − r(−h))/(2 sin h) is exact.
 TURN = 0.5
 
@@ -44,8 +47,8 @@ class Path:
 
     @classmethod
     def start(cls, drive):
-        """The path through the solvable angle nearest to 0, None if there is none within a pitch; and a status word."""
-        tried = np.arange(9) / 8.0 * drive.pitch()
+        """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
+        tried = TRIED * drive.pitch()
         first = None
         for angle in np.stack([tried, -tried], axis=1).ravel()[1:]:
             found = analyse(drive, np.array([-angle if drive.design.mirrored else angle]))
