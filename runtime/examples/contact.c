@@ -7,7 +7,7 @@
 int main(void)
 {
     const double degree = 3.141592653589793 / 180.0;
-    double p[X(NP)], s[X(NS)], x[X(NX)] = { 6.05, -6.98, 6.05, 0.0165, 0.0 };
+    double p[X(NP)], s[X(NS)], y[X(NSTART)], x[X(NX)];
     for (int k = 0; k < X(NP); k++) p[k] = NAN; /* open: filled in by rules and defaults */
     p[1] = 2.0;            /* normal module, mm */
     p[3] = 1.0;            /* threads */
@@ -19,6 +19,8 @@ int main(void)
     X(derive)(p);
     if (X(setup)(p, s)) return 2;
     X(set_phi)(s, 7.0);    /* worm angle, rad */
+    X(guess)(s, y);
+    X(start_solution)(s, y, x); /* start values in the middle of the flanks */
     int steps = 0;
     while (X(step)(s, x) > 1e-9)
         if (++steps == 50) return 1;
