@@ -175,3 +175,18 @@ def test_teeth_past_the_tips_do_not_touch_however_far_off_their_path_is(vertical
     drive = Drive.load("recess-action-full")
     drive = drive.with_(misalignment={"center_distance_mm": 0.02, "vertical_deg": vertical})
     assert set(drive.tca(np.radians([-1000.0, -900.0])).status) == {word}
+
+
+def test_a_contact_ratio_of_flanks_that_cut_into_each_other_says_so(capsys):
+    """At 60 degrees this worm's contact is one of the equations alone; as it is published, bodies can make it."""
+    command = ["ratio", "plain-zk", "--json", "-", "--set"]
+    assert main([*command, "design.shaft_angle_deg=60"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert found["impossible"] == ["interference"]
+    assert found["end"]["event"] == "fold"  # up to which the pair has a transmission error
+    assert found["transmission_error"]["pair_peak_to_peak_arcsec"] > 1.0
+    assert None not in [distance for teeth in found["contact_teeth"] for distance in teeth["separations_mm"]]
+    assert main(["ratio", "plain-zk", "--set", "design.shaft_angle_deg=60"]) == 1
+    assert "bodies cannot make this contact everywhere from begin to end: interference" in capsys.readouterr().out
+    assert main([*command, "design.shaft_angle_deg=90"]) == 0
+    assert json.loads(capsys.readouterr().out)["impossible"] == []

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from meshwright import analysis, results
 from meshwright.backlash import backlash
 from meshwright.pairs import Mesh
 from meshwright.transmission import TransmissionError, transmission_error
@@ -14,7 +15,8 @@ class ContactRatio:
 
     ``begin`` and ``end`` in the order in which the driving pinion turns. ``status`` is the status word of the path of
     contact; without one there is no ``transmission_error``. ``backlash`` is an angle of the wheel, negative where the
-    drive jams. ``mesh`` answers for any angle which pairs touch.
+    drive jams. ``mesh`` answers for any angle which pairs touch. ``impossible`` are the flags of points between begin
+    and end that bodies cannot make: the figures are then those of the equations alone.
     """
 
     begin: Event
@@ -26,6 +28,7 @@ class ContactRatio:
     transmission_error: TransmissionError | None
     backlash: float
     mesh: Mesh
+    impossible: tuple[str, ...]
 
 
 def contact_ratio(drive):
@@ -42,4 +45,16 @@ def contact_ratio(drive):
         transmission_error=None if window.path is None else transmission_error(mesh),
         backlash=backlash(drive),
         mesh=mesh,
+        impossible=_impossible(drive, window),
     )
+
+
+def _impossible(drive, window):
+    """Flags that points between the ends of a window carry and that mark what bodies cannot make."""
+    path = window.path
+    if path is None:
+        return ()
+    lower, upper = window.bounds
+    inside = (path.angles >= lower) & (path.angles <= upper)
+    found = analysis.at_solutions(drive, path.angles[inside], path.unknowns[inside])
+    return tuple(dict.fromkeys(f for flags in found.flags for f in flags if results.impossible(f)))

@@ -18,6 +18,9 @@ NODES_PER_PITCH = 16
 #: Where a path is looked for to either side of angle 0, in pitches: misalignment may have moved the contact far away.
 TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
 
+#: A path that ends in a fold is followed up to this part of a pitch before it, and what is between counts as its end.
+SHORT_OF_FOLD = 1e-6
+
 #: Half the angle by which a member is turned to read off the velocity of rotation: (r(+h) − r(−h))/(2 sin h) is exact.
 TURN = 0.5
 
@@ -89,7 +92,7 @@ class Path:
 
     def solve(self, angles):
         """Unknowns (M, nx) at input angles (M,) in any order; NaN beyond the ends of the path."""
-        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        angles = self._reached(np.atleast_1d(np.asarray(angles, dtype=float)))
         solved = np.full((len(angles), self.unknowns.shape[1]), np.nan)
         nodes = np.clip(np.searchsorted(self.angles, angles), 1, len(self.angles)) - 1
         for k, angle in enumerate(angles):
@@ -98,6 +101,11 @@ class Path:
                 if len(x):
                     solved[k] = x[0]
         return solved
+
+    def _reached(self, angles):
+        """The angles; those hardly beyond an end of the path are that end."""
+        nearest = np.clip(angles, self.angles[0], self.angles[-1])
+        return np.where(np.abs(angles - nearest) <= 2.0 * SHORT_OF_FOLD * self.drive.pitch(), nearest, angles)
 
     def errors(self, angles):
         """Transmission error, rad, at input angles (M,)."""

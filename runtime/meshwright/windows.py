@@ -8,7 +8,7 @@ import numpy as np
 
 from meshwright.branch import fold_angle
 from meshwright.line_windows import line_ends
-from meshwright.path import Path
+from meshwright.path import SHORT_OF_FOLD, Path
 from meshwright.roots import bracketed
 
 #: Events are located to this angle, rad.
@@ -207,11 +207,12 @@ def _searched(path, limits):
 
 
 def _with_margin(path, ends):
-    """The path continued a pitch beyond either end if the branch goes so far: there neighbours are compared."""
+    """The path continued a pitch beyond either end, where neighbours are compared, or up to the fold that ends it."""
+    pitch = path.drive.pitch()
     for event, sign in zip(ends, (-1.0, 1.0), strict=True):
-        to = event.angle + sign * path.drive.pitch()
         side = -1 if sign > 0 else 0
-        if event.exists and not path.ended[side] and sign * path.angles[side] < sign * to:
+        to = event.angle + sign * pitch * (-SHORT_OF_FOLD if path.ended[side] else 1.0)
+        if event.exists and sign * path.angles[side] < sign * to:
             path = path.extended(to)
     return path
 

@@ -1,6 +1,7 @@
 """Contact ratio: where a pair's contact begins and ends and why, teeth in contact, transmission error, backlash.
 
-Exit status 1 if begin or end does not exist; what does not exist is null.
+Exit status 1 if begin or end does not exist, or if bodies cannot make the contact between them; what does not exist is
+null.
 """
 
 import math
@@ -34,7 +35,7 @@ def run(options):
         write_json(options.json, contents)
     else:
         write_text("-", _page(drive, found, contents))
-    return 0 if found.mesh.window.complete else 1
+    return 0 if found.mesh.window.complete and not found.impossible else 1
 
 
 def document(drive, found, angles):
@@ -44,6 +45,7 @@ def document(drive, found, angles):
         "drive": drive.design.family,
         "design": drive.design.as_solved(),
         "status": found.status,
+        "impossible": list(found.impossible),
         "begin": _event(found.begin),
         "end": _event(found.end),
         "contact_ratio": _number(found.contact_ratio),
@@ -65,7 +67,7 @@ def _teeth(mesh, angle):
     entry = {"pinion_angle_deg": math.degrees(angle), "teeth": None, "separations_mm": []}
     if mesh.window.complete:
         entry["teeth"] = mesh.teeth_in_contact(angle)
-        entry["separations_mm"] = [pair.separation for pair in mesh.pairs(angle)]
+        entry["separations_mm"] = [_number(pair.separation) for pair in mesh.pairs(angle)]
     return entry
 
 
@@ -114,6 +116,8 @@ def _page(drive, found, contents):
         lines.append(f"no path of contact points: {status_text(found.status)}")
     if why := why_open(found.mesh):
         lines.append(f"no complete window of contact: {why}")
+    if found.impossible:
+        lines.append(f"bodies cannot make this contact everywhere from begin to end: {', '.join(found.impossible)}")
     lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
     if contents["transmission_error"]["rides_on_edge"]:
         lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")
