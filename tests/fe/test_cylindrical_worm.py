@@ -1,5 +1,7 @@
 """Thread, wheel teeth and semi-analytic contact of cylindrical worm drives."""
 
+import re
+
 import numpy as np
 import pytest
 from on_flank import distance_from_flank
@@ -16,7 +18,7 @@ from meshwright.fe.solids import gear_pair
 from tests.worm.hob_tip import Balls
 
 DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
-ANGLES = {"recess-action-full": np.radians(1200.0), "zk-zn-60": 0.2}
+ANGLES = {"recess-action-full": np.radians(1200.0), "zk-zn-60": 0.2, "plain-zn": 0.0}
 
 
 @pytest.fixture(scope="module", params=ANGLES)
@@ -104,10 +106,40 @@ def test_what_the_blank_leaves_open_is_said(capsys):
     assert "wheel_face_width_mm = " in capsys.readouterr().out
 
 
-def test_face_beyond_the_hob_is_refused(capsys):
-    """At 90 degrees the hob's flank ends within a face of 23 mm."""
-    assert main(["loaded", "zk-zn-90", "--torque-nm", "20", "--set", "blank.wheel_face_width_mm=23"]) == 2
-    assert "blank.wheel_face_width_mm" in capsys.readouterr().err
+@pytest.mark.parametrize("name", ["plain-za", "plain-zc", "plain-zi", "plain-zk", "plain-zn"])
+def test_tip_of_a_wide_wheel_is_that_of_its_blank(name):
+    """Throat and outside cylinder, though at the faces the tooth is lower than the middle of its flank at mid face."""
+    drive = completed(Drive.load(name))[0]
+    value = drive.design.value
+    distance, throat = value("center_distance_mm"), value("wheel_throat_radius_mm", "blank")
+    sections = np.linspace(-16.0, 16.0, 17)
+    to_throat = distance - np.sqrt((distance - throat) ** 2 - sections**2)
+    wanted = np.minimum(to_throat, value("wheel_tip_radius_mm", "blank"))
+    form = gear_pair(drive).wheel.tooth(0.0)
+    for side in (form.left, form.right):
+        tip = side.flank.points(sections, side.flank.last(sections)[:, None])[:, 0]
+        assert np.hypot(*tip[:, :2].T) == pytest.approx(wanted, abs=1e-8)
+
+
+@pytest.mark.parametrize(("name", "width"), [("zk-zn-90", 23.0), ("plain-za", 36.0)])
+def test_face_beyond_the_hob_is_refused_with_the_widest_one(capsys, name, width):
+    """The hob's flank ends within these faces; the width named in the remedy can be had."""
+    assert main(["loaded", name, "--torque-nm", "20", "--set", f"blank.wheel_face_width_mm={width}"]) == 2
+    message = capsys.readouterr().err
+    assert f"blank.wheel_face_width_mm = {width}" in message
+    widest = float(re.search(r"at most ([\d.]+)", message)[1])
+    assert 0.5 * width < widest < width
+    form = gear_pair(Drive.load(name).with_(blank={"wheel_face_width_mm": widest})).wheel.tooth(0.0)
+    assert form.faces == pytest.approx((-0.5 * widest, 0.5 * widest))
+
+
+@pytest.mark.parametrize(("tip", "said"), [(60.0, "no flank below the tip"), (90.0, "does not reach its tip")])
+def test_a_tip_off_the_flank_at_every_width_is_refused(capsys, tip, said):
+    """At 90 degrees the flank in the middle plane lies between these radii."""
+    blank = ["--set", f"blank.wheel_tip_radius_mm={tip}", "--set", "blank.worm_root_radius_mm=4"]
+    assert main(["loaded", "zk-zn-90", "--torque-nm", "20", *blank]) == 2
+    message = capsys.readouterr().err
+    assert said in message and "change blank.wheel_tip_radius_mm" in message
 
 
 @pytest.mark.parametrize("rounding", [1.2, 30.0])

@@ -23,7 +23,7 @@ from meshwright.fe.profile import Surface
 from meshwright.fe.rim import bore_radius, bored
 from meshwright.fe.rounding import Span
 from meshwright.fe.thread import SideName, ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
-from meshwright.fe.tooth import Teeth, ToothForm
+from meshwright.fe.tooth import Teeth, ToothForm, ToothSide
 
 _ADDENDUM, _CLEARANCE, _ROUNDING, _BEYOND_THROAT = 1.0, 0.2, 0.3, 0.5
 # Part used of the angle about the hob over which it cuts the wheel.
@@ -145,30 +145,61 @@ def _span(drive: Drive, member: str) -> Span:
 
 
 def wheel_teeth(drive: Drive, rim_thickness: float) -> Teeth:
-    """The wheel tooth of a drive with a whole blank; the rim ends at a bore below the root of the middle plane."""
+    """The wheel tooth of a drive with a whole blank; the rim ends at a bore below the root of the middle plane.
+
+    Raises DesignError where the hob leaves no whole tooth in the face, with the widest face in which it is found to do.
+    """
     value = drive.design.value
     half = 0.5 * value("wheel_face_width_mm", "blank")
-    point, normal = _contact(drive, "wheel")
-    working: SideName = "left" if point[0] * normal[1] > point[1] * normal[0] else "right"
-    try:
-        sides = {
-            name: hobbed_side(d, _span(d, "wheel"), (-half, half), _below_tip(d))
-            for name, d in ((working, drive), (opposite(working), _other(drive)))
-        }
-    except DesignError:
-        raise
-    except ValueError as error:
-        raise DesignError(
-            "blank.wheel_face_width_mm",
-            2.0 * half,
-            f"the hob leaves no whole tooth there: {error}",
-            "choose a smaller one",
-        ) from error
+    working, sides = _wheel_sides(drive)
     bore = bored(bore_radius(root_radii(drive)["wheel"], rim_thickness))
     next_tooth = about_z(-2.0 * np.pi / value("wheel_teeth"))
     form = ToothForm.repeated(sides["left"], sides["right"], (-half, half), next_tooth, bore)
     _check_land(form, drive)
     return Teeth(lambda angle: form, working)
+
+
+def _wheel_sides(drive: Drive) -> tuple[SideName, dict[SideName, ToothSide]]:
+    """The working side of the wheel and both sides by name."""
+    point, normal = _contact(drive, "wheel")
+    working: SideName = "left" if point[0] * normal[1] > point[1] * normal[0] else "right"
+    width = drive.design.value("wheel_face_width_mm", "blank")
+    try:
+        return working, {working: _hobbed(drive, width), opposite(working): _hobbed(_other(drive), width)}
+    except DesignError:
+        raise
+    except ValueError as error:
+        widest = _widest_face(drive, width)
+        remedy = f"choose at most {widest:g}, the widest face found whole" if widest else (
+            "no narrower face is found whole either: change blank.wheel_tip_radius_mm"
+        )
+        reason = f"the hob leaves no whole tooth there: {error}"
+        raise DesignError("blank.wheel_face_width_mm", width, reason, remedy) from error
+
+
+def _hobbed(drive: Drive, width: float) -> ToothSide:
+    """A side of the wheel between faces of a width in mm; raises ValueError where the hob leaves no whole one."""
+    drive = drive.with_(blank={"wheel_face_width_mm": width})
+    return hobbed_side(drive, _span(drive, "wheel"), (-0.5 * width, 0.5 * width), _below_tip(drive))
+
+
+def _widest_face(drive: Drive, width: float) -> float | None:
+    """Largest face width in mm, of three digits and less than a given one, that has whole sides; None: no width has."""
+    decimals = 2 - int(np.floor(np.log10(width)))
+
+    def whole(steps: int) -> bool:
+        try:
+            for side in (drive, _other(drive)):
+                _hobbed(side, round(steps * 10.0**-decimals, decimals))
+        except ValueError:
+            return False
+        return True
+
+    narrow, wide = 0, int(np.ceil(width * 10.0**decimals))
+    while wide - narrow > 1:
+        middle = (narrow + wide) // 2
+        narrow, wide = (middle, wide) if whole(middle) else (narrow, middle)
+    return round(narrow * 10.0**-decimals, decimals) if narrow else None
 
 
 def _check_land(form: ToothForm, drive: Drive) -> None:

@@ -104,11 +104,36 @@ class Line:
 
     def cusp(self) -> Floats:
         """Profile parameter (K,) in each section up to which a line that meets a cusp is regular."""
-        first = np.argmin(self.regular, axis=0)
-        inside, outside = self.profile[first - 1], self.profile[first]
+        return self._end_of(self.regular, lambda found: found.regular > 0.0)
+
+    def up_to(self, height: Callable[[Floats], Floats]) -> Floats:
+        """Profile parameter (K,) in each section at which a height (...,) of points (..., 3) first falls to zero.
+
+        Raises ValueError where the line ends before, or all of it is beyond.
+        """
+        def inside(found: FlankPoints) -> Bools:
+            return (found.regular > 0.0) & (height(found.points) > 0.0)
+
+        places = zip(self.profile, self.face, self.regular, strict=True)
+        held = np.stack([
+            regular & inside(self.generated(np.full_like(face, value), face)) for value, face, regular in places
+        ])
+        if not np.all(held.any(axis=0)):
+            raise ValueError("some section of its face has no flank below the tip")
+        found = self._end_of(held, inside)
+        if not np.all(np.abs(height(self.at(found).points)) < _ON_PLACE):
+            raise ValueError("the flank does not reach its tip in every section of its face")
+        return found
+
+    def _end_of(self, held: Bools, holds: Callable[[FlankPoints], Bools]) -> Floats:
+        """Last profile parameter (K,) in each section of the first run of places (P, K) that are held."""
+        first = np.argmax(held, axis=0)
+        beyond = np.arange(len(held))[:, None] > first
+        last = np.where(np.any(beyond & ~held, axis=0), np.argmax(beyond & ~held, axis=0) - 1, len(held) - 1)
+        inside, outside = self.profile[last], self.profile[np.minimum(last + 1, len(held) - 1)]
         for _ in range(_BISECTIONS):
             middle = 0.5 * (inside + outside)
-            good = self.at(middle).regular > 0.0
+            good = holds(self.at(middle))
             inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
         return inside
 

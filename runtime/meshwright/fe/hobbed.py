@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from meshwright.drive import Drive
 from meshwright.errors import DesignError
@@ -17,7 +18,7 @@ from meshwright.fe.followed import Generated, Line
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
-from meshwright.fe.rounding import Span, tip_line
+from meshwright.fe.rounding import Span
 from meshwright.fe.tooth import ToothSide
 from meshwright.surface import Flank, FlankPoints
 
@@ -40,8 +41,7 @@ def hobbed_side(
     wheel = _Hobbed.of(drive, span)
     inner, outer = (Line.follow(wheel.flank, values, span.middle, end, _STEPS) for end in (wheel.joint, span.tip))
     flank, fillet = inner.joined(outer), Line.follow(wheel.fillet, values, 0.0, wheel.turn, _STEPS)
-    whole = SectionCurves(flank.surface, _axial, constant(wheel.joint), constant(span.tip))
-    tip = tip_line(whole, values, (span.middle, span.tip), below_tip)
+    tip = CubicSpline(values, flank.up_to(below_tip))
     wheel.ends(values)  # now, rather than when a mesh asks for it
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),

@@ -54,7 +54,7 @@ def rounded_side(
     values = np.linspace(*faces, _SAMPLES)
     whole = SectionCurves(surface, section, constant(span.root), constant(span.tip))
     arcs = _Arcs(whole, outline)
-    tip = tip_line(whole, values, (span.middle, span.tip), outline.below_tip)
+    tip = _tip_line(whole, values, (span.middle, span.tip), outline.below_tip)
     joint = np.full_like(values, span.root)
     reaches = arcs.overlap(joint, values) < 0.0
     if reaches.any():
@@ -65,7 +65,7 @@ def rounded_side(
     return ToothSide(fillet, flank)
 
 
-def tip_line(
+def _tip_line(
     flank: SectionCurves, values: Floats, ends: tuple[float, float], below_tip: Callable[[Floats], Floats]
 ) -> CubicSpline:
     """Profile parameter between ``ends`` where a section meets the tip, for sections between the ``values`` (K,).
