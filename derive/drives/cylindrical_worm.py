@@ -191,7 +191,7 @@ SIZES = (
     ("wheel_pitch_radius_mm", r_2, "reference radius of the wheel"),
     ("wheel_helix_angle_deg", sp.pi / 2 - lam - Sigma, "helix angle of the wheel; positive: hand opposite to the worm"),
     ("groove_width_mm", groove_width, "normal width of the groove on the pitch cylinder"),
-    ("ratio", T_1 / T_2, "transmission ratio T1/T2"),
+    ("ratio", T_1 / T_2, "wheel turns per pinion turn T1/T2, the inverse of the gear ratio"),
 )  # fmt: skip
 
 

@@ -352,7 +352,7 @@ def _sizes(cutter):
         ("head_cutter_tilt_deg", tilt, "angle between the head-cutter's and the gear's axis"),
         ("flank_root_mm", cutter.junction, "u of the gear where the flank joins the rounding at its root"),
         ("fillet_angle_deg", cutter.fillet_end, "angle of the rounding, from the bottom of the space to the flank"),
-        ("ratio", ratio, "transmission ratio N1/N2"),
+        ("ratio", ratio, "wheel turns per pinion turn N1/N2, the inverse of the gear ratio"),
     )
 
 

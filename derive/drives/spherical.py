@@ -220,7 +220,8 @@ def _sizes(definitions, pinion, wheel):
             (f"{name}_edge_start_mm", sp.Integer(0), f"edge of the {name}'s cutter at the root of the gear"),
             (f"{name}_edge_end_mm", tooth.tool.edge_length, f"edge of the {name}'s cutter at the tip of the gear"),
         ]  # fmt: skip
-    return (*sizes, ("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "transmission ratio T1/T2"))
+    meaning = "wheel turns per pinion turn T1/T2, the inverse of the gear ratio"
+    return (*sizes, ("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, meaning))
 
 
 def _root_radius(tooth):

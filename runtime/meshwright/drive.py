@@ -65,7 +65,7 @@ class Drive:
 
     @property
     def ratio(self):
-        """Transmission ratio, pinion teeth over wheel teeth."""
+        """Wheel turns per pinion turn: pinion teeth over wheel teeth, the inverse of the gear ratio."""
         return self.design.sizes["ratio"]
 
     def pitch(self):

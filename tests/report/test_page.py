@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, cli
-from meshwright.report import analyse, page
+from meshwright.report import analyse, page, sensitivity_figures
 from meshwright.report.numbers import fixed, number, unit
 from meshwright.report.tables import groups
 from meshwright.results import ARCSEC
@@ -69,6 +69,37 @@ def test_every_derived_size_stands_in_the_tables_with_its_unit(name, paged, anal
     for key, value in analysed(name).drive.design.sizes.items():
         rows = [cells[k - 4 : k] for k, cell in enumerate(cells) if cell == key]
         assert any(number(value) in row and unit(key) in row for row in rows), key
+
+
+def test_a_choice_is_a_word_and_what_is_not_given_is_a_default(paged):
+    cells = Structure(paged("spherical-table-3-1-concave")).cells
+    rows = {key: cells[cells.index(key) - 4 : cells.index(key)] for key in ("limit", "separation_mm", "vertical_deg")}
+    assert rows["limit"][1:4:2] == ["tip", "default"]
+    assert rows["separation_mm"][1:4:2] == ["0.00632", "default"]
+    assert rows["vertical_deg"][1:4:2] == ["0", "default"]
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_page_speaks_of_one_gear_ratio_and_of_the_centre_distance(name, paged):
+    text = re.sub(r"<script.*?</script>", "", paged(name), flags=re.DOTALL)
+    assert '<div class="label">Gear ratio</div>' in text
+    assert "center distance" not in text
+
+
+def test_a_shift_that_is_round_off_is_zero_in_the_table_and_invisible_in_the_picture():
+    """Turning the axis of a convex pinion moves the contact along the faces, not across them."""
+    analysis = analyse(Drive.load("spherical-table-3-1-spur"), quiet)
+    assert {row[4] for row in groups(analysis)[0].tables[0].rows[1:]} == {"0"}
+    panels = sensitivity_figures.path(analysis).axes
+    assert all(np.ptp(axes.get_xlim()) >= 1e-3 * (1.0 - 1e-9) for axes in panels)
+
+
+def test_a_misalignment_without_contact_has_no_panel():
+    """A concave gear cannot be tilted about x in the convex one that fills it."""
+    analysis = analyse(Drive.load("spherical-table-2-1"), quiet)
+    untouched = [effect.key for effect in analysis.sensitivities if not effect.touches]
+    assert untouched == ["horizontal_deg"]
+    assert len(sensitivity_figures.error(analysis).axes) == len(analysis.sensitivities) - 1
 
 
 def test_text_of_the_design_is_escaped():

@@ -38,6 +38,7 @@ class Picture:
 def pictures(analysis):
     """The :class:`Picture` list of an analysis: those for which it has numbers."""
     solved, known = analysis.tca.solved.any(), np.isfinite(analysis.tca.error).any()
+    effects = analysis.sensitivities
     drawn = []
     if analysis.running is not None:
         drawn += [_DRIVE_ERROR, _TEETH]
@@ -48,9 +49,9 @@ def pictures(analysis):
         drawn.append(_SEMI_AXES)
     if analysis.running is not None and analysis.running.varies:
         drawn.append(_SPECTRUM)
-    if analysis.sensitivities and known:
+    if known and any(effect.touches for effect in effects):
         drawn.append(_SENSITIVITY_ERROR)
-    if analysis.sensitivities and solved:
+    if solved and any(effect.at_points for effect in effects):
         drawn.append(_SENSITIVITY_PATH)
     return drawn
 
@@ -169,14 +170,16 @@ def _spectrum(analysis):
 
 
 _PAIR_ERROR = Picture(
-    "transmission-error", "Transmission error", "Wheel angle less ratio times pinion angle, of one pair.", _pair_error
+    "transmission-error",
+    "Transmission error",
+    "Wheel angle less pinion angle over gear ratio, of one pair.",
+    _pair_error,
 )
 _DRIVE_ERROR = Picture(
     "transmission-error",
     "Transmission error of the pairs and of the drive",
-    "Wheel angle less ratio times pinion angle, less its value at the reference angle. The wheel follows the pair that "
-    "leads: the transmitted envelope. Dashed: of rigid teeth, whose edges go on "
-    "where a flank has ended.",
+    "Wheel angle less pinion angle over gear ratio, less its value at the reference angle. The wheel follows the pair "
+    "that leads: the transmitted envelope. Dashed: of rigid teeth, whose edges go on where a flank has ended.",
     _drive_error,
 )
 _TEETH = Picture(
@@ -202,14 +205,15 @@ _SENSITIVITY_ERROR = Picture(
     "sensitivity-transmission-error",
     "Change of the transmission error under misalignment",
     "Relative transmission error of one pair with one misalignment, less that of the design as given. The constant "
-    "offset is in the table below.",
+    "offset is in the table below. A misalignment under which no contact is found has no panel.",
     sensitivity_figures.error,
     wide=True,
 )
 _SENSITIVITY_PATH = Picture(
     "sensitivity-path",
     "Path of contact on the wheel under misalignment",
-    "With each misalignment alone, either way, on top of the design as given.",
+    "With each misalignment alone, either way, on top of the design as given. One under which no point touches "
+    "has no panel.",
     sensitivity_figures.path,
     wide=True,
 )

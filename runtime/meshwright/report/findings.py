@@ -35,7 +35,7 @@ class Finding:
 def tiles(analysis):
     """The headline numbers of an analysis."""
     teeth = f"teeth {analysis.teeth['pinion']} : {analysis.teeth['wheel']}"
-    shown = [Tile("Ratio", number(1.0 / analysis.drive.ratio), "", teeth)]
+    shown = [Tile("Gear ratio", number(1.0 / analysis.drive.ratio), "", teeth)]
     running = analysis.running
     if running is not None:
         mesh = running.mesh

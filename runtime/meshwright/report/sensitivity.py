@@ -10,7 +10,10 @@ from meshwright.results import TCA
 from meshwright.transmission import peak_to_peak
 
 #: Size and label of a misalignment that a workshop would call small, by the unit of its key.
-STEPS = {"mm": (0.01, "0.01 mm"), "deg": (1 / 60, "1′")}
+STEPS = {"mm": (0.01, "0.01\N{NO-BREAK SPACE}mm"), "deg": (1 / 60, "1′")}
+
+#: Shifts of a contact point below this are round-off, mm: a tenth of an atom.
+SHIFT_ROUND_OFF = 1e-8
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,16 @@ class Sensitivity:
     minus: TCA
     plus: TCA
     peak_to_peak: tuple[float, float]
+
+    @property
+    def touches(self):
+        """Whether the flanks touch on either side."""
+        return bool(np.isfinite([self.minus.error, self.plus.error]).any())
+
+    @property
+    def at_points(self):
+        """Whether they touch at a point on either side."""
+        return bool(self.minus.solved.any() or self.plus.solved.any())
 
     @property
     def error(self):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.report.numbers import fixed, number, title, unit
+from meshwright.report.sensitivity import SHIFT_ROUND_OFF
 from meshwright.results import ARCSEC
 from meshwright.sensitivity import sensitivity
 from meshwright.transmission import ROUND_OFF
@@ -28,12 +29,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Group:
-    """Tables under one heading."""
+    """Tables under one heading, one below the other or, where all are narrow, in ``columns``."""
 
     id: str
     title: str
     note: str
     tables: tuple[Table, ...]
+    columns: bool = False
 
 
 def groups(analysis):
@@ -59,10 +61,10 @@ def _design(design):
     ]
     tables.append(_keys("Derived sizes", sizes))
     note = (
-        "Values are in the unit of their key; derived ones follow from the given ones. Keys left open set no limit and "
-        "are not listed."
+        "Values are in the unit of their key; derived ones follow from the given ones, defaults stand where nothing is "
+        "given. Keys left open set no limit and are not listed."
     )
-    return Group("design", "Design and derived sizes", note, tuple(tables))
+    return Group("design", "Design and derived sizes", note, tuple(tables), columns=True)
 
 
 def _keys(heading, rows):
@@ -76,9 +78,16 @@ def _words(design):
 
 def _parameter(design, parameter):
     key, table = parameter["key"], parameter["table"]
-    given = design.tables[table].get(key) is not None
     value = design.value(key, table) / parameter["factor"]
-    return parameter["meaning"], number(value, 9), unit(key), "given" if given else "derived", key
+    words = {choice: word for word, choice in parameter["choices"].items()}
+    return parameter["meaning"], words.get(value, number(value, 9)), unit(key), _source(design, parameter), key
+
+
+def _source(design, parameter):
+    """Where the value of a parameter is from."""
+    if design.tables[parameter["table"]].get(parameter["key"]) is not None:
+        return "given"
+    return "derived" if parameter["default"] is None else "default"
 
 
 def _sensitivities(analysis):
@@ -113,9 +122,8 @@ def _slopes(drive, exact):
     for k, place in enumerate(exact.keys):
         parameter = entries[place]
         error, point = exact.error[0, k] * parameter["factor"], exact.points[0, k] * parameter["factor"]
-        shown = number(error / ARCSEC if not abs(error) < ROUND_OFF else 0.0, 4)
-        shifts = (number(v if not abs(v) < POSITION_ROUND_OFF else 0.0, 4) for v in point)
-        rows.append((parameter["meaning"], unit(parameter["key"]), shown, *shifts, place))
+        shifts = (_above(v, POSITION_ROUND_OFF) for v in point)
+        rows.append((parameter["meaning"], unit(parameter["key"]), _arcsec(error), *shifts, place))
     header = ("derivative by", "per", "transmission error, arcsec", "contact x, mm", "y, mm", "z, mm", "key")
     return Table("Exact derivatives at the same angle, fixed frame", header, tuple(rows), frozenset(range(2, 6)))
 
@@ -123,13 +131,23 @@ def _slopes(drive, exact):
 def _nominal(analysis):
     if analysis.running is None:
         return ""
-    return f", as designed {number(analysis.running.error.envelope_peak_to_peak / ARCSEC, 4)} arcsec"
+    return f", as designed {_arcsec(analysis.running.error.envelope_peak_to_peak)} arcsec"
 
 
 def _effect(analysis, effect, k):
-    shifts = [number(v, 4) for member in ("pinion", "wheel") for v in effect.shift(member)[k]]
-    peaks = [number(p / ARCSEC if not p < ROUND_OFF else 0.0, 4) for p in effect.peak_to_peak]
-    return (effect.meaning, effect.label, number(effect.error[k] / ARCSEC, 4), *shifts, *peaks)
+    shifts = [_above(v, SHIFT_ROUND_OFF) for member in ("pinion", "wheel") for v in effect.shift(member)[k]]
+    peaks = [_arcsec(p) for p in effect.peak_to_peak]
+    return (effect.meaning, effect.label, _arcsec(effect.error[k]), *shifts, *peaks)
+
+
+def _arcsec(angle):
+    """An angle (rad) in arcsec as text."""
+    return number(0.0 if abs(angle) < ROUND_OFF else angle / ARCSEC, 4)
+
+
+def _above(value, round_off):
+    """A number as text, 0 below ``round_off``."""
+    return number(0.0 if abs(value) < round_off else value, 4)
 
 
 def _positions(analysis):
