@@ -3179,7 +3179,7 @@ static const mw_name cylindrical_worm_zi_za_size_names[] = {
     { "wheel_pitch_radius_mm", "mm", "reference radius of the wheel", "wheel_pitch_radius_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "wheel_helix_angle_deg", "rad", "helix angle of the wheel; positive: hand opposite to the worm", "wheel_helix_angle_deg", "", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
     { "groove_width_mm", "mm", "normal width of the groove on the pitch cylinder", "groove_width_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
-    { "ratio", "", "transmission ratio T1/T2", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
+    { "ratio", "", "wheel turns per pinion turn T1/T2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
 static const mw_name cylindrical_worm_zi_za_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -5249,7 +5249,7 @@ static const mw_name face_worm_size_names[] = {
     { "head_cutter_tilt_deg", "rad", "angle between the head-cutter's and the gear's axis", "head_cutter_tilt_deg", "", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
     { "flank_root_mm", "mm", "u of the gear where the flank joins the rounding at its root", "flank_root_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "fillet_angle_deg", "rad", "angle of the rounding, from the bottom of the space to the flank", "fillet_angle_deg", "", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
-    { "ratio", "", "transmission ratio N1/N2", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
+    { "ratio", "", "wheel turns per pinion turn N1/N2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
 static const mw_name face_worm_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -2171,7 +2171,7 @@ static const mw_name spherical_convex_spur_size_names[] = {
     { "wheel_root_radius_mm", "mm", "root radius of the wheel at mid face", "wheel_root_radius_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "wheel_edge_start_mm", "mm", "edge of the wheel's cutter at the root of the gear", "wheel_edge_start_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "wheel_edge_end_mm", "mm", "edge of the wheel's cutter at the tip of the gear", "wheel_edge_end_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
-    { "ratio", "", "transmission ratio T1/T2", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
+    { "ratio", "", "wheel turns per pinion turn T1/T2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
 static const mw_name spherical_convex_spur_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
