@@ -1,6 +1,7 @@
 """Limits of worm drives: rack and pinion, limit points, meshing axes, undercut, edges of regression, pointed teeth."""
 
 import json
+import re
 
 import mpmath
 import numpy as np
@@ -288,3 +289,16 @@ def test_a_section_on_the_command_line(capsys):
     assert [p[2] for p in document["points_mm"]] == pytest.approx([1.5] * 5, abs=1e-11)
     assert main(["surface", "zk-zn-90", "--member", "wheel", "--section", "1.5", "--stl", "x.stl"]) == 2
     assert main(["surface", "zk-zn-45", "--member", "wheel", "--section", "1.5"]) == 2
+
+
+def test_a_radius_that_the_profile_does_not_reach_is_refused_with_those_it_does(capsys):
+    assert main(["limits", "zk-zn-90", "--radius-mm", "12,500"]) == 2
+    message = capsys.readouterr().err
+    assert "radius 500 mm: the hob's profile does not reach it; choose one from" in message
+    least, most = map(float, re.search(r"from (\S+) to (\S+) mm", message).groups())
+    assert main(["limits", "zk-zn-90", "--radius-mm", f"{1.001 * least},{0.999 * most}"]) == 0
+
+
+def test_no_undercut_at_a_position_is_not_no_undercut(capsys):
+    assert main(["limits", "zk-zn-90", "--axial-mm", "900"]) == 0
+    assert "undercut at the axial positions given: none" in capsys.readouterr().out

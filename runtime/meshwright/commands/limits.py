@@ -28,15 +28,16 @@ def run(options):
         document = {"schema": "meshwright.limits/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | found.plain())
     else:
-        write_text("-", _page(drive, found.plain()))
+        write_text("-", _page(drive, found.plain(), options.axial_mm))
     return 0
 
 
-def _page(drive, found):
+def _page(drive, found, axial):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
     for name, entries in found.items():
         if isinstance(entries, list):
-            lines.append(f"{name.replace('_', ' ')}: {len(entries) or 'none'}")
+            where = " at the axial positions given" if axial and name == "undercut" else ""
+            lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}")
             lines += [f"  {_line(entry)}" for entry in entries]
         elif entries is not None:
             lines.append(f"{name.replace('_', ' ')}: {_cell(entries)}")

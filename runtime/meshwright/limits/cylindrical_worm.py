@@ -28,6 +28,7 @@ def limits(drive, request):
     if request.section_y is not None:
         need_right_angle(drive)
     hob = Profile(drive, "hob")
+    _need_radii(hob, request.radii)
     found = Limits(
         undercut=_undercut(drive, hob, request),
         regression=tuple(_regression(drive)),
@@ -63,6 +64,16 @@ def need_right_angle(drive):
             f"section y: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
             " set design.cutting_shaft_angle_deg=90, or leave the section out"
         )
+
+
+def _need_radii(hob, radii):
+    """Raise :class:`~meshwright.errors.UsageError` for a radius that the hob's profile does not reach."""
+    for radius in radii:
+        if hob.at_radius(radius) is None:
+            least, most = hob.least_radius(), hob.largest_radius()
+            raise UsageError(
+                f"radius {radius:g} mm: the hob's profile does not reach it; choose one from {least:g} to {most:g} mm"
+            )
 
 
 def _right_angle(drive, hob, request):

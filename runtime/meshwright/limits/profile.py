@@ -101,3 +101,7 @@ class Profile:
     def least_radius(self):
         """Radius of the inner end."""
         return float(self.radius(self._sides[0]))
+
+    def largest_radius(self):
+        """Radius of the outer end, as far as it is searched."""
+        return float(self.radius(self._sides[-1]))
