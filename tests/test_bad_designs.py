@@ -102,6 +102,23 @@ def test_the_command_line_answers_bad_input_with_status_two_and_no_traceback(arg
     assert "Traceback" not in captured.err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [(["tca", "plain-zi", "--phi-deg="], "--phi-deg: an empty word"), (["tca", ""], "DESIGN: an empty word")],
+)
+def test_an_empty_word_is_named_as_it_was_typed(arguments, named, capsys):
+    assert main(arguments) == 2
+    assert named in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("value", "remedy"), [("277", "without quotes"), (True, "without quotes"), (277.5, "without a decimal point")]
+)
+def test_a_count_that_is_no_whole_number_gets_the_remedy_that_fits(value, remedy):
+    with pytest.raises(DesignError, match=f"design.wheel_teeth.*must be a whole number; .*{remedy}"):
+        Drive.load("recess-action-full").with_(design={"wheel_teeth": value})
+
+
 @pytest.mark.parametrize("angles", [[float("nan")], [0.0, float("inf")], [-1e9], [[0.0, 1.0]]])
 @pytest.mark.parametrize("analysis", [Drive.tca, Drive.trace])
 def test_angles_that_cannot_be_traced_are_refused(analysis, angles):

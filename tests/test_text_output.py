@@ -5,6 +5,7 @@ import json
 import pytest
 
 from meshwright import Drive
+from meshwright.backlash import backlash
 from meshwright.cli import main
 from meshwright.commands.shown import ROUND_OFF, shown
 from meshwright.ends import why_open
@@ -63,3 +64,14 @@ def test_teeth_that_do_not_reach_each_other_say_so():
 @pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-2-1"])
 def test_a_complete_window_needs_no_reason(name):
     assert why_open(Mesh.of(Drive.load(name))) is None
+
+
+def test_a_full_width_oversize_hob_takes_the_backlash_away_and_cutting_deeper_gives_it():
+    """Nothing is missing at the worm's own radius; what is missing beyond is regained by a smaller cutting distance."""
+    drive = Drive.load("plain-za")
+    radius = drive.design.value("worm_pitch_radius_mm")
+    over = [drive.with_(design={"hob_pitch_radius_mm": radius * (1.0 + share)}) for share in (0.0005, 0.001)]
+    assert backlash(over[0]) < 0.0
+    assert backlash(over[1]) == pytest.approx(2.0 * backlash(over[0]), rel=0.01)
+    distance = drive.design.value("cutting_center_distance_mm")
+    assert backlash(drive) < 0.0 < backlash(drive.with_(design={"cutting_center_distance_mm": distance - 0.02}))

@@ -65,12 +65,17 @@ def main(arguments=None):
 def _refuse_empty(options):
     for name, value in vars(options).items():
         if value == "":
-            raise UsageError(f"{name}: an empty word; give it a value or leave it out")
+            raise UsageError(f"{_as_typed(name)}: an empty word; give it a value or leave it out")
+
+
+def _as_typed(name):
+    """The name of an argument as the command line has it."""
+    return "DESIGN" if name == "design" else f"--{name.replace('_', '-')}"
 
 
 def _refuse_mixed(options):
     """Two results on one standard output could not be told apart."""
-    outputs = [f"--{name.replace('_', '-')} -" for name, value in vars(options).items() if value == "-"]
+    outputs = [f"{_as_typed(name)} -" for name, value in vars(options).items() if value == "-"]
     if len(outputs) > 1:
         raise UsageError(f"{' '.join(outputs)}: two results on standard output; name a file for one of them")
 

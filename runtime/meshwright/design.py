@@ -2,6 +2,7 @@
 
 import copy
 import difflib
+import hashlib
 import math
 import operator
 import re
@@ -55,7 +56,7 @@ def changed(tables, changes):
     return tables
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Design:
     """A checked design: the drive that solves it and its complete parameter vector (inner units).
 
@@ -67,6 +68,16 @@ class Design:
     parameters: np.ndarray
     sizes: dict
     mirrored: bool
+
+    @property
+    def label(self):
+        """Name, drive, flank and a digest of all parameters, in a line: equal designs have equal digests."""
+        name, drive = self.tables.get("name") or "design", self.description["name"]
+        digest = hashlib.sha256(self.parameters.tobytes()).hexdigest()[:12]
+        return f"{name} ({drive}, {self.tables['flank']} flank, {digest})"
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.label}>"
 
     @property
     def family(self):
@@ -166,7 +177,9 @@ def _first_error(family, problem):
         case "literal_error":
             return DesignError(key, value, "not one of the possible words", f"use {context['expected']}")
         case "int_type" | "int_from_float":
-            return DesignError(key, value, "must be a whole number", "write it without a decimal point")
+            point = isinstance(value, float)
+            remedy = "write it without a decimal point" if point else "write a whole number without quotes"
+            return DesignError(key, value, "must be a whole number", remedy)
         case "float_type":
             return DesignError(key, value, "must be a number", "write a number without quotes")
         case "model_type" | "model_attributes_type":

@@ -28,7 +28,7 @@ def _casadi(design):
 BACKENDS = {"c": _compiled, "casadi": _casadi}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Drive:
     """A checked design and the backend that solves it. Angles in rad, lengths in mm."""
 
@@ -57,6 +57,9 @@ class Drive:
                 changes[table] = entries
         given = _without_gaps(self.design.tables)
         return Drive.from_tables(designs.changed(given, changes), self.backend)
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
 
     @cached_property
     def model(self):

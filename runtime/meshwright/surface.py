@@ -27,7 +27,7 @@ class FlankPoints:
     conditions: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Flank:
     """The flank of one member of a drive; call it with parameters (…, k)."""
 
@@ -48,6 +48,14 @@ class Flank:
         known = [f"flank of {b['name']}" for b in description["bodies"]]
         known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
         raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.region} of the {self.body['name']} of {self.drive.design.label}>"
+
+    @property
+    def region(self):
+        """"flank", or another region of the member."""
+        return self.body.get("region", "flank")
 
     @cached_property
     def state(self):

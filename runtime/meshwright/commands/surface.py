@@ -30,7 +30,9 @@ def add_arguments(parser):
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.surface/1)")
     parser.add_argument("--vtu", metavar="FILE|-", help="write for ParaView")
     parser.add_argument("--stl", metavar="FILE|-", help="write triangles")
-    parser.add_argument("--step", metavar="FILE|-", help="write a B-spline surface and print its deviation")
+    parser.add_argument(
+        "--step", metavar="FILE|-", help="write a B-spline surface and print its deviation; needs the extra cad"
+    )
 
 
 def run(options):

@@ -13,6 +13,12 @@ from meshwright.report.numbers import fixed, number
 from meshwright.results import ARCSEC, impossible
 from meshwright.transmission import ROUND_OFF
 
+#: What negative backlash means, what commonly causes it, and what helps.
+_JAMS = (
+    "The teeth are thicker than the spaces (negative backlash): the drive jams. An oversize hob whose blade is as wide "
+    "as the worm's space leaves the wheel's teeth so; cutting deeper, or setting the members further apart, makes room."
+)
+
 
 @dataclass(frozen=True)
 class Tile:
@@ -146,7 +152,7 @@ def _error(analysis):
     if analysis.running.constant:
         said.append(Finding("note", "The transmission error is constant to round-off: the drive turns uniformly."))
     if analysis.running.backlash < -ROUND_OFF:
-        said.append(Finding("warn", "The teeth are thicker than the spaces (negative backlash): the drive jams."))
+        said.append(Finding("warn", _JAMS))
     if error.transfers:
         at = " and ".join(f"{_deg(a, 2)}" for a in error.transfers)
         said.append(Finding("note", f"Neighbouring pairs agree, so that one can take over from the other, at {at}."))
