@@ -8,6 +8,7 @@ file exists is done.
 import hashlib
 import json
 import os
+from collections import Counter
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from itertools import islice
@@ -29,6 +30,9 @@ MOST_POINTS = 10_000_000_000
 
 #: Slices handed to a cluster beforehand.
 AHEAD = 1000
+
+#: So many samples that are not complete are listed.
+FIRST = 20
 
 QUANTILES = (0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0)
 
@@ -248,25 +252,33 @@ def summary(plan, folder, form="parquet"):
     """Quantiles over the samples: peak-to-peak transmission error and mean contact position; counts of points.
 
     Points that bodies cannot make are counted apart; a sample with one of them, or without a contact, is not complete.
+    Of those that are not, the first are listed by number.
     """
     names = ["status", "flags", "transmission_error_arcsec", *(f"contact_{axis}_mm" for axis in "xyz")]
     n, bad = len(plan.angles), samples.impossible_bits(check(plan))
-    peaks, places, converged, impossible, points = [], [], 0, 0, 0
+    peaks, places, wholes, words, impossible = [], [], [], Counter(), 0
     for number in range(plan.slices):
         status, flags, error, *xyz = slices.read(_slice(folder, number, form), names)
         solved = np.isin(status, analysis.status_codes(*SOLVED))
         good = solved & ((flags.astype(np.uint32) & bad) == 0)
-        converged, impossible, points = converged + good.sum(), impossible + (solved & ~good).sum(), points + len(good)
+        words.update(status.tolist())
+        impossible += int((solved & ~good).sum())
         whole = good.reshape(-1, n).all(axis=1)
         peaks.append(np.ptp(error.reshape(-1, n)[whole], axis=1))
+        wholes.append(whole)
         places.append(np.stack([c.reshape(-1, n)[whole].mean(axis=1) for c in xyz], axis=1))
-    peaks, places = np.concatenate(peaks), np.concatenate(places)
+    peaks, places, whole = np.concatenate(peaks), np.concatenate(places), np.concatenate(wholes)
+    statuses, by_word = analysis.statuses(), Counter()
+    for code, count in words.items():
+        by_word[statuses[code]] += count
     return {
         "samples": plan.count,
         "samples_complete": len(peaks),
-        "points": points,
-        "points_converged": int(converged),
-        "points_impossible": int(impossible),
+        "first_incomplete_samples": np.flatnonzero(~whole)[:FIRST].tolist(),
+        "points": words.total(),
+        "points_converged": sum(by_word[word] for word in SOLVED) - impossible,
+        "points_impossible": impossible,
+        "points_by_status": dict(by_word),
         "quantiles": list(QUANTILES),
         "peak_to_peak_arcsec": _quantiles(peaks),
         "contact_position_mm": {axis: _quantiles(places[:, k]) for k, axis in enumerate("xyz")},

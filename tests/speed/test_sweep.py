@@ -136,6 +136,8 @@ def test_teeth_that_do_not_reach_each_other_have_no_contact_in_a_sweep_either(tm
         assert _words(_assert_judged_alike(plan)).tolist() == [["no_contact"] * 2, ["converged"] * 2]
     summary = sweep.run(plan, tmp_path / "s")
     assert (summary["points_converged"], summary["samples_complete"]) == (2, 1)
+    assert summary["points_by_status"] == {"converged": 2, "no_contact": 2}
+    assert len(summary["first_incomplete_samples"]) == 1
 
 
 def test_a_pair_that_runs_on_an_edge_is_flagged_in_a_sweep_too():
