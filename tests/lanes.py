@@ -2,13 +2,9 @@
 
 import numpy as np
 
-from meshwright._library import ffi, library
+from meshwright._library import ffi, library, pointer
 
 WIDTHS = (2, 4, 8)
-
-
-def pointer(array, kind="double[]"):
-    return ffi.from_buffer(kind, array)
 
 
 def available():

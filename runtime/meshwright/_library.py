@@ -80,9 +80,9 @@ def text(string):
     return ffi.string(string).decode()
 
 
-def pointer(array):
-    """A contiguous float array as a ``double *``."""
-    return ffi.from_buffer("double[]", array)
+def pointer(array, kind="double[]"):
+    """A contiguous array, of floats unless another kind is named, as C sees it."""
+    return ffi.from_buffer(kind, array)
 
 
 def model(name):

@@ -14,7 +14,7 @@ import numpy as np
 import pydantic
 
 from meshwright import metadata, schema
-from meshwright._library import ffi, library, model, text
+from meshwright._library import ffi, library, model, pointer, text
 from meshwright.errors import DesignError
 
 PACKAGED = Path(__file__).parent / "designs"
@@ -138,10 +138,10 @@ def check(tables):
     _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
-    p = ffi.from_buffer("double[]", parameters)
+    p = pointer(parameters)
     _complete(c, description, p, checked)
     state = np.empty(c.ns)
-    failed = c.setup(p, ffi.from_buffer("double[]", state))
+    failed = c.setup(p, pointer(state))
     if failed:
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
@@ -298,14 +298,14 @@ def has_rival(design, key):
 def _complete(c, description, p, checked):
     """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
     work, info = np.empty(c.np + 1), ffi.new("mw_info *")
-    failed = library().mw_complete(c, p, ffi.from_buffer("double[]", work), info)
+    failed = library().mw_complete(c, p, pointer(work), info)
     if failed:
         raise _guard_error(description["systems"][failed - 1], checked)
 
 
 def _sizes(c, parameters):
     numbers = np.empty(c.nd)
-    c.size(ffi.from_buffer("double[]", parameters), ffi.from_buffer("double[]", numbers))
+    c.size(pointer(parameters), pointer(numbers))
     names = (c.sizes[k] for k in range(c.nd))
     return {text(n.name): float(x) / n.factor for n, x in zip(names, numbers, strict=True)}
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from meshwright import analysis, edge, windows
 from meshwright import design as designs
-from meshwright._library import ffi, library
+from meshwright._library import ffi, library, pointer
 from meshwright.errors import DesignError
 from meshwright.pairs import Mesh
 from meshwright.path import NODES_PER_PITCH
@@ -52,12 +52,13 @@ class Batch:
         x, work = np.empty((count, n, m.nx)), np.empty(library().mw_lanes_work(self.lanes, m, n))
         status, flags = np.empty((count, n), dtype=np.int32), np.empty((count, n), dtype=np.uint32)
         library().mw_trace_designs(
-            self.lanes, m, _p(self.parameters), count, _p(angles), n, _p(start), _p(work), _p(x), _p(status, "int[]")
-        )
+            self.lanes, m, pointer(self.parameters), count, pointer(angles), n, pointer(start), pointer(work),
+            pointer(x), pointer(status, "int[]"),
+        )  # fmt: skip
         points, s, o = np.empty((count, n, 3)), np.empty(m.ns), np.empty(m.no)
         library().mw_contact_points(
-            m, _p(self.parameters), count, _p(angles), n, _p(x), _p(status, "int[]"), _p(s), _p(o), _p(points),
-            _p(flags, "unsigned int[]"),
+            m, pointer(self.parameters), count, pointer(angles), n, pointer(x), pointer(status, "int[]"), pointer(s),
+            pointer(o), pointer(points), pointer(flags, "unsigned int[]"),
         )  # fmt: skip
         error = np.where(status >= 0, x[..., self.drive.design.description["error"]], np.nan)
         return Points(status, error, points, flags)
@@ -208,7 +209,7 @@ def _parameters(drive, keys, values):
     if follows:
         work, info = np.empty(drive.model.np + 1), ffi.new("mw_info *")
         for k in np.flatnonzero(possible):
-            possible[k] = library().mw_complete(drive.model, _p(rows[k]), _p(work), info) == 0
+            possible[k] = library().mw_complete(drive.model, pointer(rows[k]), pointer(work), info) == 0
     rows[~possible] = np.nan
     return rows
 
@@ -225,7 +226,3 @@ def column(drive, key):
         if (p["table"], p["key"]) == (table, name) and designs.is_real(p):
             return k, p
     raise DesignError(key, None, "no real parameter of this drive", "`meshwright drives` lists the keys as table.key")
-
-
-def _p(array, kind="double[]"):
-    return ffi.from_buffer(kind, array)
