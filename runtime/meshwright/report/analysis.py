@@ -12,9 +12,10 @@ from meshwright.edge_contact import edge_paths
 from meshwright.pairs import Mesh
 from meshwright.pattern import Contour, along_ellipse, contour
 from meshwright.placement import placements
+from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
-from meshwright.results import TCA
+from meshwright.results import TCA, impossible
 from meshwright.transmission import ROUND_OFF, Envelopes, TransmissionError, envelopes, fourier, transmission_error
 
 #: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
@@ -75,7 +76,7 @@ class Analysis:
     ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``pattern`` is at some of them. ``lines`` (N)
     exist only where the flanks touch along lines. They, the ``matrices`` (N, 4, 4) that place the members' frames in
     the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
-    flanks touch along lines or not at all.
+    flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch.
     """
 
     drive: Drive
@@ -87,6 +88,7 @@ class Analysis:
     matrices: dict[str, np.ndarray]
     patches: dict[str, Patch]
     sensitivities: tuple[Sensitivity, ...]
+    breaks: np.ndarray
 
     @property
     def mirror(self):
@@ -126,7 +128,9 @@ def analyse(drive, step):
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
         sensitivities.append(sensitivity(drive, parameter, angles))
-    return Analysis(drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities))
+    return Analysis(
+        drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca)
+    )
 
 
 def steps(drive):
@@ -189,8 +193,9 @@ def _running(mesh, angles):
 
 
 def _pattern(drive, tca):
-    """Contours at the design's separation, at positions spread over the contact."""
-    solved = np.flatnonzero(tca.solved & np.isfinite(tca.semi_axes).all(axis=1))
+    """Contours at the design's separation, spread over the positions at which bodies touch with an ellipse."""
+    possible = [not any(impossible(flag) for flag in flags) for flags in tca.flags]
+    solved = np.flatnonzero(tca.solved & possible & np.isfinite(tca.semi_axes).all(axis=1))
     if not solved.size:
         return ()
     chosen = solved[np.unique(np.linspace(0, solved.size - 1, CONTOURS).round().astype(int))]

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from meshwright.report import pattern_figure, sensitivity_figures, style
+from meshwright.report.branches import broken
 from meshwright.results import ARCSEC
 
 PINION_ANGLE = "pinion angle, deg"
@@ -58,7 +59,8 @@ def pictures(analysis):
 
 _PATTERN_CAPTION = (
     "Path of contact, and where the flanks stand closer than the design's separation (filled, cut off at their edges) "
-    "beside the quadratic ellipse (thin). Dashed red: where a limit of the design ends the flank."
+    "beside the quadratic ellipse (thin, none where it reaches far beyond the flank). Where the path breaks, contact "
+    "passes to another branch. Dashed red: where a limit of the design ends the flank."
 )
 
 
@@ -147,9 +149,10 @@ def _teeth(analysis):
 def _semi_axes(analysis):
     figure = style.figure(6.4, 3.6)
     axes = figure.subplots()
+    angles = np.degrees(broken(analysis.tca.angles, analysis.breaks))
     for column, name, line in ((0, "major", "-"), (1, "minor", "--")):
-        values = analysis.tca.semi_axes[:, column]
-        axes.plot(np.degrees(analysis.tca.angles), values, line, color=style.INK, label=f"{name} semi-axis")
+        values = broken(analysis.tca.semi_axes[:, column], analysis.breaks)
+        axes.plot(angles, values, line, color=style.INK, label=f"{name} semi-axis")
     axes.set(xlabel=PINION_ANGLE, ylabel="semi-axis, mm", yscale="log")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.yaxis.set_major_formatter("{x:g}")

@@ -55,8 +55,8 @@ def patch(flank, path, axes, cell):
     inverse = np.linalg.pinv(slopes)[:, :, :3]
     reach = ROOM * np.linalg.norm(np.einsum("nkx,nax->nka", inverse, axes), axis=2)
     low, high = (path - reach).min(axis=0), (path + reach).max(axis=0)
-    speed = np.linalg.norm(at.tangents, axis=2).mean(axis=0)
-    counts = np.clip(np.ceil((high - low) * speed / cell), LEAST, LARGEST).astype(int)
+    speed = np.linalg.norm(_along(at), axis=2).mean(axis=0)
+    counts = np.clip(np.ceil((high - low)[:2] * speed / cell), LEAST, LARGEST).astype(int)
     lines = [np.linspace(low[i], high[i], counts[i]) for i in (0, 1)]
     grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
     return Patch.of(flank, _completed(flank, _extended(path, grid)))
@@ -75,6 +75,14 @@ def trimmed(flank, whole):
         kept |= beside
     parameters[~kept] = np.nan
     return Patch.of(flank, _completed(flank, parameters))
+
+
+def _along(at):
+    """Tangents (N, 2, 3) by the first two parameters, while a third one keeps to the flank's condition."""
+    if not at.conditions.shape[1]:
+        return at.tangents[:, :2]
+    slopes = at.conditions[:, 0, 1:]
+    return at.tangents[:, :2] - (slopes[:, :2] / slopes[:, 2:])[:, :, None] * at.tangents[:, 2:]
 
 
 def _extended(path, grid):

@@ -3,42 +3,61 @@
 import numpy as np
 
 from meshwright.report import style
+from meshwright.report.branches import broken
 from meshwright.report.numbers import fixed
 
 #: About how many lines of contact are drawn.
 LINES = 24
+
+#: An ellipse is drawn if it reaches no farther beyond flank and contact than this share of their extent: the quadratic
+#: approximation says nothing of flanks that are not there.
+BEYOND = 0.15
 
 
 def draw(analysis, member):
     """Flank, path of contact and ellipses on ``member``, laid flat."""
     figure = style.figure(6.4, 4.2)
     axes = figure.subplots()
-    colour, tca = style.MEMBERS[member], analysis.tca
-    projection = analysis.patches[member].projection
-    _flank(axes, projection, analysis.patches[member], colour)
-    rings = [*_contours(analysis, member), *_ellipses(analysis, member)]
-    for ring in _contours(analysis, member):
-        axes.fill(*projection(ring), facecolor=colour, alpha=0.35, edgecolor=colour, linewidth=1.0)
-    for ring in _ellipses(analysis, member):
-        axes.plot(*projection(ring), color=colour, linewidth=0.6, alpha=0.8)
-    lines = _lines(analysis, member)
+    colour, tca, flank = style.MEMBERS[member], analysis.tca, analysis.patches[member]
+    projection = flank.projection
+    _flank(axes, projection, flank, colour)
+    contours, lines = ([_flat(projection, p) for p in of(analysis, member)] for of in (_contours, _lines))
+    path = _flat(projection, tca.body_points[member])
+    held = [path, *contours, *lines]
+    if projection.end_on:
+        held.append(_flat(projection, flank.points[flank.inside >= 0.0]))
+    ellipses = _near(np.vstack(held), [_flat(projection, ring) for ring in _ellipses(analysis, member)])
+    for ring in contours:
+        axes.fill(*ring.T, facecolor=colour, alpha=0.35, edgecolor=colour, linewidth=1.0)
+    for ring in ellipses:
+        axes.plot(*ring.T, color=colour, linewidth=0.6, alpha=0.8)
     for line in lines:
-        axes.plot(*projection(line), color=colour, linewidth=1.1)
-    path = np.column_stack(projection(tca.body_points[member]))
-    axes.plot(*path.T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
+        axes.plot(*line.T, color=colour, linewidth=1.1)
+    axes.plot(*broken(path, analysis.breaks).T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
     if tca.solved.any():
         _name_ends(axes, path, tca.angles)
     horizontal, vertical = projection.labels(member)
     axes.set(xlabel=horizontal, ylabel=vertical)
+    _limit(axes, np.vstack([*held, *ellipses]))
     if projection.end_on:
-        axes.set_aspect("equal", adjustable="datalim")
-    else:
-        _limit(axes, np.vstack([path, *(np.column_stack(projection(points)) for points in (*rings, *lines))]))
+        axes.set_aspect("equal")
     return figure
 
 
+def _flat(projection, points):
+    """Places (N, 2) of points (N, 3)."""
+    return np.column_stack(projection(points))
+
+
+def _near(places, rings):
+    """The rings that reach beyond the places by no more than :data:`BEYOND` of their extent."""
+    low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
+    room = BEYOND * (high - low)
+    return [ring for ring in rings if (ring >= low - room).all() and (ring <= high + room).all()]
+
+
 def _limit(axes, places):
-    """Show the contact and a little around it, not all of the flank."""
+    """Show these places and a little around them."""
     low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
     room = 0.12 * (high - low) + 1e-3 * (high - low).max()
     axes.set(xlim=(low[0] - room[0], high[0] + room[0]), ylim=(low[1] - room[1], high[1] + room[1]))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.pairs import Mesh
+from meshwright.report.branches import breaks
 from meshwright.results import TCA
 from meshwright.transmission import peak_to_peak
 
@@ -20,7 +21,8 @@ SHIFT_ROUND_OFF = 1e-8
 class Sensitivity:
     """Effect of one misalignment of ``step`` (unit of its key, shown as ``label``), N input angles.
 
-    ``minus``, ``plus``: the analyses on either side. ``peak_to_peak``: of the transmitted error, rad, on either side.
+    ``minus``, ``plus``: the analyses on either side, and ``breaks`` of their curves. ``peak_to_peak``: of the
+    transmitted error, rad, on either side.
     """
 
     key: str
@@ -29,6 +31,7 @@ class Sensitivity:
     step: float
     minus: TCA
     plus: TCA
+    breaks: tuple[np.ndarray, np.ndarray]
     peak_to_peak: tuple[float, float]
 
     @property
@@ -61,13 +64,15 @@ def sensitivity(drive, parameter, angles):
     step, label = STEPS[parameter["key_unit"]]
     key, given = parameter["key"], drive.design.value(parameter["key"], "misalignment") / parameter["factor"]
     minus, plus = (drive.with_(misalignment={key: given + d}) for d in (-step, step))
+    below, above = minus.tca(angles), plus.tca(angles)
     return Sensitivity(
         key=key,
         meaning=parameter["meaning"],
         label=label,
         step=step,
-        minus=minus.tca(angles),
-        plus=plus.tca(angles),
+        minus=below,
+        plus=above,
+        breaks=(breaks(minus, below), breaks(plus, above)),
         peak_to_peak=(_peak_to_peak(minus), _peak_to_peak(plus)),
     )
 

@@ -5,6 +5,7 @@ import textwrap
 import numpy as np
 
 from meshwright.report import style
+from meshwright.report.branches import broken
 from meshwright.results import ARCSEC
 
 _COLUMNS = 4
@@ -37,9 +38,11 @@ def path(analysis):
     projection = analysis.patches["wheel"].projection
     horizontal, vertical = projection.labels("wheel")
     for axes, effect in panels:
-        axes.plot(*projection(tca.body_points["wheel"]), color=style.INK, linewidth=1.0, label="as given")
-        for sign, moved, colour in _sides(effect):
-            axes.plot(*projection(moved.body_points["wheel"]), color=colour, label=f"{sign}{effect.label}")
+        given = broken(tca.body_points["wheel"], analysis.breaks)
+        axes.plot(*projection(given), color=style.INK, linewidth=1.0, label="as given")
+        for (sign, moved, colour), breaks in zip(_sides(effect), effect.breaks, strict=True):
+            points = broken(moved.body_points["wheel"], breaks)
+            axes.plot(*projection(points), color=colour, label=f"{sign}{effect.label}")
         axes.margins(x=0.1)
         axes.set(xlabel=horizontal, xlim=_widened(axes.get_xlim(), LEAST_SHIFT))
         axes.set_ylim(_room(axes.get_ylim(), LEAST_SHIFT))
