@@ -194,6 +194,45 @@ def test_a_load_that_no_flank_carries_is_said_to_be_so(capsys):
     assert point["pairs"] == [] and point["loaded_transmission_error_arcsec"] is None
 
 
+def test_a_rotation_that_is_not_small_is_said_to_be_so(capsys):
+    """3 kN m turn the pinion by less than 0.01 rad and have figures, more than any tooth bears has none."""
+    design = ["spherical-table-4-4-concave", "--phi-deg", "0"]
+
+    def point(torque):
+        status = main(["loaded", *design, "--torque-nm", str(torque), "--json", "-"])
+        return status, json.loads(capsys.readouterr().out)["points"][0]
+
+    held, too_much = point(3e3), point(1e9)
+    assert held[0] == 0 and held[1]["status"] == "converged" and 1e-3 < held[1]["rotation_rad"] < 0.01
+    status, refused = too_much
+    assert status == 1 and refused["status"] == "rotation_not_small" and "smaller torque" in refused["message"]
+    assert refused["pairs"] == [] and refused["loaded_transmission_error_arcsec"] is None
+    assert main(["loaded", *design, "--torque-nm", "1e9"]) == 1
+    assert "rotation_not_small" in capsys.readouterr().out
+
+
+def test_a_contact_cut_off_by_an_edge_is_named(concave):
+    """Where the contact leaves a tip half of the ellipse is missing, and the pressure peaks at the edge."""
+    found = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None)
+    cut, whole = found.pairs
+    assert cut.cut_off and cut.peaks_at_edge and cut.edges == ("tip of the pinion",)
+    assert cut.peak_pressure > 2.0 * cut.hertz.peak_pressure
+    assert not whole.cut_off and not whole.peaks_at_edge and whole.edges == ()
+    assert whole.peak_pressure == pytest.approx(whole.hertz.peak_pressure, rel=2e-3)
+
+
+def test_edges_in_text_and_json(capsys):
+    arguments = ["loaded", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg=-1.8182,0"]
+    assert main([*arguments, "--json", "-"]) == 0
+    cut, whole = json.loads(capsys.readouterr().out)["points"]
+    assert "pair -1 is cut off by the tip of the pinion" in cut["message"] and "(Hertz)" in cut["message"]
+    assert [pair["cut_off_by"] for pair in cut["pairs"]] == [["tip of the pinion"], []]
+    assert [pair["peak_at_edge"] for pair in cut["pairs"]] == [True, False]
+    assert whole["message"] == "" and whole["pairs"][0]["cut_off_by"] == []
+    assert main(arguments) == 0
+    assert cut["message"] in capsys.readouterr().out
+
+
 def test_line_contact_is_refused(capsys):
     design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
     assert main(["loaded", *design, "--torque-nm", "1"]) == 2

@@ -66,6 +66,7 @@ def test_gate_refuses_a_run_cut_by_the_time_limit(ccx, concave, compliance, tmp_
     prepared, settings = prepared_at(concave, compliance, tmp_path, MODEST)
     document = analysis.solve(prepared, ccx, replace(settings, time_limit=0.5))
     refused(document, "finished")
+    assert "time limit of 0.5 s" in document["message"]
 
 
 def test_gate_refuses_a_coarse_mesh(ccx, concave, compliance, tmp_path):
@@ -170,6 +171,12 @@ def test_without_solver_the_input_is_written(monkeypatch, capsys, tmp_path):
 def test_no_pair_at_this_angle(capsys):
     assert main(["fe", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg", "40"]) == 2
     assert "--phi-deg" in capsys.readouterr().err
+
+
+def test_a_load_that_no_flank_carries_is_bad_input(capsys, tmp_path):
+    arguments = ["spherical-table-4-4-concave", "--torque-nm", "1e12", "--pairs", "1", "--folder", str(tmp_path)]
+    assert main(["fe", *arguments]) == 2
+    assert "--torque-nm" in capsys.readouterr().err
 
 
 def test_every_loaded_tooth_has_its_own_zone(concave):

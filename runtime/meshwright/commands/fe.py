@@ -1,7 +1,7 @@
 """Stresses by finite elements (CalculiX): contact pressure, stress below the surface, bending stress in the fillets.
 
 Writes input, results, VTU and pictures into a folder; an accepted position is not solved twice. Without the solver
-ccx it writes the input and says how to install it.
+ccx it writes the input and says how to install it. A terminal shows how far it is.
 Exit status 1 if a run misses its acceptance gate, or there is no solver; such a position has no stress in it.
 """
 
@@ -22,7 +22,12 @@ def add_arguments(parser):
     parser.add_argument("--phi-deg", metavar="A:B:STEP|v1,v2,…", default="0", help="pinion angles, degrees; default 0")
     parser.add_argument("--folder", metavar="DIR", help="where the runs are kept; default: NAME-fe")
     parser.add_argument(
-        "--time-limit-s", type=common.positive, default=1800.0, metavar="S", help="of one run; default 1800"
+        "--time-limit-s",
+        type=common.positive,
+        default=1800.0,
+        metavar="S",
+        help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, seconds for "
+        "gears and about a minute for worm drives, and the mesh of each angle, seconds",
     )
     parser.add_argument(
         "--threads", type=common.count, default=1, metavar="N", help="of the solver; a second one gains little"
@@ -44,7 +49,8 @@ def run(options):
     for angle in angles:
         if not fe.pair.touches(gear, angle, pairs):
             raise UsageError(
-                f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; `meshwright ratio` says where"
+                f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; "
+                f"{loading.gap_note(gear) or '`meshwright ratio` says where'}"
             )
     density = fe.grading.MeshDensity().refined(options.refine)
     settings = fe.analysis.Settings(pairs, options.time_limit_s, options.threads, density)
@@ -58,7 +64,10 @@ def run(options):
         for angle in angles:
             step(f"mesh at {np.degrees(angle):.4g} deg")
             place = folder / f"{options.torque_nm:g}nm_{np.degrees(angle):+.4f}deg"
-            prepared = fe.analysis.prepare(gear, compliance, angle, load, settings, place)
+            try:
+                prepared = fe.analysis.prepare(gear, compliance, angle, load, settings, place)
+            except ArithmeticError as error:
+                raise UsageError(f"--torque-nm {options.torque_nm:g} at {np.degrees(angle):g} deg: {error}") from error
             step(f"solve {prepared.model.deck.element_count} elements at {np.degrees(angle):.4g} deg")
             positions.append(_position(fe, prepared, ccx, settings))
     if len(positions) > 1:
@@ -114,6 +123,8 @@ def page(position):
         lines.append(
             f"  gate {name:<24} {value:>10}  limit {check['limit']:<8g} {'held' if check['held'] else 'MISSED'}"
         )
+    if position.get("message"):  # one kept by an earlier version has none
+        lines.append(f"  {position['message']}")
     if position["gate"]["finished"]["held"] and not _accepted(position):
         lines.append("  no stress is given; --refine 1.3 divides the contact zone more finely")
     for pair in position["pairs"]:

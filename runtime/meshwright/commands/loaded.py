@@ -1,6 +1,11 @@
-"""Loaded contact in seconds: transmission error under load, load share, contact pressure, mesh stiffness.
+"""Loaded contact without a solver: transmission error under load, load share, contact pressure, mesh stiffness.
 
-Exit status 1 if no tooth pair touches at one of the angles, or its contact under load is not found.
+Elastic teeth are factorised once, which takes seconds for gears and about a minute for worm drives, then every angle
+takes a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
+loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
+pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force.
+Exit status 1 if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is
+too large for the method.
 """
 
 import numpy as np
@@ -35,12 +40,14 @@ def run(options):
         "torque_nm": options.torque_nm,
         "torque_on": load.member,
         "assumed_blank": gear.assumed,
+        "gaps": loading.gap_note(gear),
+        "contact_ratio": gear.contact_ratio if np.isfinite(gear.contact_ratio) else None,
         "points": points,
     }
     if options.json:
         write_json(options.json, document)
     else:
-        write_text("-", loading.blank_note(gear) + _table(document))
+        write_text("-", loading.blank_note(gear) + _table(document) + _gaps(document))
     return 0 if all(point["pairs"] for point in points) else 1
 
 
@@ -60,15 +67,36 @@ def _point(fe, gear, angle, pairs, load, compliance):
         found = fe.loaded.loaded_contact(gear, angle, pairs, load, compliance)
     except ArithmeticError as error:
         return point | {"status": "diverged", "message": str(error)}
+    if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
+        return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
     total = sum(pair.force for pair in found.pairs)
     return point | {
         "status": "converged",
-        "message": "",
+        "message": "; ".join(_edge_note(pair) for pair in found.pairs if pair.cut_off),
         "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
         "pairs": [_pair(pair, total) for pair in found.pairs],
     }
+
+
+def _too_far(found, limit):
+    return (
+        f"under this torque the {found.load.member} would turn by {abs(found.rotation):.3g} rad, beyond {limit:g}: "
+        "elasticity and rotations are no longer linear and small; choose a smaller torque"
+    )
+
+
+def _edge_note(pair):
+    """That an edge cuts a contact area off, and whether the peak of pressure is there."""
+    edges = " and the ".join(pair.edges)
+    note = f"pair {pair.contact.pairs_later:+d} is cut off by {f'the {edges}' if edges else 'an edge of a flank'}"
+    if not pair.peaks_at_edge:
+        return note
+    return (
+        f"{note}, where its pressure peaks with {pair.peak_pressure:.5g} MPa; without an edge the same force gives "
+        f"{pair.hertz.peak_pressure:.5g} MPa (Hertz)"
+    )
 
 
 def _pair(pair, total):
@@ -78,10 +106,17 @@ def _pair(pair, total):
         "force_n": pair.force,
         "share": pair.force / total,
         "peak_pressure_mpa": pair.peak_pressure,
+        "cut_off_by": list(pair.edges) or (["edge"] if pair.cut_off else []),
+        "peak_at_edge": pair.peaks_at_edge,
         "hertz_pressure_mpa": float(hertz.peak_pressure) if hertz else None,
         "hertz_semi_major_mm": hertz.semi_major if hertz else None,
         "hertz_semi_minor_mm": hertz.semi_minor if hertz else None,
     }
+
+
+def _gaps(document):
+    untouched = any(point["status"] == "no_contact" for point in document["points"])
+    return f"{document['gaps']}\n" if untouched and document["gaps"] else ""
 
 
 def _table(document):
@@ -98,4 +133,6 @@ def _table(document):
             f"{point['pinion_angle_deg']:12.5g} {point['loaded_transmission_error_arcsec']:11.5g} "
             f"{point['mesh_stiffness_n_per_um']:8.4g}  {pairs}"
         )
+        if point["message"]:
+            lines.append(f"{'':12} {point['message']}")
     return "\n".join(lines) + "\n"

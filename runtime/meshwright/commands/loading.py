@@ -53,6 +53,15 @@ def blank_note(gear):
     return f"assumed where [blank] is open: {sizes}\n" if sizes else ""
 
 
+def gap_note(gear):
+    """Why there are angles at which no tooth pair touches, empty at a contact ratio of 1 and more."""
+    if not gear.contact_ratio < 1.0:
+        return ""
+    ends = f", whose contact ends at the {' and the '.join(gear.ends)}" if gear.ends else ""
+    blank, remedy = ("assumed blank", "; give its sizes in [blank]") if gear.assumed else ("blank", "")
+    return f"contact ratio {gear.contact_ratio:.3f}: the {blank} leaves gaps between pairs{ends}{remedy}"
+
+
 def compliances(fe, gear, pairs, step):
     """Smooth tooth compliance of both members, for a model of so many pairs."""
     found = {}

@@ -6,6 +6,6 @@ contact (``gap``, ``halfspace``, ``compliance``, ``loaded``) and on to finite el
 or not; ``analysis``: all of it for one position).
 """
 
-from meshwright.fe import analysis, compliance, grading, loaded, model, pair, pictures, solids, solver
+from meshwright.fe import analysis, compliance, gate, grading, loaded, model, pair, pictures, solids, solver
 
-__all__ = ["analysis", "compliance", "grading", "loaded", "model", "pair", "pictures", "solids", "solver"]
+__all__ = ["analysis", "compliance", "gate", "grading", "loaded", "model", "pair", "pictures", "solids", "solver"]

@@ -95,10 +95,20 @@ def solve(
         prepared.input_file.with_suffix(stale).unlink(missing_ok=True)
     run = run_ccx(ccx, prepared.input_file, settings.time_limit, settings.threads, progress)
     document, solution = judge(prepared, run)
+    document["message"] = _ending(run, prepared.input_file, settings.time_limit)
     if solution is not None:
         document["files"] |= _write_fields(prepared, solution) | draw(prepared.model, solution, prepared.folder)
         write_json(prepared.folder / _RESULT, {"input_sha256": prepared.fingerprint, "result": document})
     return document
+
+
+def _ending(run: SolverRun, input_file: Path, time_limit: float) -> str:
+    """Why the solver did not finish; empty if it did."""
+    if run.finished:
+        return ""
+    if run.return_code is None:
+        return f"the solver was stopped at its time limit of {time_limit:g} s"
+    return f"the solver did not finish: {input_file.with_suffix('.log')} says why"
 
 
 def judge(prepared: Prepared, run: SolverRun) -> tuple[dict, Solution | None]:
@@ -112,7 +122,8 @@ def judge(prepared: Prepared, run: SolverRun) -> tuple[dict, Solution | None]:
 def without_solver(prepared: Prepared) -> dict:
     """The document of a position that is written but not solved."""
     unsolved = SolverRun(None, 0.0, "")
-    return _document(prepared, accept(unsolved, None, prepared.model.load.torque, []), None)
+    document = _document(prepared, accept(unsolved, None, prepared.model.load.torque, []), None)
+    return document | {"message": "the input is written, not solved: there is no solver"}
 
 
 def _read(prepared: Prepared, run: SolverRun) -> Solution | None:
@@ -156,6 +167,7 @@ def _document(prepared: Prepared, checks: dict[str, Check], solution: Solution |
     deck = prepared.model.deck
     document = {
         "schema": SCHEMA,
+        "message": "",
         "torque_nm": prepared.model.load.torque / 1000.0,
         "torque_on": prepared.model.load.member,
         "pinion_angle_deg": float(np.degrees(prepared.loaded.pinion_angle)),

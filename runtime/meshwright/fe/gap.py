@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
 from meshwright.fe.profile import Rail, SectionCurves
+
+Bools = NDArray[np.bool_]
 
 _NEWTON_STEPS = 20
 _STEP_TOLERANCE = 1e-13
@@ -23,7 +26,8 @@ class ContactGrid:
 
     centres (N, 2) in mm along (major, minor) axis from the contact point; half_major, half_minor: half lengths of a
     cell.  gap (N,) in mm, positive apart.  points (N, 3): pinion surface points in the fixed frame.  inside (N,): both
-    flanks are there.  place: for each member the fractions (N, 2) of flank arc length and face width.
+    flanks are there.  beyond: by the name of an edge, such as "tip of the wheel", the cells (N,) that lie beyond it.
+    place: for each member the fractions (N, 2) of flank arc length and face width.
     """
 
     centres: Floats
@@ -31,7 +35,8 @@ class ContactGrid:
     half_minor: float
     gap: Floats
     points: Floats
-    inside: Floats
+    inside: Bools
+    beyond: dict[str, Bools]
     place: dict[str, Floats]
 
     @property
@@ -60,9 +65,10 @@ def contact_grid(
         surfaces[name] = _Footprint.of(member, own_angle, feet, plane)
     gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ touch.normal
     inside = surfaces["pinion"].inside & surfaces["wheel"].inside
+    beyond = {f"{edge} of the {name}": cells for name, f in surfaces.items() for edge, cells in f.beyond.items()}
     place = {name: footprint.place for name, footprint in surfaces.items()}
     half = (reach[0] / cells, reach[1] / cells)
-    return ContactGrid(np.stack([x, y], axis=1), *half, gap, surfaces["pinion"].points, inside, place)
+    return ContactGrid(np.stack([x, y], axis=1), *half, gap, surfaces["pinion"].points, inside, beyond, place)
 
 
 @dataclass(frozen=True)
@@ -70,7 +76,8 @@ class _Footprint:
     """Where the normals of the tangent plane through N feet pierce a flank: fixed frame."""
 
     points: Floats
-    inside: Floats
+    inside: Bools
+    beyond: dict[str, Bools]
     place: Floats
 
     @staticmethod
@@ -89,10 +96,15 @@ class _Footprint:
         held = np.clip(section, low, high)
         first, last = curves.first(held), curves.last(held)
         fraction = (profile - first) / (last - first)
-        inside = pierced & (section >= low) & (section <= high) & (fraction >= 0.0) & (fraction <= 1.0)
+        beyond = {
+            "fillet": pierced & (fraction < 0.0),
+            "tip": pierced & (fraction > 1.0),
+            "end of the portion" if form.cut_ends else "face": pierced & ((section < low) | (section > high)),
+        }
+        inside = pierced & ~np.any(list(beyond.values()), axis=0)
         # A cell off the flank has no pressure; its gap only has to be finite.
         place = np.stack([_arc_share(rail, fraction), (section - low) / (high - low)], axis=1)
-        return _Footprint(points @ rotation.T + pose[:3, 3], inside, place)
+        return _Footprint(points @ rotation.T + pose[:3, 3], inside, beyond, place)
 
 
 def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> tuple[Floats, Floats]:

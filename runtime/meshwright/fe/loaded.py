@@ -6,14 +6,16 @@ cells that touch.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 from scipy.linalg import block_diag
+from scipy.ndimage import binary_dilation
 
 from meshwright.fe.compliance import ToothCompliance
-from meshwright.fe.gap import ContactGrid, contact_grid
+from meshwright.fe.gap import Bools, ContactGrid, contact_grid
 from meshwright.fe.halfspace import influence_matrix
 from meshwright.fe.hertz import HertzContact
 from meshwright.fe.hexahedra import Floats
@@ -42,6 +44,26 @@ class LoadedPair:
     def peak_pressure(self) -> float:
         """Largest cell pressure in MPa."""
         return float(self.pressures.max())
+
+    @property
+    def peaks_at_edge(self) -> bool:
+        """Whether an edge of a flank bounds the cell of the largest pressure."""
+        peak = self.pressures == self.pressures.max()
+        return self.force > 0.0 and bool(np.any(_and_around(peak) & ~self.grid.inside))
+
+    @property
+    def cut_off(self) -> bool:
+        """Whether an edge of a flank bounds the contact area somewhere."""
+        return bool(np.any(self._area_and_around & ~self.grid.inside))
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """The edges that do, such as "tip of the wheel", as far as the normals of the contact plane meet the flank."""
+        return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & self._area_and_around))
+
+    @property
+    def _area_and_around(self) -> Bools:
+        return _and_around(self.pressures > 0.0)
 
 
 @dataclass(frozen=True)
@@ -102,6 +124,12 @@ def loaded_contact(
     wound = direction * rotation * member.turning
     lag = -gear.ratio * wound if load.member == "pinion" else wound
     return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag)
+
+
+def _and_around(cells: Bools) -> Bools:
+    """The cells (N,) of a square grid and their neighbours."""
+    side = math.isqrt(len(cells))
+    return binary_dilation(cells.reshape(side, side), np.ones((3, 3))).ravel()
 
 
 def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float, cells: int) -> ContactGrid:

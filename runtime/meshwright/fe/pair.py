@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -65,7 +66,8 @@ class GearPair:
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
     touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair:
     pinion angle to the pair (``pairs_later``) about which pairs are counted.  assumed: sizes of the blank
-    in mm that the design leaves open, as the solids have them.
+    in mm that the design leaves open, as the solids have them.  contact_ratio: that of the whole blank, NaN if unknown.
+    ends: where the contact of a pair begins and ends, such as "face of the wheel".
     """
 
     pinion: Member
@@ -75,6 +77,8 @@ class GearPair:
     touch: Callable[[float], Touch | None]
     middle_pair: Callable[[float], int] = lambda angle: 0
     assumed: dict[str, float] = field(default_factory=dict)
+    contact_ratio: float = math.nan
+    ends: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from meshwright.contact_ratio import ContactRatio
 from meshwright.drive import Drive
 from meshwright.errors import DesignError, UsageError
 from meshwright.fe import cylindrical_worm, face_worm, spherical
@@ -66,16 +67,18 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     wheel = _member(drive, "wheel", family.wheel(drive, rim_thickness), materials.wheel)
     sense = 1 if drive.design.flank > 0 else -1
     touch = cache(lambda angle: _touch(drive, angle))
-    return GearPair(pinion, wheel, drive.ratio, sense, touch, _middle_pair(drive), assumed)
-
-
-def _middle_pair(drive: Drive) -> Callable[[float], int]:
-    """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
     window = drive.contact_ratio()
+    middle = _middle_pair(window, drive.pitch())
+    ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
+    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, window.contact_ratio, tuple(ends))
+
+
+def _middle_pair(window: ContactRatio, pitch: float) -> Callable[[float], int]:
+    """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
     if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
         return lambda angle: 0
-    middle, pitch = 0.5 * sum(ends), drive.pitch()
+    middle = 0.5 * sum(ends)
     return lambda angle: round((angle - middle) / pitch)
 
 
