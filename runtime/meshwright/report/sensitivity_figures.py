@@ -11,7 +11,7 @@ from meshwright.results import ARCSEC
 _COLUMNS = 4
 
 #: Longest line of a panel's title, characters.
-_TITLE = 38
+_TITLE = 28
 
 #: Least span of a scale: arcsec, and mm.
 LEAST_ERROR, LEAST_SHIFT = 1e-4, 1e-3
