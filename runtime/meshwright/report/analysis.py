@@ -1,7 +1,7 @@
 """Everything that a report shows, computed once: the figures and the page only read it."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -100,6 +100,12 @@ class Analysis:
         """Teeth of the members."""
         pinion = 2 * math.pi / self.drive.pitch()
         return {"pinion": round(pinion), "wheel": round(pinion / self.drive.ratio)}
+
+    def patch(self, member):
+        """The patch of a member with the design's hand."""
+        right = self.patches[member]
+        flip = np.array([1.0, self.mirror, 1.0])
+        return replace(right, points=right.points * flip, normals=right.normals * flip)
 
     def in_body(self, member, k, points):
         """Fixed-frame ``points`` (M, 3) at position ``k`` in the frame of a member, mm, with the design's hand."""

@@ -18,7 +18,7 @@ def draw(analysis, member):
     """Flank, path of contact and ellipses on ``member``, laid flat."""
     figure = style.figure(6.4, 4.2)
     axes = figure.subplots()
-    colour, tca, flank = style.MEMBERS[member], analysis.tca, analysis.patches[member]
+    colour, tca, flank = style.MEMBERS[member], analysis.tca, analysis.patch(member)
     projection = flank.projection
     _flank(axes, projection, flank, colour)
     contours, lines = ([_flat(projection, p) for p in of(analysis, member)] for of in (_contours, _lines))

@@ -35,7 +35,7 @@ def path(analysis):
     """Path of contact on the wheel."""
     figure, panels = _panels([effect for effect in analysis.sensitivities if effect.at_points], 3.0)
     tca = analysis.tca
-    projection = analysis.patches["wheel"].projection
+    projection = analysis.patch("wheel").projection
     horizontal, vertical = projection.labels("wheel")
     for axes, effect in panels:
         given = broken(tca.body_points["wheel"], analysis.breaks)
