@@ -44,22 +44,18 @@ def add_arguments(parser):
 
 def run(options):
     fe = loading.finite_elements()
-    _, gear, load, pairs = loading.loaded_gears(fe, options)
+    drive = loading.checked_drive(options)
     angles = common.angles(options.phi_deg)
-    for angle in angles:
-        if not fe.pair.touches(gear, angle, pairs):
-            raise UsageError(
-                f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; "
-                f"{loading.gap_note(gear) or '`meshwright ratio` says where'}"
-            )
     density = fe.grading.MeshDensity().refined(options.refine)
-    settings = fe.analysis.Settings(pairs, options.time_limit_s, options.threads, density)
     ccx = fe.solver.find_ccx()
-    if ccx is None:
-        print(f"meshwright: {fe.solver.INSTALL_HINT}; the input is written, not solved", file=sys.stderr)
     folder = Path(options.folder or f"{Path(options.design).stem}-fe")
     positions = []
-    with progress(2 * len(angles) + 2) as step:
+    with progress(2 * len(angles) + 3) as step:
+        gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
+        _check_touches(fe, gear, angles, pairs)
+        if ccx is None:
+            print(f"meshwright: {fe.solver.INSTALL_HINT}; the input is written, not solved", file=sys.stderr)
+        settings = fe.analysis.Settings(pairs, options.time_limit_s, options.threads, density)
         compliance = loading.compliances(fe, gear, pairs, step)
         for angle in angles:
             step(f"mesh at {np.degrees(angle):.4g} deg")
@@ -74,6 +70,15 @@ def run(options):
         _picture_of_cycle(fe, positions, folder)
     _write(options, gear, positions)
     return 0 if all(_accepted(position) for position in positions) else 1
+
+
+def _check_touches(fe, gear, angles, pairs):
+    for angle in angles:
+        if not fe.pair.touches(gear, angle, pairs):
+            raise UsageError(
+                f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; "
+                f"{loading.gap_note(gear) or '`meshwright ratio` says where'}"
+            )
 
 
 def _position(fe, prepared, ccx, settings):

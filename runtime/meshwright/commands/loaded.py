@@ -27,9 +27,10 @@ def add_arguments(parser):
 
 def run(options):
     fe = loading.finite_elements()
-    drive, gear, load, pairs = loading.loaded_gears(fe, options)
+    drive = loading.checked_drive(options)
     angles = common.angles_of(options, drive)
-    with progress(len(angles) + 3) as step:
+    with progress(len(angles) + 4) as step:
+        gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
         compliance = loading.compliances(fe, gear, pairs, step)
         points = []
         for angle in angles:

@@ -34,17 +34,22 @@ def finite_elements():
     return fe
 
 
-def loaded_gears(fe, options):
-    """(drive, gear pair, load, pairs) that the options ask for."""
+def checked_drive(options):
+    """The drive that the options ask for, with a load that can be asked for."""
     if not (np.isfinite(options.torque_nm) and options.torque_nm > 0.0):
         raise UsageError(f"--torque-nm {options.torque_nm:g}: the torque must be above zero; --torque-on says on what")
     if options.pairs is not None and not 1 <= options.pairs <= 9:
         raise UsageError(f"--pairs {options.pairs}: choose 1 to 9 pairs")
-    drive = common.drive_of(options)
+    return common.drive_of(options)
+
+
+def loaded_gears(fe, options, drive, step):
+    """(gear pair, load, pairs) that the options ask for."""
+    step("flanks and blanks")
     gear = fe.solids.gear_pair(drive, options.rim_mm)
     member = options.torque_on or STATED_TORQUE[drive.design.family]
     load = fe.model.Load(1000.0 * options.torque_nm, member)
-    return drive, gear, load, options.pairs or PAIRS[drive.design.family]
+    return gear, load, options.pairs or PAIRS[drive.design.family]
 
 
 def blank_note(gear):
