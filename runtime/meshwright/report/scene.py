@@ -50,6 +50,7 @@ def scene(analysis):
         "wheel_deg": _numbers(np.degrees(tca.wheel_angles)),
         "error_arcsec": _numbers(tca.error / ARCSEC),
         "steps_per_pitch": analysis.steps_per_pitch,
+        "breaks": analysis.breaks.tolist(),
         "centre": centre.tolist(),
         "radius": float(np.linalg.norm(points - centre, axis=1).max() + touch.reach),
         "view": _view(touch, inward).tolist(),

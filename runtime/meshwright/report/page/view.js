@@ -170,6 +170,16 @@
     context.stroke();
   }
 
+  /* the path of contact, one stroke for each branch */
+  function strokes() {
+    const found = [[]];
+    scene.contacts.forEach((contact, position) => {
+      if (!contact || scene.breaks.includes(position)) found.push([]);
+      if (contact) found[found.length - 1].push(contact.point);
+    });
+    return found;
+  }
+
   function outlined(contact) {
     if (contact.line) return contact.line;
     if (!contact.axes) return [];
@@ -184,7 +194,7 @@
     const pairs = [];
     const steps = scene.steps_per_pitch, last = scene.contacts.length;
     for (let at = position % steps; at < last; at += steps) if (scene.contacts[at]) pairs.push(at);
-    if (!scene.contacts.some((contact) => contact && contact.line)) drawLine(scene.contacts.filter(Boolean).map((contact) => contact.point), "#6b7885", 1.2, [4, 4]);
+    if (!scene.contacts.some((contact) => contact && contact.line)) for (const stroke of strokes()) drawLine(stroke, "#6b7885", 1.2, [4, 4]);
     for (const at of pairs) {
       const contact = scene.contacts[at], followed = at === position;
       const outline = outlined(contact);
