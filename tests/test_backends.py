@@ -1,5 +1,6 @@
 """Generated C against CasADi: residual and Jacobian of the same tape, derivatives found in two different ways."""
 
+import sys
 from functools import cache
 
 import casadi
@@ -8,6 +9,7 @@ import pytest
 
 from meshwright import Drive, casadi_backend, design
 from meshwright._library import SHIPPED, ffi
+from meshwright.cli import main
 
 
 def _compiled(drive, s, x):
@@ -53,3 +55,11 @@ def test_an_exception_in_a_function_that_c_calls_reaches_the_caller(monkeypatch,
     with pytest.raises(KeyboardInterrupt):
         drive.tca(np.linspace(-0.5, 0.5, 9))
     assert Drive.load("recess-action-full", backend="casadi").tca([0.0]).complete
+
+
+def test_a_backend_that_is_not_installed_is_named_with_what_brings_it(monkeypatch, capsys):
+    monkeypatch.setattr(casadi_backend, "_table", cache(casadi_backend._table.__wrapped__))
+    monkeypatch.setitem(sys.modules, "casadi", None)
+    assert main(["tca", "recess-action-full", "--phi-deg", "0", "--backend", "casadi"]) == 2
+    message = capsys.readouterr().err
+    assert "casadi is not installed" in message and "meshwright[casadi]" in message

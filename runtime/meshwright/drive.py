@@ -22,7 +22,11 @@ def _compiled(design):
 def _casadi(design):
     from meshwright.casadi_backend import model_of
 
-    return model_of(design.description)
+    try:
+        return model_of(design.description)
+    except ModuleNotFoundError as error:
+        remedy = "`pip install 'meshwright[casadi]'` brings it"
+        raise UsageError(f"backend = 'casadi': {error.name} is not installed; {remedy}") from error
 
 
 BACKENDS = {"c": _compiled, "casadi": _casadi}
