@@ -6,7 +6,7 @@ scheduled on the drive's tape and printed like a flank.
 
 from dataclasses import dataclass
 
-from derive import vectors as v
+from derive.language import vectors as v
 
 
 @dataclass(frozen=True)

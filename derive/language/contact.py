@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from derive import vectors as v
-from derive.chain import Motion
+from derive.language import vectors as v
+from derive.language.chain import Motion
 
 
 def contact(first, second):

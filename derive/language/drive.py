@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive.chain import Motion
-from derive.definitions import Definitions
-from derive.functions import Function
-from derive.surface import Surface
-from derive.symbols import Guard, Parameter, Quantity, Rule, Unknown
+from derive.language.chain import Motion
+from derive.language.definitions import Definitions
+from derive.language.functions import Function
+from derive.language.surface import Surface
+from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
 
 
 @dataclass(frozen=True)

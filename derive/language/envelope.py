@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.differentiate import partial
-from derive.origin import EXPLICIT, Origin
-from derive.replace import replaced
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.differentiate import partial
+from derive.language.origin import EXPLICIT, Origin
+from derive.language.replace import replaced
+from derive.language.symbols import Quantity
 
 
 def envelope(surface, motion, variable):

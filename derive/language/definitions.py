@@ -6,9 +6,9 @@ earlier definitions; differentiation follows them.
 
 import sympy as sp
 
-from derive.differentiate import partial
-from derive.replace import replaced
-from derive.symbols import Quantity
+from derive.language.differentiate import partial
+from derive.language.replace import replaced
+from derive.language.symbols import Quantity
 
 
 class Definitions:
@@ -29,7 +29,7 @@ class Definitions:
         return self._values.items()
 
     def origin(self, symbol):
-        """The :class:`~derive.origin.Origin` given with a name, or None."""
+        """The :class:`~derive.language.origin.Origin` given with a name, or None."""
         return self._origins.get(symbol)
 
     def let(self, name, value, meaning="", unit="", frame="", origin=None):

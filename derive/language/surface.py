@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Motion, Rz, screw, station
-from derive.definitions import Definitions
-from derive.origin import joined
+from derive.language import vectors as v
+from derive.language.chain import Motion, Rz, screw, station
+from derive.language.definitions import Definitions
+from derive.language.origin import joined
 
 
 @dataclass(frozen=True)

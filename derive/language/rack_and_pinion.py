@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Rx, Rz, translation
-from derive.envelope import envelope, in_turn, merge_sum
-from derive.functions import both_turns
-from derive.replace import replaced
-from derive.surface import Surface
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.chain import Rx, Rz, translation
+from derive.language.envelope import envelope, in_turn, merge_sum
+from derive.language.functions import both_turns
+from derive.language.replace import replaced
+from derive.language.surface import Surface
+from derive.language.symbols import Quantity
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from functools import reduce
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.origin import joined
-from derive.replace import replaced
+from derive.language import vectors as v
+from derive.language.origin import joined
+from derive.language.replace import replaced
 
 _OTHERS = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
