@@ -5,9 +5,10 @@ import sys
 
 import pytest
 
-from meshwright import DesignError, Drive, UsageError, design
-from meshwright.analysis import LARGEST_ANGLE
+from meshwright import DesignError, Drive, UsageError
 from meshwright.cli import main
+from meshwright.contact.analysis import LARGEST_ANGLE
+from meshwright.design import design
 
 CASES = [
     ({"design.normal_module_mm": 0.0}, ("normal_module_mm", "0", "greater than 0")),

@@ -11,12 +11,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshwright import Drive, analysis, samples, slices, sweep
-from meshwright import design as designs
-from meshwright._library import library, text
+from meshwright import Drive
+from meshwright.base.errors import DesignError, UsageError
+from meshwright.base.library import library, text
 from meshwright.cli import main
-from meshwright.errors import DesignError, UsageError
-from meshwright.results import ARCSEC
+from meshwright.contact import analysis
+from meshwright.contact.results import ARCSEC
+from meshwright.design import design as designs
+from meshwright.sweep import run as sweep
+from meshwright.sweep import samples, slices
 
 pytest.importorskip("pyarrow")
 

@@ -6,10 +6,10 @@ import tomllib
 
 import numpy as np
 
-from meshwright import design as designs
-from meshwright.analysis import LARGEST_ANGLE
+from meshwright.base.errors import UsageError
+from meshwright.contact.analysis import LARGEST_ANGLE
+from meshwright.design import design as designs
 from meshwright.drive import BACKENDS, Drive
-from meshwright.errors import UsageError
 
 
 def add_design(parser):

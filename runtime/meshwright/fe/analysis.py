@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from meshwright.base.files import write_json, write_text
 from meshwright.fe import stress
 from meshwright.fe.compliance import ToothCompliance
 from meshwright.fe.deck import write
@@ -25,7 +26,6 @@ from meshwright.fe.pictures import draw
 from meshwright.fe.solver import SolverRun, run_ccx
 from meshwright.fe.stress import Solution
 from meshwright.fe.vtu import vtu_text
-from meshwright.files import write_json, write_text
 
 SCHEMA = "meshwright.fe/1"
 
