@@ -245,6 +245,8 @@ def _relative(plan, body, node):
 
 
 def _regular(plan, body):
+    if body.regular is not None:
+        return plan.tape.mul(plan.lower(body.regular), singular_function(plan.lower, body.surface))
     return _relative(plan, body, singular_function(plan.lower, body.surface))
 
 

@@ -314,7 +314,7 @@ def cylindrical_worm(worm_profile, hob_profile):
             worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered
         ),
         required=tuple(sorted({REQUIRED[word] for word in worm.required + hob.required})),
-        handed=True,
+        handed="right",
         exclusive=(
             (normal_module.key, axial_module.key),
             (lead_angle.key, pitch_radius.key),

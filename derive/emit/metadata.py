@@ -153,7 +153,7 @@ def _parameter(p):
         "unit": p.symbol.unit,
         "meaning": p.symbol.meaning,
         "key": p.key,
-        "table": p.table.value,
+        "table": str(p.table),
         "factor": _float(p.factor),
         "key_unit": interface_unit(p.key)[0],
         "default": None if p.default is None else _float(p.default),
