@@ -1,8 +1,8 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``            → :class:`~derive.drive.Drive`: chains, symbols, parameters, limits
-derive    ``derive.surface, envelope`` → locus, normal, equation of meshing
-reduce    ``derive.envelope``          → explicit surfaces, fewer unknowns
+define    ``derive.drives``            → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
+derive    ``derive.language.surface, envelope`` → locus, normal, equation of meshing
+reduce    ``derive.language.envelope``          → explicit surfaces, fewer unknowns
 prove     ``derive.prove, audit``      → certificates for the identities behind them, and the record that holds them
 schedule  ``derive.schedule``          → one tape with derivatives, binding times and pivot order
 emit      ``derive.emit``              → C99, CasADi, JSON

@@ -5,8 +5,8 @@ Each system has a small tape of its own, read by the C printer and, at generatio
 
 from dataclasses import dataclass
 
-from derive.drive import PATH, DesignSystem
-from derive.limits import singular_function
+from derive.language.drive import PATH, DesignSystem
+from derive.language.limits import singular_function
 from derive.tape import Lowering, Stage, Tape
 
 

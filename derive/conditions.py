@@ -15,7 +15,7 @@ from functools import cache, reduce
 from operator import or_
 
 from derive.formula import formula
-from derive.origin import ARCCOSINE, PARTIAL
+from derive.language.origin import ARCCOSINE, PARTIAL
 from derive.quotients import by_reciprocal
 from derive.tape import Lowering, Stage, Tape
 

@@ -3,8 +3,8 @@
 import mpmath
 
 from derive.completion import lower_system
-from derive.drive import PATH
-from derive.symbols import Table
+from derive.language.drive import PATH
+from derive.language.symbols import Table
 from derive.tape import Lowering, Stage, Tape
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.

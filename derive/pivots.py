@@ -7,7 +7,7 @@ least fill (Markowitz). The runtime checks the step and falls back on complete p
 """
 
 from derive import newton
-from derive.origin import ELIMINATION, Origin
+from derive.language.origin import ELIMINATION, Origin
 
 #: A pivot must reach this share of the largest scaled entry left in its row.
 STABLE_SHARE = 0.1

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 
 from derive import conditions, linearise, newton, pivots
 from derive.completion import ParameterTape, SystemTape, lower_system, on_parameters
-from derive.drive import Body, Drive, System
-from derive.limits import singular_function
-from derive.origin import STEP_SIZE, UNIT, Origin
+from derive.language.drive import Body, Drive, System
+from derive.language.limits import singular_function
+from derive.language.origin import STEP_SIZE, UNIT, Origin
 from derive.tape import Lowering, Stage, Tape
 
 

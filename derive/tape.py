@@ -1,8 +1,8 @@
 """The intermediate form: a straight-line program with value numbering and a forward chain rule.
 
-Input: SymPy expressions and :class:`~derive.definitions.Definitions`. Output: a :class:`Tape`, a list of nodes in
-which each value occurs once. Every printer reads the same tape. Nodes are numbered in the order in which they are
-first needed, so that the same drive gives the same text on every machine.
+Input: SymPy expressions and :class:`~derive.language.definitions.Definitions`. Output: a :class:`Tape`, a list of
+nodes in which each value occurs once. Every printer reads the same tape. Nodes are numbered in the order in which they
+are first needed, so that the same drive gives the same text on every machine.
 """
 
 import math
@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from derive.definitions import Definitions
-from derive.origin import ARCCOSINE, PARTIAL, TANGENT
+from derive.language.definitions import Definitions
+from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT
 
 
 class Stage(IntEnum):
@@ -44,7 +44,7 @@ OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin"
 class Tape:
     """A growing straight-line program. Values are referred to by index.
 
-    ``origins`` holds the :class:`~derive.origin.Origin` of every operation that is not defined everywhere.
+    ``origins`` holds the :class:`~derive.language.origin.Origin` of every operation that is not defined everywhere.
     """
 
     def __init__(self):
@@ -61,7 +61,7 @@ class Tape:
 
     @contextmanager
     def within(self, origin):
-        """New partial operations are of this :class:`~derive.origin.Origin`; None: of none but their own kind."""
+        """New partial operations are of this :class:`~derive.language.origin.Origin`; None: each of its own kind."""
         before, self._within = self._within, origin
         yield
         self._within = before

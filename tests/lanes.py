@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshwright._library import ffi, library, pointer
+from meshwright.base.library import ffi, library, pointer
 
 WIDTHS = (2, 4, 8)
 

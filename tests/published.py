@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from meshwright import Drive
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 
 REFERENCE = Path(__file__).parent / "reference" / "recess-action-worm.json"
 

@@ -7,9 +7,11 @@ import casadi
 import numpy as np
 import pytest
 
-from meshwright import Drive, casadi_backend, design
-from meshwright._library import SHIPPED, ffi
+from meshwright import Drive
+from meshwright.base.library import SHIPPED, ffi
 from meshwright.cli import main
+from meshwright.contact import casadi_backend
+from meshwright.design import design
 
 
 def _compiled(drive, s, x):

@@ -4,13 +4,13 @@ import mpmath
 import pytest
 
 from derive import newton
-from derive.chain import Rz
-from derive.contact import contact
-from derive.definitions import Definitions
 from derive.drives import cylindrical_worm as family
-from derive.envelope import envelope
+from derive.language.chain import Rz
+from derive.language.contact import contact
+from derive.language.definitions import Definitions
+from derive.language.envelope import envelope
+from derive.language.symbols import Quantity
 from derive.schedule import schedule
-from derive.symbols import Quantity
 from derive.tape import Lowering, Stage, Tape
 
 

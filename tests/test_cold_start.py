@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshwright import DesignError, Drive
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 from tests.independent import gap_search
 from tests.test_fifty_digits import _random_tables
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.contact_line import contact_line
-from meshwright.placement import placements
+from meshwright.contact.contact_line import contact_line
+from meshwright.contact.placement import placements
 
 
 def worm_cut_by_an_equal_hob():

@@ -7,9 +7,9 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.pairs import Mesh
-from meshwright.results import ARCSEC
-from meshwright.transmission import envelopes, transmission_error
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import envelopes, transmission_error
 
 
 def _errors(case):

@@ -5,8 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from meshwright import Drive, design, metadata
+from meshwright import Drive
 from meshwright.cli import main
+from meshwright.design import description as metadata
+from meshwright.design import design
 
 
 def _json(arguments, capsys, status=0):

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.edge_contact import edge_paths
-from meshwright.pairs import Mesh
-from meshwright.placement import placements_at
-from meshwright.results import ARCSEC
-from meshwright.transmission import envelopes, transmission_error
+from meshwright.contact.placement import placements_at
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.edge_contact import edge_paths
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import envelopes, transmission_error
 
 
 def _involute(angle):

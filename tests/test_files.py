@@ -5,8 +5,8 @@ import threading
 
 import pytest
 
-from meshwright.errors import UsageError
-from meshwright.files import write_text
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_text
 
 
 def test_a_link_stays_a_link_and_its_file_is_replaced(tmp_path):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.branch import fold_angle
-from meshwright.path import Path
+from meshwright.contact.branch import fold_angle
+from meshwright.cycle.path import Path
 
 
 @pytest.mark.parametrize("error", [0.02, -0.02, -0.05, 0.1])

@@ -8,7 +8,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.contact_line import contact_line
+from meshwright.contact.contact_line import contact_line
 
 SPUR = {
     "drive": "spherical",

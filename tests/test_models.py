@@ -5,8 +5,9 @@ import re
 import numpy as np
 import pytest
 
-from meshwright import analysis, metadata
-from meshwright._library import SHIPPED, library, model, pointer, text
+from meshwright.base.library import SHIPPED, library, model, pointer, text
+from meshwright.contact import analysis
+from meshwright.design import description as metadata
 
 HEADER = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
 

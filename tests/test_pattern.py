@@ -8,8 +8,8 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.pairs import Mesh
-from meshwright.pattern import contour, patches
+from meshwright.cycle.pairs import Mesh
+from meshwright.pattern.pattern import contour, patches
 
 AT = math.radians(1000.0)
 

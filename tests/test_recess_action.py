@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 
 # Half a unit of the last printed digit, and a little for its rounding.
 LENGTH_MM = 6e-5

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.edge_contact import edge_paths
-from meshwright.grids import grid
-from meshwright.pairs import Mesh
-from meshwright.placement import inverse, placements_at
-from meshwright.transmission import envelopes
+from meshwright.contact.placement import inverse, placements_at
+from meshwright.cycle.edge_contact import edge_paths
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import envelopes
+from meshwright.flank.grids import grid
 from tests.independent import gap_search
 
 PENETRATION_MM = 1e-7

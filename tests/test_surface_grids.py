@@ -9,8 +9,8 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.exports import quadrilaterals, stl, vtu
-from meshwright.grids import grid
+from meshwright.flank.exports import quadrilaterals, stl, vtu
+from meshwright.flank.grids import grid
 
 
 def test_a_spherical_grid_spans_face_and_tip_of_the_blank():
@@ -130,7 +130,7 @@ def test_what_cannot_be_spanned_is_an_error(arguments, capsys):
 
 def test_step_passes_through_the_flank_and_says_how_far_it_departs():
     pytest.importorskip("OCP.TColgp")
-    from meshwright.step import step
+    from meshwright.flank.step import step
 
     coarse, fine = (step(Drive.load("spherical-table-3-1-concave"), "pinion", n) for n in ((6, 6), (11, 11)))
     assert coarse.content.startswith(b"ISO-10303-21;")

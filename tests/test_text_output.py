@@ -5,11 +5,11 @@ import json
 import pytest
 
 from meshwright import Drive
-from meshwright.backlash import backlash
 from meshwright.cli import main
 from meshwright.commands.shown import ROUND_OFF, shown
-from meshwright.ends import why_open
-from meshwright.pairs import Mesh
+from meshwright.cycle.backlash import backlash
+from meshwright.cycle.ends import why_open
+from meshwright.cycle.pairs import Mesh
 
 
 def _printed(capsys, *arguments):

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from meshwright import Drive, analysis
-from meshwright._library import library, text
+from meshwright import Drive
+from meshwright.base.library import library, text
+from meshwright.contact import analysis
 
 
 @pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-3-1-concave", "face-worm-conical-convex"])

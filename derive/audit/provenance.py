@@ -11,7 +11,7 @@ from typing import TypedDict
 
 from derive.audit.check import root_of
 from derive.conditions import functions, partial_operations
-from derive.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
+from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
 from derive.schedule import Schedule
 
 

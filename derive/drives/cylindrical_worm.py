@@ -10,15 +10,15 @@ from functools import partial
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Rx, Ry, Rz, translation
-from derive.contact import contact
-from derive.definitions import Definitions
-from derive.drive import Body, Drive, Margin, Region, System, body_point
 from derive.drives.cylindrical_worm_functions import generation_functions
-from derive.envelope import envelope, explicit, merge_sum
-from derive.rack_and_pinion import Rack
-from derive.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
+from derive.language import vectors as v
+from derive.language.chain import Rx, Ry, Rz, translation
+from derive.language.contact import contact
+from derive.language.definitions import Definitions
+from derive.language.drive import Body, Drive, Margin, Region, System, body_point
+from derive.language.envelope import envelope, explicit, merge_sum
+from derive.language.rack_and_pinion import Rack
+from derive.language.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
 from derive.tools.axial_blade import axial_blade
 from derive.tools.grinding_arc import grinding_arc
 from derive.tools.grinding_disc import grinding_disc

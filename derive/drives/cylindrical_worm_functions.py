@@ -1,10 +1,10 @@
 """What a cylindrical worm drive offers beside its contact: generation of the wheel, limit points, meshing axes."""
 
-from derive import rack_and_pinion as rp
-from derive import vectors as v
-from derive.functions import Function, Result
-from derive.origin import joined
-from derive.symbols import Quantity
+from derive.language import rack_and_pinion as rp
+from derive.language import vectors as v
+from derive.language.functions import Function, Result
+from derive.language.origin import joined
+from derive.language.symbols import Quantity
 
 #: The rack's equation of meshing is the one in space.
 MESHING = "rack-and-pinion/rack-form"

@@ -11,17 +11,17 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Ry, Rz, placement, station, translation
-from derive.contact import contact
-from derive.definitions import Definitions
-from derive.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
 from derive.drives import face_worm_keys as k
-from derive.envelope import envelope, nearest_turn
-from derive.origin import Origin
-from derive.replace import replaced
-from derive.surface import Surface
-from derive.symbols import Guard, Quantity, Rule, Unknown
+from derive.language import vectors as v
+from derive.language.chain import Ry, Rz, placement, station, translation
+from derive.language.contact import contact
+from derive.language.definitions import Definitions
+from derive.language.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
+from derive.language.envelope import envelope, nearest_turn
+from derive.language.origin import Origin
+from derive.language.replace import replaced
+from derive.language.surface import Surface
+from derive.language.symbols import Guard, Quantity, Rule, Unknown
 from derive.tools.conical_hob import conical_hob
 from derive.tools.head_cutter import HeadCutter
 

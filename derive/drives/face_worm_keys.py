@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derive.symbols import Rule, Table, parameter
+from derive.language.symbols import Rule, Table, parameter
 
 POSITIVE = (0, sp.oo)
 ACUTE = (0, sp.pi / 2)

@@ -11,17 +11,17 @@ from functools import partial
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Rx, Ry, Rz, translation
-from derive.contact import contact
-from derive.definitions import Definitions
-from derive.drive import Body, Drive, Margin, Region, System, body_point
 from derive.drives import spherical_keys as k
 from derive.drives.spherical_keys import PINION, WHEEL, Gear
-from derive.envelope import envelope, explicit
-from derive.replace import replaced
-from derive.surface import Surface
-from derive.symbols import Guard, Quantity, Unknown
+from derive.language import vectors as v
+from derive.language.chain import Rx, Ry, Rz, translation
+from derive.language.contact import contact
+from derive.language.definitions import Definitions
+from derive.language.drive import Body, Drive, Margin, Region, System, body_point
+from derive.language.envelope import envelope, explicit
+from derive.language.replace import replaced
+from derive.language.surface import Surface
+from derive.language.symbols import Guard, Quantity, Unknown
 from derive.tools.rack_section import SWEEPS, RackBody, RackTool
 
 s, m, alpha = k.flank.symbol, k.module.symbol, k.pressure_angle.symbol

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive.symbols import Parameter, Rule, Table, parameter
+from derive.language.symbols import Parameter, Rule, Table, parameter
 
 POSITIVE = (0, sp.oo)
 

@@ -7,11 +7,11 @@ MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums,
 
 from dataclasses import dataclass
 
-from derive.drive import PATH
 from derive.emit import approximation
 from derive.emit.fusion import fused_products
 from derive.emit.order import Operation, latency_order
 from derive.emit.render import render
+from derive.language.drive import PATH
 from derive.quotients import by_reciprocal
 from derive.schedule import Schedule
 from derive.tape import Stage

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import casadi
 
-from derive.drive import PATH
+from derive.language.drive import PATH
 from derive.tape import Lowering, Stage, Tape
 
 

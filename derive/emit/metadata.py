@@ -7,7 +7,7 @@ import math
 import mpmath
 
 from derive import newton
-from derive.symbols import interface_unit
+from derive.language.symbols import interface_unit
 from derive.tape import Stage
 
 GENERATOR = "0.1.0"

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.conditions import Evaluated
-from derive.drive import PATH
 from derive.emit.c99 import Printer
 from derive.emit.render import render
+from derive.language.drive import PATH
 from derive.tape import Lowering, Stage, Tape
 
 _POINT = "point_pinion_f"

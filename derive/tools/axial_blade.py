@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from derive.surface import helicoid
-from derive.symbols import Quantity
+from derive.language.surface import helicoid
+from derive.language.symbols import Quantity
 from derive.tools.worm_body import WormTool, reach
 
 

@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from derive.chain import Rz, translation
-from derive.surface import swept
+from derive.language.chain import Rz, translation
+from derive.language.surface import swept
 
 
 def conical_hob(definitions, *, along, sweep, phase, pitch_radius, screw_parameter, cone_angle, profile_angle, flank):

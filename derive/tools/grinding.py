@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Rx, screw, swing
-from derive.envelope import envelope
-from derive.origin import joined
-from derive.surface import Surface
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.chain import Rx, screw, swing
+from derive.language.envelope import envelope
+from derive.language.origin import joined
+from derive.language.surface import Surface
+from derive.language.symbols import Quantity
 from derive.tools.worm_body import WormTool, reach, regression
 
 

@@ -2,10 +2,10 @@
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import swing
-from derive.envelope import explicit_angle
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.chain import swing
+from derive.language.envelope import explicit_angle
+from derive.language.symbols import Quantity
 from derive.tools.grinding import grinding_wheel, ground_flank, ground_tool
 
 

@@ -2,9 +2,9 @@
 
 import sympy as sp
 
-from derive.chain import Motion
-from derive.envelope import explicit
-from derive.symbols import Quantity
+from derive.language.chain import Motion
+from derive.language.envelope import explicit
+from derive.language.symbols import Quantity
 from derive.tools.grinding import grinding_wheel, ground_flank, ground_tool
 
 

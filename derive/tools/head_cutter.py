@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive.definitions import Definitions
-from derive.surface import revolved
+from derive.language.definitions import Definitions
+from derive.language.surface import revolved
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from functools import partial
 
 import sympy as sp
 
-from derive.chain import swing, translation
-from derive.surface import Surface, swept
-from derive.symbols import Quantity
+from derive.language.chain import swing, translation
+from derive.language.surface import Surface, swept
+from derive.language.symbols import Quantity
 
 
 @dataclass(frozen=True)

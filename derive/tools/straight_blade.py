@@ -2,11 +2,11 @@
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Rx
-from derive.origin import Origin
-from derive.surface import helicoid
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.chain import Rx
+from derive.language.origin import Origin
+from derive.language.surface import helicoid
+from derive.language.symbols import Quantity
 from derive.tools.worm_body import WormTool
 
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import placement, screw, translation
-from derive.surface import Surface
-from derive.symbols import Quantity
+from derive.language import vectors as v
+from derive.language.chain import placement, screw, translation
+from derive.language.surface import Surface
+from derive.language.symbols import Quantity
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive.drive import Margin
-from derive.surface import Surface
-from derive.symbols import Quantity
+from derive.language.drive import Margin
+from derive.language.surface import Surface
+from derive.language.symbols import Quantity
 
 
 @dataclass(frozen=True)

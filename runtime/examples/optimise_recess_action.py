@@ -15,7 +15,7 @@ import casadi
 import numpy as np
 
 from meshwright import Drive, differentiable
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 
 SEMI_MAJOR_MM = 5.0
 ELLIPSE_AT = np.radians(1500.0)

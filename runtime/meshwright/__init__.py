@@ -8,8 +8,8 @@
 ('converged', 'converged')
 """
 
+from meshwright.base.errors import DesignError, UsageError
+from meshwright.contact.results import TCA
 from meshwright.drive import Drive
-from meshwright.errors import DesignError, UsageError
-from meshwright.results import TCA
 
 __all__ = ["TCA", "DesignError", "Drive", "UsageError"]

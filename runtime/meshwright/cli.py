@@ -9,8 +9,8 @@ import re
 import sys
 
 from meshwright import commands
-from meshwright._library import LibraryError
-from meshwright.errors import DesignError, UsageError
+from meshwright.base.errors import DesignError, UsageError
+from meshwright.base.library import LibraryError
 
 
 def parser():

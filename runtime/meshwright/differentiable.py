@@ -9,9 +9,9 @@ Lengths in mm, angles in rad, except where a design key names its unit.
 import casadi
 import numpy as np
 
-from meshwright import design as designs
-from meshwright._library import SHIPPED
-from meshwright.errors import UsageError
+from meshwright.base.errors import UsageError
+from meshwright.base.library import SHIPPED
+from meshwright.design import design as designs
 
 #: Largest residual (mm of position, components of unit normals) of what counts as a contact.
 RESIDUAL = 1e-9
@@ -23,9 +23,9 @@ _NEWTON = {"abstol": 1e-12, "abstolStep": 1e-14, "max_iter": 30, "error_on_fail"
 
 
 def differentiable_tca(description, mirrored=False):
-    """Contact of the drive described (:mod:`meshwright.metadata`) as a CasADi function of its parameters.
+    """Contact of the drive described (:mod:`meshwright.design.description`) as a CasADi function of its parameters.
 
-    ``mirrored`` as in :class:`~meshwright.design.Design`: pinion angle and transmission error are those of the
+    ``mirrored`` as in :class:`~meshwright.design.design.Design`: pinion angle and transmission error are those of the
     left-hand drive, everything else is that of the right-hand drive, its mirror image.
 
     In: ``p`` complete parameter vector, ``phi`` pinion angle, ``x0`` start values of the unknowns, near the contact
@@ -63,12 +63,12 @@ def differentiable_tca(description, mirrored=False):
 
 
 def parameters(design, free):
-    """CasADi function v → p: the parameter vector of a :class:`~meshwright.design.Design` with keys left free.
+    """CasADi function v → p: the parameter vector of a :class:`~meshwright.design.design.Design` with keys left free.
 
     ``free`` are places such as ``"design.hob_pitch_radius_mm"``, ``v`` their values in the units of the keys. What
     the design leaves open follows from ``v`` by the drive's rules and design systems, as it does when a design file
     is read; where a design system has no regular solution, what it would give is NaN. Raises
-    :class:`~meshwright.errors.UsageError` for an unknown place.
+    :class:`~meshwright.base.errors.UsageError` for an unknown place.
     """
     description = design.description
     given = designs.given_vector(design)

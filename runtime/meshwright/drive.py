@@ -6,13 +6,16 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import analysis, contact_ratio, edge, grids, limits, windows
-from meshwright import design as designs
-from meshwright._library import library, model, pointer, text
-from meshwright.design import Design
-from meshwright.errors import UsageError
-from meshwright.functions import Function
-from meshwright.surface import Flank
+from meshwright import limits
+from meshwright.base.errors import UsageError
+from meshwright.base.library import library, model, pointer, text
+from meshwright.contact import analysis
+from meshwright.contact.functions import Function
+from meshwright.cycle import contact_ratio, edge, windows
+from meshwright.design import design as designs
+from meshwright.design.design import Design
+from meshwright.flank import grids
+from meshwright.flank.surface import Flank
 
 
 def _compiled(design):
@@ -20,7 +23,7 @@ def _compiled(design):
 
 
 def _casadi(design):
-    from meshwright.casadi_backend import model_of
+    from meshwright.contact.casadi_backend import model_of
 
     try:
         return model_of(design.description)
@@ -41,7 +44,7 @@ class Drive:
 
     @classmethod
     def load(cls, name_or_path, backend="c"):
-        """The drive of a packaged design or a TOML file; raises :class:`~meshwright.errors.DesignError`."""
+        """The drive of a packaged design or a TOML file; raises :class:`~meshwright.base.errors.DesignError`."""
         return cls.from_tables(designs.read(name_or_path), backend)
 
     @classmethod
@@ -95,7 +98,7 @@ class Drive:
         return Flank.of(self, member, region)
 
     def function(self, name):
-        """A generated function of the drive by name: see :class:`~meshwright.functions.Function`."""
+        """A generated function of the drive by name: see :class:`~meshwright.contact.functions.Function`."""
         return Function.of(self, name)
 
     def state(self, angle=0.0):
@@ -106,7 +109,7 @@ class Drive:
         return s
 
     def tca(self, angles):
-        """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.results.TCA`."""
+        """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.contact.results.TCA`."""
         angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
         if result.past_a_tip and self.past_the_tips:
@@ -122,11 +125,11 @@ class Drive:
         return limits.limits_of(self, request)
 
     def contact_ratio(self):
-        """Ends of contact, teeth in contact, transmission error: :class:`~meshwright.contact_ratio.ContactRatio`."""
+        """Ends, teeth in contact, transmission error: :class:`~meshwright.cycle.contact_ratio.ContactRatio`."""
         return contact_ratio.contact_ratio(self)
 
     def surface(self, member, shape=(21, 41), region="flank"):
-        """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.grids.Grid`."""
+        """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`."""
         return grids.grid(self, member, shape, region)
 
     def trace(self, angles):

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright import analysis
-from meshwright import design as designs
-from meshwright._library import library, model, pointer
+from meshwright.base.library import library, model, pointer
+from meshwright.contact import analysis
+from meshwright.design import design as designs
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from derive import conditions
 from derive.drives import catalogue
 from derive.newton import sample_parameters
 from derive.schedule import schedule
-from meshwright._library import ffi, library, model, text
+from meshwright.base.library import ffi, library, model, text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 DRIVES = sorted(path.stem for path in (GENERATED / "c").glob("*.json"))

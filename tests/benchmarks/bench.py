@@ -16,7 +16,7 @@ from derive import drives
 from derive.schedule import schedule
 from derive.tape import Stage
 from meshwright import Drive
-from meshwright._library import ffi, library
+from meshwright.base.library import ffi, library
 from tests.benchmarks import baselines, regeneration
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 

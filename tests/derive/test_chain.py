@@ -4,8 +4,8 @@ import mpmath
 import pytest
 import sympy as sp
 
-from derive import vectors as v
-from derive.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, station, swing, translation
+from derive.language import vectors as v
+from derive.language.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, station, swing, translation
 
 a, b, p, q, t = sp.symbols("a b p q t", real=True)
 POINT = sp.symbols("x y z", real=True)

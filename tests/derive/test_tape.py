@@ -6,8 +6,8 @@ import mpmath
 import pytest
 import sympy as sp
 
-from derive.definitions import Definitions
 from derive.emit import c99
+from derive.language.definitions import Definitions
 from derive.tape import Lowering, Stage, Tape
 
 x, y, p = sp.symbols("x y p", real=True)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright._library import SHIPPED
-from meshwright.design import given_vector
+from meshwright.base.library import SHIPPED
+from meshwright.design.design import given_vector
 from meshwright.sensitivity import sensitivity
 
 DESIGNS = ("recess-action-full", "plain-zk", "spherical-table-4-4-convex", "face-worm-conical-convex")

@@ -9,8 +9,8 @@ import tarfile
 import pytest
 
 from meshwright import Drive
-from meshwright._library import SHIPPED
-from meshwright.results import ARCSEC
+from meshwright.base.library import SHIPPED
+from meshwright.contact.results import ARCSEC
 from tests.embedding import compile as c
 
 EXAMPLES = c.ROOT / "runtime" / "examples"

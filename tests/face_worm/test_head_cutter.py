@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, UsageError
-from meshwright.head_cutter import clearance, least_tilt
+from meshwright.limits.head_cutter import clearance, least_tilt
 from tests.face_worm.designs import NAMES, changed, independent
 
 

@@ -67,7 +67,7 @@ class Twin:
 
 
 def twin(drive, contact):
-    """The twin of a right-hand drive with one contact, the only row of a :class:`~meshwright.results.TCA`."""
+    """The twin of a right-hand drive with one contact, the only row of a :class:`~meshwright.contact.results.TCA`."""
     solution = {name: float(values[0]) for name, values in contact.unknowns.items()}
     solution["transmission_error"] = float(contact.error[0])
     return _FAMILIES[drive.design.family](drive, solution, float(contact.wheel_angles[0]))

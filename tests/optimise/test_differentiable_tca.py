@@ -5,8 +5,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from meshwright import Drive, design, differentiable
-from meshwright.errors import UsageError
+from meshwright import Drive, differentiable
+from meshwright.base.errors import UsageError
+from meshwright.design import design
 from meshwright.sensitivity import sensitivity
 from tests.independent.recess_action import Paper
 

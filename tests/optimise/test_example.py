@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 from tests.conftest import ROOT
 
 

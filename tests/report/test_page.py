@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, cli
+from meshwright.contact.results import ARCSEC
 from meshwright.report import analyse, page, sensitivity_figures
 from meshwright.report.numbers import fixed, number, unit
 from meshwright.report.tables import groups
-from meshwright.results import ARCSEC
 from meshwright.sensitivity import sensitivity
 
 from .conftest import DESIGNS, quiet

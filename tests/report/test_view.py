@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.pattern import along_ellipse
+from meshwright.pattern.pattern import along_ellipse
 from meshwright.report import analyse
 from meshwright.report.scene import scene
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright._library import ffi, library
+from meshwright.base.library import ffi, library
 from tests.lanes import WIDTHS, available, trace, trace_designs
 
 DESIGNS = ("recess-action-full", "face-worm-cylindrical-convex", "spherical-table-2-3")

@@ -4,7 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from meshwright import Drive, design
+from meshwright import Drive
+from meshwright.design import design
 from meshwright.sensitivity import sensitivity
 from tests.independent.twins import twin
 

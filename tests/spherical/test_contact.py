@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 from tests.independent.spherical import Gear, Pair, involute
 
 #: Pairs that touch in a point: (forms, sphere radii).

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.pairs import Mesh
+from meshwright.cycle.pairs import Mesh
 from tests.independent.spherical import spur_contact_ratio
 
 

@@ -1,6 +1,6 @@
 """Designs that the worm tests share."""
 
-from meshwright.design import changed, read
+from meshwright.design.design import changed, read
 
 PROFILES = ("ZA", "ZI", "ZN", "ZK", "ZC")
 

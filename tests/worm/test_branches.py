@@ -5,10 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from meshwright import Drive, analysis
-from meshwright.branch import follow
+from meshwright import Drive
 from meshwright.cli import main
-from meshwright.results import ARCSEC
+from meshwright.contact import analysis
+from meshwright.contact.branch import follow
+from meshwright.contact.results import ARCSEC
 from tests.worm.designs import PROFILES, plain
 
 

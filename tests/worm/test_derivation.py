@@ -4,9 +4,9 @@ import pytest
 import sympy as sp
 
 from derive import drives
-from derive import vectors as v
-from derive.chain import screw
 from derive.drives.cylindrical_worm import TOOLS
+from derive.language import vectors as v
+from derive.language.chain import screw
 from derive.prove import Outcome, Statement, decide
 from derive.prove.tree import parse
 

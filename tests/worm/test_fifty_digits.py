@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.design import changed
+from meshwright.design.design import changed
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from meshwright import Drive
-from meshwright.errors import UsageError
+from meshwright.base.errors import UsageError
 from tests.worm.hob_tip import Balls
 
 FORMS = [f"plain-{form}" for form in ("za", "zi", "zn", "zk", "zc")]

@@ -9,9 +9,9 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.design import changed
+from meshwright.design.design import changed
 from meshwright.limits import Request
-from meshwright.sections import section
+from meshwright.limits.sections import section
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.design import changed
+from meshwright.design.design import changed
 from tests.worm.designs import PROFILES, plain
 
 ANGLES = np.radians([-40.0, -15.0, 0.0, 20.0, 35.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 from tests.worm.designs import packaged
 
 

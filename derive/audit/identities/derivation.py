@@ -1,6 +1,6 @@
 """The steps by which every drive is derived, for generic curves, surfaces and motions: one statement a step.
 
-The modules of ``derive`` name these statements where they carry the step out (see :mod:`derive.origin`).
+The modules of ``derive`` name these statements where they carry the step out (see :mod:`derive.language.origin`).
 """
 
 from derive.audit.claims import Document, scope

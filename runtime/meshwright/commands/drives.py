@@ -1,7 +1,8 @@
 """List the families of drives, their keys and the packaged designs."""
 
-from meshwright import design, metadata, schema
-from meshwright.files import write_json, write_text
+from meshwright.base.files import write_json, write_text
+from meshwright.design import description as metadata
+from meshwright.design import design, schema
 
 
 def add_arguments(parser):

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
-from meshwright.errors import UsageError
-from meshwright.files import write_json, write_text
 
 
 def add_arguments(parser):

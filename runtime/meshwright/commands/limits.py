@@ -1,9 +1,9 @@
 """Undercut lines, edges of regression, limit points of contact, meshing axes and branch points."""
 
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.shown import shown
-from meshwright.errors import UsageError
-from meshwright.files import write_json, write_text
 from meshwright.limits import Request
 
 #: More lines than this are taken for a mistake.

@@ -10,11 +10,11 @@ too large for the method.
 
 import numpy as np
 
+from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
-from meshwright.files import write_json, write_text
-from meshwright.results import ARCSEC
+from meshwright.contact.results import ARCSEC
 
 SCHEMA = "meshwright.loaded/1"
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.commands import options as common
-from meshwright.errors import UsageError
 
 #: Pairs that can share the load at once, and the member whose torque is usually stated, by family.
 PAIRS = {"spherical": 3, "face-worm": 5, "cylindrical-worm": 5}

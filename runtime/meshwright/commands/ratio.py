@@ -8,14 +8,14 @@ import math
 
 import numpy as np
 
-from meshwright.analysis import status_text
-from meshwright.backlash import meaning
+from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.shown import shown
-from meshwright.ends import why_open
-from meshwright.files import write_json, write_text
-from meshwright.results import ARCSEC
-from meshwright.transmission import ROUND_OFF, fourier
+from meshwright.contact.analysis import status_text
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.backlash import meaning
+from meshwright.cycle.ends import why_open
+from meshwright.cycle.transmission import ROUND_OFF, fourier
 
 #: Tooth orders of the Fourier components that are written.
 ORDERS = 8

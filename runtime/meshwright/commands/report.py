@@ -3,10 +3,10 @@
 Exit status 1 if a position has no contact, touches along a line, or is one that bodies cannot make.
 """
 
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
-from meshwright.errors import UsageError
-from meshwright.files import write_text
 
 FORMATS = ("pdf", "svg", "png")
 

@@ -1,7 +1,7 @@
 """Print the JSON Schema of design files."""
 
-from meshwright import schema
-from meshwright.files import write_json
+from meshwright.base.files import write_json
+from meshwright.design import schema
 
 
 def add_arguments(parser):

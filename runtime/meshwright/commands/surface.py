@@ -7,13 +7,13 @@ where they set no limit, what contact uses.
 import re
 import sys
 
-from meshwright import exports
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_bytes, write_json, write_text
 from meshwright.commands import options as common
-from meshwright.errors import UsageError
-from meshwright.files import write_bytes, write_json, write_text
-from meshwright.grids import grid
-from meshwright.sections import section
-from meshwright.step import step
+from meshwright.flank import exports
+from meshwright.flank.grids import grid
+from meshwright.flank.step import step
+from meshwright.limits.sections import section
 
 #: Larger grids are taken for a mistake.
 MOST_POINTS = 4_000_000

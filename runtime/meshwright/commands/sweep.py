@@ -8,11 +8,11 @@ import math
 import re
 import sys
 
-from meshwright import design as designs
-from meshwright import sweep
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_json
 from meshwright.commands import options as common
-from meshwright.errors import UsageError
-from meshwright.files import write_json
+from meshwright.design import design as designs
+from meshwright.sweep import run as sweep
 
 _FORMS = "low:high or normal:mean:deviation"
 

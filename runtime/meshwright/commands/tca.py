@@ -5,12 +5,12 @@ Exit status 1 if a point has no contact, touches along a line, or is one that bo
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
-from meshwright.contact_line import contact_line
-from meshwright.errors import UsageError
-from meshwright.files import write_csv, write_json, write_text
-from meshwright.pattern import contour
+from meshwright.contact.contact_line import contact_line
+from meshwright.pattern.pattern import contour
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000

@@ -14,8 +14,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from meshwright.base.errors import DesignError
 from meshwright.drive import Drive
-from meshwright.errors import DesignError
 from meshwright.fe.generated import about_z, region_surface
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.hobbed import hobbed_side

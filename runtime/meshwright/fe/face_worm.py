@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from meshwright import design as designs
+from meshwright.design import design as designs
 from meshwright.drive import Drive
 from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter
 from meshwright.fe.hexahedra import Floats

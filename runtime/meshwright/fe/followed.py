@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from meshwright.fe.hexahedra import Floats
-from meshwright.surface import FlankPoints
+from meshwright.flank.surface import FlankPoints
 
 Generated = Callable[[Floats, Floats], FlankPoints]
 """Profile parameter (K,) and angle (K,) to what is known of the surface there; the angle is its last parameter."""

@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from meshwright.base.errors import DesignError
 from meshwright.drive import Drive
-from meshwright.errors import DesignError
 from meshwright.fe.followed import Generated, Line
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.rounding import Span
 from meshwright.fe.tooth import ToothSide
-from meshwright.surface import Flank, FlankPoints
+from meshwright.flank.surface import Flank, FlankPoints
 
 _SAMPLES = 17
 # Steps from the middle of the flank to either end, or along the fillet.

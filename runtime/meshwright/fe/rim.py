@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from meshwright.errors import UsageError
+from meshwright.base.errors import UsageError
 from meshwright.fe.hexahedra import Floats
 
 # The rim reaches at most so many root radii below the root.

@@ -9,9 +9,10 @@ from typing import Literal
 
 import numpy as np
 
-from meshwright.contact_ratio import ContactRatio
+from meshwright.base.errors import DesignError, UsageError
+from meshwright.contact.placement import placements
+from meshwright.cycle.contact_ratio import ContactRatio
 from meshwright.drive import Drive
-from meshwright.errors import DesignError, UsageError
 from meshwright.fe import cylindrical_worm, face_worm, spherical
 from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
@@ -19,7 +20,6 @@ from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.rim import check_rim
 from meshwright.fe.tooth import Teeth
-from meshwright.placement import placements
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
 _RIM_MODULES = 4.5

@@ -5,7 +5,7 @@ generated flank functions (with their singular function and margins) and the dri
 all it needs. Families whose tooth pairs may touch at several points at once add a search to :data:`SEARCHES`.
 """
 
-from meshwright.errors import UsageError
+from meshwright.base.errors import UsageError
 from meshwright.limits import contacts, cylindrical_worm, face_worm, spherical
 from meshwright.limits.results import Limits, Request
 
@@ -28,7 +28,7 @@ def limits_of(drive, request=None):
 
 
 def contacts_of(drive, angle):
-    """Every contact of one tooth pair at a pinion angle, rad: a :class:`~meshwright.results.TCA`, one row each."""
+    """Every contact of a pair at a pinion angle, rad: a :class:`~meshwright.contact.results.TCA`, one row each."""
     return _of_family(drive, SEARCHES, "a search for all contacts")(drive, angle)
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from meshwright._library import ffi, library, pointer
-from meshwright.branch import STEP, follow, turning_point
+from meshwright.base.library import ffi, library, pointer
+from meshwright.contact.branch import STEP, follow, turning_point
 from meshwright.limits.results import BranchPoint
 from meshwright.limits.zeros import zeros
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from meshwright import analysis
-from meshwright._library import ffi, library, pointer
+from meshwright.base.library import ffi, library, pointer
+from meshwright.contact import analysis
 from meshwright.limits.profile import Profile
 
 #: Lines Ψ = constant on which contacts are sought, and profile points on each.
@@ -20,7 +20,7 @@ SAME = 1e-6
 
 
 def contacts(drive, angle):
-    """Every contact of the tooth pair at a pinion angle (rad), as a :class:`~meshwright.results.TCA`, one row each.
+    """Every contact of the pair at a pinion angle (rad): a :class:`~meshwright.contact.results.TCA`, one row each.
 
     Solutions on the spurious sheet, where the wheel's flank does not lie, are rejected; points that bodies cannot
     make keep their flags. Rows are in ascending order of the rack angle Ψ.

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshwright.errors import UsageError
+from meshwright.base.errors import UsageError
 from meshwright.limits.branches import branch_points
 from meshwright.limits.profile import Profile
 from meshwright.limits.results import Axis, ContactPoint, Limits, SurfaceLimit
@@ -57,7 +57,7 @@ def _is_right_angle(drive):
 
 
 def need_right_angle(drive):
-    """Raise :class:`~meshwright.errors.UsageError` unless hob and blank stand at right angles in cutting."""
+    """Raise :class:`~meshwright.base.errors.UsageError` unless hob and blank stand at right angles in cutting."""
     if not _is_right_angle(drive):
         angle = np.degrees(drive.design.value("cutting_shaft_angle_deg"))
         raise UsageError(
@@ -67,7 +67,7 @@ def need_right_angle(drive):
 
 
 def _need_radii(hob, radii):
-    """Raise :class:`~meshwright.errors.UsageError` for a radius that the hob's profile does not reach."""
+    """Raise :class:`~meshwright.base.errors.UsageError` for a radius that the hob's profile does not reach."""
     for radius in radii:
         if hob.at_radius(radius) is None:
             least, most = hob.least_radius(), hob.largest_radius()

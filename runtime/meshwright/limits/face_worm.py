@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from meshwright import head_cutter
+from meshwright.limits import head_cutter
 from meshwright.limits.branches import branch_points
 from meshwright.limits.results import Limits, SurfaceLimit
 from meshwright.limits.singular_lines import edges

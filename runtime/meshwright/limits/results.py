@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from meshwright.head_cutter import Judgement
+from meshwright.limits.head_cutter import Judgement
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ class Thickness:
 class Limits:
     """Everything that bounds a drive; see the classes above. Only helicoids may have meshing ``axes``.
 
-    ``head_cutter`` is the :class:`~meshwright.head_cutter.Judgement` of a drive whose gear a head-cutter copies.
+    ``head_cutter`` is the :class:`~meshwright.limits.head_cutter.Judgement` of a drive whose gear a head-cutter copies.
     """
 
     undercut: tuple[SurfaceLimit, ...] = ()

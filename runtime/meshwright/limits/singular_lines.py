@@ -15,9 +15,9 @@ CORRECTIONS, HALVINGS = 25, 60
 def edges(surface, profile):
     """Where the surface becomes singular at this place of the profile, nearest to its reference point either way.
 
-    ``surface`` is a :class:`~meshwright.surface.Flank` of three parameters, the profile's first. Returns parameter
-    triples (M, 3), M from 0 to 2; none if the surface is singular already where the curve starts, or the place of the
-    profile generates nothing there.
+    ``surface`` is a :class:`~meshwright.flank.surface.Flank` of three parameters, the profile's first. Returns
+    parameter triples (M, 3), M from 0 to 2; none if the surface is singular already where the curve starts, or the
+    place of the profile generates nothing there.
     """
     start = _on_curve(surface, np.array([profile, 0.0, 0.0]))
     if start is None or surface([start]).regular[0] <= 0:

@@ -9,7 +9,7 @@ import itertools
 
 import numpy as np
 
-from meshwright.errors import DesignError
+from meshwright.base.errors import DesignError
 from meshwright.limits.results import Limits, SurfaceLimit
 
 MEMBERS = ("pinion", "wheel")

@@ -5,18 +5,25 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from meshwright.backlash import backlash
-from meshwright.contact_line import ContactLine, contact_line
+from meshwright.contact.contact_line import ContactLine, contact_line
+from meshwright.contact.placement import placements
+from meshwright.contact.results import TCA, impossible
+from meshwright.cycle.backlash import backlash
+from meshwright.cycle.edge_contact import edge_paths
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import (
+    ROUND_OFF,
+    Envelopes,
+    TransmissionError,
+    envelopes,
+    fourier,
+    transmission_error,
+)
 from meshwright.drive import Drive
-from meshwright.edge_contact import edge_paths
-from meshwright.pairs import Mesh
-from meshwright.pattern import Contour, along_ellipse, contour
-from meshwright.placement import placements
+from meshwright.pattern.pattern import Contour, along_ellipse, contour
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
-from meshwright.results import TCA, impossible
-from meshwright.transmission import ROUND_OFF, Envelopes, TransmissionError, envelopes, fourier, transmission_error
 
 #: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
 POSITIONS, LARGEST_STEP = 120, math.radians(5.0)

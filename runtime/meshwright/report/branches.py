@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshwright.path import Path
+from meshwright.cycle.path import Path
 
 #: Solutions nearer than this, relative to their size or 1, are one.
 SAME = 1e-6

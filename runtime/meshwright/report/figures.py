@@ -7,9 +7,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
+from meshwright.contact.results import ARCSEC
 from meshwright.report import pattern_figure, sensitivity_figures, style
 from meshwright.report.branches import broken
-from meshwright.results import ARCSEC
 
 PINION_ANGLE = "pinion angle, deg"
 

@@ -3,8 +3,8 @@
 import io
 from pathlib import Path
 
-from meshwright.errors import UsageError
-from meshwright.files import write_bytes
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_bytes
 from meshwright.report import style
 from meshwright.report.figures import pictures
 

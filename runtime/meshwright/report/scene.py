@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.contact.results import ARCSEC
 from meshwright.report.patch import Patch, trimmed
 from meshwright.report.style import MEMBERS
-from meshwright.results import ARCSEC
 
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
 LIGHTER = 0.22

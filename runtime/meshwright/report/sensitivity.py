@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.pairs import Mesh
+from meshwright.contact.results import TCA
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import peak_to_peak
 from meshwright.report.branches import breaks
-from meshwright.results import TCA
-from meshwright.transmission import peak_to_peak
 
 #: Size and label of a misalignment that a workshop would call small, by the unit of its key.
 STEPS = {"mm": (0.01, "0.01\N{NO-BREAK SPACE}mm"), "deg": (1 / 60, "1′")}

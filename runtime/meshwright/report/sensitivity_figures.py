@@ -4,9 +4,9 @@ import textwrap
 
 import numpy as np
 
+from meshwright.contact.results import ARCSEC
 from meshwright.report import style
 from meshwright.report.branches import broken
-from meshwright.results import ARCSEC
 
 _COLUMNS = 4
 

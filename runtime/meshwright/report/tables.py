@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.report.numbers import fixed, number, title, unit
 from meshwright.report.sensitivity import SHIFT_ROUND_OFF
-from meshwright.results import ARCSEC
 from meshwright.sensitivity import sensitivity
-from meshwright.transmission import ROUND_OFF
 
 #: Derivatives of a position below this are round-off, mm per unit of a key.
 POSITION_ROUND_OFF = 1e-12

@@ -1,0 +1,300 @@
+"""The kinematic chain: rotations, translations and swings, their products, and the velocities they cause.
+
+A motion maps coordinates of the moving body to coordinates of its parent, as an active right-handed product
+that acts right to left. Products merge successive rotations about one axis and move a translation along an
+axis through a rotation about it, so that only the angles that geometry needs remain in the equations.
+"""
+
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import sympy as sp
+
+from derive.language import vectors as v
+from derive.language.origin import joined
+from derive.language.replace import replaced
+
+_OTHERS = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
+
+
+def _turned(axis, cosine, sine, a):
+    first, second = _OTHERS[axis]
+    out = list(a)
+    out[first] = cosine * a[first] - sine * a[second]
+    out[second] = sine * a[first] + cosine * a[second]
+    return tuple(out)
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """Rotation by ``angle`` about a coordinate axis."""
+
+    axis: str
+    angle: sp.Expr
+    rests_on = ("conventions/rotations", "conventions/sums", "derivation/rotation")
+
+    def direction(self, a):
+        return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
+
+    point = direction
+
+    def expressions(self):
+        return (self.angle,)
+
+    def inverse(self):
+        return Rotation(self.axis, -self.angle)
+
+    def local_velocity(self, variable, point):
+        """∂/∂variable of a body-fixed point, as components in the moving frame."""
+        return v.scale(sp.diff(self.angle, variable), v.cross(v.AXES[self.axis], point))
+
+
+@dataclass(frozen=True)
+class Translation:
+    """Translation by ``offset``."""
+
+    offset: tuple
+    rests_on = ("derivation/translation",)
+
+    def direction(self, a):
+        return a
+
+    def point(self, a):
+        return v.add(self.offset, a)
+
+    def expressions(self):
+        return self.offset
+
+    def inverse(self):
+        return Translation(v.scale(-1, self.offset))
+
+    def local_velocity(self, variable, point):
+        return tuple(sp.diff(c, variable) for c in self.offset)
+
+
+@dataclass(frozen=True)
+class Station(Translation):
+    """A constant translation to the place, far from the axes, where everything happens.
+
+    In a product it moves to the left end, and the rotations it passes become swings about their axes as seen from
+    there: what remains are small displacements. Where two chains meet, their stations cancel as symbols.
+    """
+
+    rests_on = ("derivation/translation", "derivation/swing")
+
+    def inverse(self):
+        return Station(v.scale(-1, self.offset))
+
+
+@dataclass(frozen=True)
+class Swing:
+    """Rotation by ``angle`` about the axis through ``centre``, for an arc whose radius may be huge.
+
+    The displacement of the origin, (1 − R)·centre, is written with half angles so that no large lengths cancel.
+    """
+
+    axis: str
+    angle: sp.Expr
+    centre: tuple
+    rests_on = ("derivation/swing", "derivation/rotation")
+
+    def direction(self, a):
+        return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
+
+    def point(self, a):
+        first, second = _OTHERS[self.axis]
+        if (a[first], a[second]) == (self.centre[first], self.centre[second]):
+            return a
+        half = self.angle / 2
+        versine, sine = 2 * sp.sin(half) ** 2, 2 * sp.sin(half) * sp.cos(half)
+        shift = [sp.Integer(0)] * 3
+        shift[first] = versine * self.centre[first] + sine * self.centre[second]
+        shift[second] = versine * self.centre[second] - sine * self.centre[first]
+        return v.add(tuple(shift), self.direction(a))
+
+    def expressions(self):
+        return (self.angle, *self.centre)
+
+    def inverse(self):
+        return replace(self, angle=-self.angle)
+
+    def local_velocity(self, variable, point):
+        rate = sp.diff(self.angle, variable)
+        return v.scale(rate, v.cross(v.AXES[self.axis], v.sub(point, self.centre)))
+
+
+@dataclass(frozen=True)
+class Placement:
+    """A constant orthonormal frame: columns of the rotation (given, not checked here) and no motion of its own."""
+
+    columns: tuple
+    rests_on = ("derivation/placement",)
+
+    def direction(self, a):
+        return reduce(v.add, (v.scale(c, column) for c, column in zip(a, self.columns, strict=True)))
+
+    point = direction
+
+    def expressions(self):
+        return tuple(c for column in self.columns for c in column)
+
+    def inverse(self):
+        return Placement(tuple(zip(*self.columns, strict=True)))
+
+    def local_velocity(self, variable, point):
+        return (sp.Integer(0),) * 3
+
+
+def _along(axis, offset):
+    return all(c == 0 for c, e in zip(offset, v.AXES[axis], strict=True) if e == 0)
+
+
+def _merged(left, right):
+    """The product of two neighbours as a shorter or better ordered list of factors, or None."""
+    match left, right:
+        case (Rotation(), Rotation()) if left.axis == right.axis:
+            return _moving(Rotation(left.axis, left.angle + right.angle))
+        case (Swing(), Swing()) if (left.axis, left.centre) == (right.axis, right.centre):
+            return _moving(replace(left, angle=left.angle + right.angle))
+        case (Translation(), Translation()) if type(left) is type(right):
+            return _moving(replace(left, offset=v.add(left.offset, right.offset)))
+        case (Rotation(), Translation()) if _along(left.axis, right.offset):
+            return [right, left]
+        case (_, Station()):
+            return _passed(left, right)
+    return None
+
+
+def _passed(factor, station):
+    """factor · T(c) with the station T(c) on the left."""
+    c = station.offset
+    match factor:
+        case Rotation() if not factor.angle.is_number:
+            return [station, Swing(factor.axis, factor.angle, v.scale(-1, c))]
+        case Swing():
+            return [station, replace(factor, centre=v.sub(factor.centre, c))]
+    return [Station(factor.direction(c)), factor]
+
+
+def _moving(factor):
+    """The factor, or none where it moves nothing."""
+    still = all(e == 0 for e in factor.offset) if isinstance(factor, Translation) else factor.angle == 0
+    return [] if still else [factor]
+
+
+def _normal_form(factors):
+    """Merge and reorder neighbours until nothing changes; translations only move left, so this ends."""
+    factors = [f for f in factors if not (isinstance(f, Rotation | Swing) and f.angle == 0)]
+    at = 0
+    while at + 1 < len(factors):
+        merged = _merged(factors[at], factors[at + 1])
+        if merged is None:
+            at += 1
+        else:
+            factors[at : at + 2] = merged
+            at = max(at - 1, 0)
+    return tuple(factors)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A product of elementary motions, leftmost acting last."""
+
+    factors: tuple = ()
+
+    @property
+    def rests_on(self):
+        """Statements of the record behind the elementary motions."""
+        return joined(*(factor.rests_on for factor in self.factors))
+
+    def __matmul__(self, other):
+        return Motion(_normal_form((*self.factors, *other.factors)))
+
+    def inverse(self):
+        return Motion(tuple(f.inverse() for f in reversed(self.factors)))
+
+    def point(self, a):
+        """Parent coordinates of a point given in body coordinates."""
+        return reduce(lambda b, f: f.point(b), reversed(self.factors), a)
+
+    def direction(self, a):
+        """Parent components of a free vector given in body components."""
+        return reduce(lambda b, f: f.direction(b), reversed(self.factors), a)
+
+    def local_velocity(self, variable, point):
+        """∂(parent coordinates)/∂variable of a body-fixed point, as components in the body frame."""
+        rate = (sp.Integer(0),) * 3
+        inner = Motion()
+        for factor in reversed(self.factors):
+            local = factor.local_velocity(variable, inner.point(point))
+            rate = v.add(rate, inner.inverse().direction(local))
+            inner = Motion((factor, *inner.factors))
+        return rate
+
+    def power(self, variable, point, normal):
+        """normal · velocity, each term formed in the frame of the factor that causes it.
+
+        Scalar products do not change under rotation, so this is the meshing equation of a chain as a sum of
+        n·(axis × r), free of every angle that does not matter.
+        """
+        total = sp.Integer(0)
+        for factor in reversed(self.factors):
+            total += v.dot(normal, factor.local_velocity(variable, point))
+            point, normal = factor.point(point), factor.direction(normal)
+        return total
+
+    def substitute(self, replacement):
+        """The same motion with symbols replaced; rotations that become equal merge again."""
+        def swap(expression):
+            return replaced(expression, replacement)
+
+        factors = []
+        for f in self.factors:
+            match f:
+                case Rotation():
+                    factors.append(Rotation(f.axis, swap(f.angle)))
+                case Translation():
+                    factors.append(replace(f, offset=tuple(map(swap, f.offset))))
+                case Swing():
+                    factors.append(replace(f, angle=swap(f.angle), centre=tuple(map(swap, f.centre))))
+                case Placement():
+                    factors.append(Placement(tuple(tuple(map(swap, c)) for c in f.columns)))
+        return Motion(_normal_form(factors))
+
+
+def _rotation(axis):
+    def make(angle):
+        angle = sp.sympify(angle)
+        return Motion() if angle == 0 else Motion((Rotation(axis, angle),))
+
+    make.__doc__ = f"Rotation about {axis}."
+    return make
+
+
+Rx, Ry, Rz = map(_rotation, "xyz")
+
+
+def translation(x=0, y=0, z=0):
+    """Translation by (x, y, z)."""
+    offset = v.vector(x, y, z)
+    return Motion() if offset == (0, 0, 0) else Motion((Translation(offset),))
+
+
+def screw(angle, parameter):
+    """Turning by ``angle`` about z while advancing by ``parameter``·``angle`` along z."""
+    return Rz(angle) @ translation(z=parameter * angle)
+
+
+def swing(axis, angle, centre):
+    """Rotation about the line through ``centre`` parallel to ``axis``, free of cancellation for large radii."""
+    return Motion((Swing(axis, sp.sympify(angle), v.vector(*centre)),))
+
+
+def station(x=0, y=0, z=0):
+    """Constant translation by (x, y, z) to or from the place, far from the axes, where everything happens."""
+    return Motion(tuple(_moving(Station(v.vector(x, y, z)))))
+
+
+def placement(x_axis, y_axis, z_axis, origin):
+    """The constant motion from a frame with these axes and this origin, its station, to its parent."""
+    return station(*origin) @ Motion((Placement((x_axis, y_axis, z_axis)),))

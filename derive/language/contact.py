@@ -1,0 +1,35 @@
+"""Contact of two placed surfaces: common point, common normal, and the meshing equations that stayed implicit."""
+
+from dataclasses import replace
+
+from derive.language import vectors as v
+from derive.language.chain import Motion
+
+
+def contact(first, second):
+    """Residual of tangent contact, zero where the surfaces touch.
+
+    Three components of the position difference; the normal of ``second`` against the two tangents of ``first``;
+    the remaining conditions of either surface. Unit: mm for positions, the rest scaled with the surfaces' own
+    normals. Positions are compared in the frame that carries ``second``: its mounting is undone on both sides, so
+    that no constant rotation has to be applied to the many derivatives of a generated surface.
+    """
+    mounting, second = _unmounted(second)
+    first = first.placed(mounting.inverse())
+    normal = second.body_normal()
+    position = v.sub(first.body_point(), second.body_point())
+    tangency = tuple(v.dot(normal, tangent) for tangent in first.body_tangents())
+    return (*position, *tangency, *first.conditions, *second.conditions)
+
+
+def _unmounted(surface):
+    """The leading factors of the surface's motion in which none of its parameters occurs, and the surface without."""
+    factors = surface.motion.factors
+    count = 0
+    while count < len(factors) and not _moves(surface, factors[count]):
+        count += 1
+    return Motion(factors[:count]), replace(surface, motion=Motion(factors[count:]))
+
+
+def _moves(surface, factor):
+    return any(surface.definitions.depends(e, p) for e in factor.expressions() for p in surface.parameters)

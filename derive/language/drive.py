@@ -1,0 +1,178 @@
+"""What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive.language.chain import Motion
+from derive.language.definitions import Definitions
+from derive.language.functions import Function
+from derive.language.surface import Surface
+from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
+
+
+@dataclass(frozen=True)
+class Margin:
+    """A limit of validity: where ``positive`` < 0 the point carries ``flag``.
+
+    ``positive`` is formed from body coordinates, surface parameters and design parameters. A limit whose design
+    key is not given is "not a number" and never raises its flag. ``event`` is the word by which a contact window
+    that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
+    reference point, for functions whose sign has no meaning of its own. With ``along``, a surface parameter, the
+    limit is where ``positive`` stops growing along it.
+    """
+
+    flag: str
+    event: str
+    positive: sp.Expr
+    relative: bool = False
+    along: Quantity | None = None
+
+
+@dataclass(frozen=True)
+class Body:
+    """A member of the drive: its flank in its own frame, its motion in mesh, its limits.
+
+    ``point`` and ``normal`` are symbols for the body-frame coordinates, used by ``margins``. ``reference`` gives
+    the surface parameters of a regular point, where the singular function has its good sign. ``recovered`` are
+    parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
+    tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
+    parameter runs across it, along the profile.
+    """
+
+    name: str
+    surface: Surface
+    motion: Motion
+    reference: dict
+    point: tuple = ()
+    margins: tuple[Margin, ...] = ()
+    recovered: tuple = ()
+    lengthwise: str = ""
+
+    @property
+    def placed(self):
+        return self.surface.placed(self.motion)
+
+
+def body_point(name):
+    """Symbols for the body-frame coordinates of a contact point, for use in margins."""
+    return tuple(Quantity(f"{axis}_{name}", "mm", f"{axis} of the point, {name} frame", name) for axis in "xyz")
+
+
+@dataclass(frozen=True)
+class System:
+    """Equations ``residual`` = 0 for ``unknowns`` at given parameters and, if there is one, instant.
+
+    ``outputs`` are what the solution is wanted for, ``fixed`` replaces symbols by constants throughout.
+    """
+
+    name: str
+    definitions: Definitions
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    outputs: dict = field(default_factory=dict)
+    fixed: dict = field(default_factory=dict)
+
+
+#: The share of the way from a system's easy start to the design that is wanted, 0 to 1.
+PATH = Quantity("path", "", "share of the way of a continuation")
+
+
+@dataclass(frozen=True)
+class DesignSystem:
+    """Equations that a design solves once, before anything else; their solution fills in open parameters.
+
+    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution
+    is known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the
+    solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
+    stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
+    meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
+    replaces symbols by constants throughout.
+    """
+
+    name: str
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    guess: dict
+    fills: dict
+    message: str
+    keys: tuple[str, ...]
+    fixed: dict = field(default_factory=dict)
+    regular: tuple | None = None
+    definitions: Definitions = field(default_factory=Definitions)
+
+
+@dataclass(frozen=True)
+class Region:
+    """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
+
+    It is regular where ``regular`` (a sign) times its singular function is positive. ``margins`` are of surface and
+    design parameters; ``lengthwise`` as in :class:`Body`.
+    """
+
+    member: str
+    name: str
+    surface: Surface
+    regular: sp.Expr
+    margins: tuple[Margin, ...] = ()
+    lengthwise: str = ""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A gear drive, complete: the input of the schedule and emit stages.
+
+    ``variant`` are the words of the design file that choose this drive within its family; a key in
+    ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
+    mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
+    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made,
+    ``excluded`` keys that mean nothing for it.
+    Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
+    angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
+    ``absorbs_errors``: its transmission error is designed as a parabola, whose extreme at an end of contact means that
+    the drive runs on an edge.
+    """
+
+    name: str
+    family: str
+    title: str
+    parameters: tuple[Parameter, ...]
+    rules: tuple[Rule, ...]
+    guards: tuple[Guard, ...]
+    sizes: tuple[tuple[str, sp.Expr, str], ...]
+    instant: Quantity
+    error: Quantity
+    ratio: sp.Expr
+    wheel_angle: sp.Expr
+    pinion: Body
+    wheel: Body
+    unknowns: tuple[Unknown, ...]
+    residual: tuple
+    definitions: Definitions
+    start: System
+    guess: dict
+    sample: dict
+    sample_angle: float
+    pinion_teeth: str
+    variant: dict = field(default_factory=dict)
+    variant_defaults: dict = field(default_factory=dict)
+    handed: bool = False
+    exclusive: tuple[tuple[str, ...], ...] = ()
+    required: tuple[str, ...] = ()
+    excluded: tuple[str, ...] = ()
+    systems: tuple[DesignSystem, ...] = ()
+    regions: tuple[Region, ...] = ()
+    ascending_path: bool = False
+    flanks_apart: bool = False
+    absorbs_errors: bool = False
+    functions: tuple[Function, ...] = ()
+
+    @property
+    def bodies(self):
+        return self.pinion, self.wheel
+
+    @property
+    def completion(self):
+        """What fills open parameters, in the order in which it runs: the defaults, then the rules."""
+        defaults = (Rule(p.symbol, p.default) for p in self.parameters if p.default is not None)
+        return *defaults, *self.rules

@@ -1,0 +1,133 @@
+"""Envelopes: the surface a moving surface leaves behind, its equation of meshing, and its explicit form.
+
+``envelope`` derives the equation of meshing n·∂r/∂φ = 0 from the chain. ``explicit`` is the reduce stage: it
+merges angles that only occur as a sum and solves the equation for a parameter in which it is linear, so that
+the generated surface needs no root finding.
+"""
+
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from derive.language import vectors as v
+from derive.language.differentiate import partial
+from derive.language.origin import EXPLICIT, Origin
+from derive.language.replace import replaced
+from derive.language.symbols import Quantity
+
+
+def envelope(surface, motion, variable):
+    """The envelope of ``surface`` under ``motion(variable)``, in the frame that the motion leads to.
+
+    The new body lies on the other side of the surface, so the normal turns round. The equation of meshing
+    joins the conditions; ``variable`` joins the parameters.
+    """
+    moved = surface.placed(motion)
+    meshing = moved.motion.power(variable, surface.pole or surface.point, surface.normal)
+    parameters = surface.parameters + (() if variable in surface.parameters else (variable,))
+    return replace(
+        moved,
+        parameters=parameters,
+        normal=v.scale(-1, surface.normal),
+        conditions=(*surface.conditions, meshing),
+    ).on("derivation/invariance", "derivation/envelope", *(("derivation/pole",) if surface.pole else ()))
+
+
+@dataclass(frozen=True)
+class Solved:
+    """How the reduce stage removed a parameter: ``symbol`` = ``value`` where ``denominator`` ≠ 0."""
+
+    symbol: sp.Symbol
+    value: sp.Expr
+    denominator: sp.Expr
+
+
+def merge_sum(surface, kept, removed, name, meaning):
+    """Replace ``removed`` by a new parameter ``name`` = kept + removed.
+
+    Legal for any surface; worth doing where a rotation angle is that sum.
+    """
+    total = Quantity(name, removed.unit, meaning, removed.frame)
+    value = total - kept
+    parameters = tuple(total if p == removed else p for p in surface.parameters)
+    return substitute(replace(surface, parameters=parameters), {removed: value}).on("derivation/merge-sum"), total
+
+
+def substitute(surface, replacement):
+    """The same surface with parameters replaced by expressions, everywhere but in definitions."""
+
+    def swap(expression):
+        return replaced(expression, replacement)
+
+    return replace(
+        surface,
+        point=tuple(map(swap, surface.point)),
+        tangents=tuple(tuple(map(swap, t)) for t in surface.tangents),
+        normal=tuple(map(swap, surface.normal)),
+        motion=surface.motion.substitute(replacement),
+        conditions=tuple(map(swap, surface.conditions)),
+    )
+
+
+def explicit(surface):
+    """Solve the last condition for a parameter in which it is linear; ``(surface, Solved)``.
+
+    Raises ``ValueError`` if there is none: the surface then has to stay implicit.
+    """
+    *others, condition = surface.conditions
+    for parameter in reversed(surface.parameters):
+        slope = surface.definitions.derivative(condition, parameter)
+        if slope == 0 or surface.definitions.depends(slope, parameter):
+            continue
+        if any(surface.definitions.depends(s, parameter) for s in _defined(surface, condition)):
+            continue
+        solution = -replaced(condition, {parameter: sp.Integer(0)}) / slope
+        origin = Origin(EXPLICIT, f"slope of the equation of meshing in {parameter}")
+        named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit, origin=origin)
+        remaining = tuple(p for p in surface.parameters if p != parameter)
+        done = replace(surface, parameters=remaining, conditions=tuple(others))
+        return substitute(done, {parameter: named}).on(EXPLICIT), Solved(named, solution, slope)
+    raise ValueError("the equation of meshing is linear in none of its parameters")
+
+
+def explicit_angle(surface, angle, sign):
+    """Solve the last condition, homogeneous in the cosine and sine of ``angle``, for that parameter.
+
+    Of a·cos + b·sin = 0 the result is the direction (cos, sin) ∝ sign · (b, −a): the opposite one solves it too.
+    """
+    *others, condition = surface.conditions
+    a, b = _direction(condition, angle)
+    origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
+    turn = v.arc(-sign * a, sign * b)
+    named = surface.definitions.let(angle.name, turn, angle.meaning, angle.unit, origin=origin)
+    remaining = tuple(p for p in surface.parameters if p != angle)
+    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
+        "derivation/explicit-angle"
+    )
+
+
+def in_turn(condition, angle):
+    """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
+    cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
+    form = replaced(condition, {sp.cos(angle): cosine, sp.sin(angle): sine})
+    a, b, c = partial(form, cosine), partial(form, sine), replaced(form, {cosine: sp.Integer(0), sine: sp.Integer(0)})
+    if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
+        raise ValueError("the equation is not linear in the cosine and sine of one angle")
+    return a, b, c
+
+
+def _direction(condition, angle):
+    a, b, c = in_turn(condition, angle)
+    if c != 0:
+        raise ValueError("the equation is not homogeneous in the cosine and sine of one angle")
+    return a, b
+
+
+def nearest_turn(condition, angle):
+    """The root of a·cos + b·sin + c = 0 that is nearest 0; not a number where there is none."""
+    a, b, c = in_turn(condition, angle)
+    return v.arc(b, a) - b / sp.Abs(b) * sp.acos(-c / v.radius(a, b))
+
+
+def _defined(surface, expression):
+    return [s for s in expression.free_symbols if s in surface.definitions]

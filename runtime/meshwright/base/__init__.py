@@ -1,0 +1,1 @@
+"""What every other room stands on: the compiled library, errors, files, bracketed roots."""

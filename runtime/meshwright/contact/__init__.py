@@ -1,0 +1,1 @@
+"""Contact of one tooth pair at given angles: analysis, results, branches, placement, sensitivities, CasADi."""

@@ -1,0 +1,52 @@
+"""Generated functions that a drive offers beside its contact: placements, limit points, axes."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshwright.base.library import library, model, pointer
+
+
+@dataclass(frozen=True)
+class Function:
+    """One generated function of a drive; call it with its arguments (inner units, broadcast against each other)."""
+
+    drive: object
+    description: dict
+    pointer: object
+
+    @classmethod
+    def of(cls, drive, name):
+        """The function ``name`` of the drive; raises ``KeyError`` if it has none of that name."""
+        description = drive.design.description
+        for k, function in enumerate(description["functions"]):
+            if function["name"] == name:
+                return cls(drive, function, model(description["name"]).functions[k])
+        raise KeyError(f"the drive {description['name']} has no function {name!r}")
+
+    @cached_property
+    def state(self):
+        """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
+        compiled = model(self.drive.design.description["name"])
+        s = np.empty(compiled.ns)
+        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
+        return s
+
+    def __call__(self, *arguments):
+        """Results by name: arrays of the arguments' common shape, with a last axis where a result is a vector."""
+        grid = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in arguments)) if arguments else []
+        shape = grid[0].shape if grid else ()
+        q = np.ascontiguousarray(np.stack([g.ravel() for g in grid], axis=1)) if grid else np.empty((1, 0))
+        rows = np.empty((len(q), self.pointer.outputs))
+        buffers = (pointer(a) for a in (self.state, q))
+        results = pointer(rows)
+        library().mw_flank(self.pointer.evaluate, q.shape[1], rows.shape[1], *buffers, len(q), results)
+        return {o["name"]: _values(rows, o, shape) for o in self.description["outputs"]}
+
+
+def _values(rows, output, shape):
+    at, size = output["offset"], output["size"]
+    if size == 1:
+        return rows[:, at].reshape(shape)
+    return rows[:, at : at + size].reshape(*shape, size)

@@ -1,0 +1,139 @@
+"""What a tooth contact analysis returns: arrays in inner units (mm, rad), one row a point."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshwright.base.library import library
+
+ARCSEC = np.pi / 648000.0
+
+#: Status words of points that have numbers.
+SOLVED = ("converged",)
+
+#: Flag of points beyond the tip of a member.
+OFF_TIP = "off_tip"
+
+
+def impossible(flag):
+    """Whether a flag marks points that satisfy the equations but that bodies cannot make."""
+    return bool(library().mw_impossible(flag.encode()))
+
+
+@dataclass(frozen=True)
+class TCA:
+    """Tooth contact analysis over N input angles.
+
+    Angles in rad, lengths in mm. ``points``, ``normals`` (out of the pinion) and ``major`` in the fixed frame,
+    ``body_points[name]`` in the frame of each body: (N, 3). ``unknowns[name]``: (N,). ``curvatures``: (N, 2), relative,
+    smaller first, 1/mm. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
+    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of the
+    right-hand model in its own order, NaN where there is no solution.
+    """
+
+    angles: np.ndarray
+    status: tuple[str, ...]
+    messages: tuple[str, ...]
+    iterations: np.ndarray
+    residual: np.ndarray
+    wheel_angles: np.ndarray
+    error: np.ndarray
+    reference_error: float
+    unknowns: dict[str, np.ndarray]
+    units: dict[str, str]
+    points: np.ndarray
+    normals: np.ndarray
+    body_points: dict[str, np.ndarray]
+    curvatures: np.ndarray
+    major: np.ndarray
+    semi_axes: np.ndarray
+    flags: tuple[tuple[str, ...], ...]
+    margins: dict[str, np.ndarray]
+    solutions: np.ndarray
+
+    @property
+    def relative_error(self):
+        """Transmission error less its value at the reference angle, rad: (N,)."""
+        return self.error - self.reference_error
+
+    def relative_to(self, reference_error):
+        """The same with relative errors that refer to another transmission error, rad."""
+        return replace(self, reference_error=reference_error)
+
+    @property
+    def solved(self):
+        """Which points have a contact point: (N,) of bool."""
+        return np.array([s in SOLVED for s in self.status], dtype=bool)
+
+    @property
+    def complete(self):
+        """Whether every point converged to a contact that bodies can make."""
+        return bool(self.solved.all()) and not any(impossible(f) for flags in self.flags for f in flags)
+
+    @property
+    def past_a_tip(self):
+        """Whether there are contact points and each is past a tip: the teeth may not reach each other at all."""
+        flags = [flags for flags, solved in zip(self.flags, self.solved, strict=True) if solved]
+        return bool(flags) and all(OFF_TIP in words for words in flags)
+
+    def ellipse(self, k, points=97):
+        """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN without one."""
+        angle = np.linspace(0.0, 2.0 * np.pi, points)[:, None]
+        along, across = self.major[k], np.cross(self.normals[k], self.major[k])
+        major, minor = self.semi_axes[k]
+        return self.points[k] + major * np.cos(angle) * along + minor * np.sin(angle) * across
+
+    def to_xarray(self):
+        """The same as an ``xarray.Dataset`` over the pinion angle (needs xarray)."""
+        import xarray
+
+        angle, axis = ("pinion_angle",), ("pinion_angle", "axis")
+        data = {
+            "status": (angle, list(self.status)),
+            "wheel_angle": (angle, self.wheel_angles, {"units": "rad"}),
+            "transmission_error": (angle, self.error, {"units": "rad"}),
+            "contact_point": (axis, self.points, {"units": "mm"}),
+            "contact_normal": (axis, self.normals),
+        }
+        data |= {name: (angle, values, {"units": self.units[name]}) for name, values in self.unknowns.items()}
+        return xarray.Dataset(data, coords={"pinion_angle": self.angles, "axis": list("xyz")})
+
+    def to_points(self):
+        """The points as the plain data of the ``meshwright.tca/1`` schema."""
+        return [self._point(k) for k in range(len(self.angles))]
+
+    def _point(self, k):
+        solved = self.status[k] in SOLVED
+        smaller, larger = self.curvatures[k]
+        return {
+            "pinion_angle_deg": np.degrees(self.angles[k]).item(),
+            "status": self.status[k],
+            "message": self.messages[k],
+            "iterations": int(self.iterations[k]),
+            "residual": _number(self.residual[k]),
+            "wheel_angle_deg": _number(np.degrees(self.wheel_angles[k])),
+            "transmission_error_arcsec": _number(self.error[k] / ARCSEC),
+            "transmission_error_relative_arcsec": _number(self.relative_error[k] / ARCSEC),
+            "unknowns": {name: _number(values[k]) for name, values in self.unknowns.items()} if solved else {},
+            "contact_point_mm": _row(self.points[k]),
+            "contact_normal": _row(self.normals[k]),
+            **{f"contact_point_{name}_mm": _row(points[k]) for name, points in self.body_points.items()},
+            "curvature": {
+                "relative_min_per_mm": _number(smaller),
+                "relative_max_per_mm": _number(larger),
+                "major_direction": _row(self.major[k]),
+            },
+            "ellipse": {
+                "semi_major_mm": _number(self.semi_axes[k, 0]),
+                "semi_minor_mm": _number(self.semi_axes[k, 1]),
+            },
+            "flags": list(self.flags[k]),
+        }
+
+
+def _number(value):
+    return float(value) if np.isfinite(value) else None
+
+
+def _row(values):
+    return [float(v) for v in values] if np.all(np.isfinite(values)) else None

@@ -1,0 +1,1 @@
+"""The mesh cycle of a pair and of its neighbours: path, windows, transmission error, edges, backlash."""

@@ -1,0 +1,155 @@
+"""The path of contact of one tooth pair: the branch of solutions through the start angle, over the input angle.
+
+Right-hand drive throughout, whatever the design's hand; callers mirror what they show.
+"""
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from meshwright.base.library import ffi, library, pointer, text
+from meshwright.contact.analysis import analyse
+
+#: Spacing of the stored solutions as a share of the pitch.
+NODES_PER_PITCH = 16
+
+#: Where a path is looked for to either side of angle 0, in pitches: misalignment may have moved the contact far away.
+TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
+
+#: A path that ends in a fold is followed up to this part of a pitch before it, and what is between counts as its end.
+SHORT_OF_FOLD = 1e-6
+
+#: Half the angle by which a member is turned to read off the velocity of rotation: (r(+h) − r(−h))/(2 sin h) is exact.
+TURN = 0.5
+
+
+@dataclass(frozen=True)
+class Path:
+    """Solutions ``unknowns`` (N, nx) at ascending input ``angles`` (N,), all on one branch.
+
+    ``ended`` are the status words of what stopped the branch below and above; "" where the search stopped.
+    """
+
+    drive: object
+    angles: np.ndarray
+    unknowns: np.ndarray
+    ended: tuple[str, str] = ("", "")
+    state: np.ndarray = field(default=None, repr=False)
+
+    @property
+    def spacing(self):
+        """Largest spacing of neighbouring solutions, rad."""
+        return self.drive.pitch() / NODES_PER_PITCH
+
+    @classmethod
+    def through(cls, drive, angle, unknowns):
+        """The path that so far is one solution."""
+        return cls(drive, np.array([angle]), np.array([unknowns]), state=drive.state())
+
+    @classmethod
+    def start(cls, drive):
+        """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
+        tried = TRIED * drive.pitch()
+        first = None
+        for angle in np.stack([tried, -tried], axis=1).ravel()[1:]:
+            found = analyse(drive, np.array([-angle if drive.design.mirrored else angle]))
+            (status,) = found.status
+            if status == "converged":
+                return cls.through(drive, angle, found.solutions[0]), status
+            if status == "line_contact":
+                return None, status
+            first = first or status
+        return None, first
+
+    def extended(self, to):
+        """The path continued to the input angle ``to``, or as far towards it as the branch goes."""
+        up = bool(to > self.angles[-1])
+        first = self.angles[-1] if up else self.angles[0]
+        count = max(1, math.ceil(abs(to - first) / self.spacing))
+        wanted = np.linspace(first, to, count + 1)[1:]
+        x, word = self._follow(first, self.unknowns[-1 if up else 0], wanted)
+        wanted, ended = wanted[: len(x)], list(self.ended)
+        ended[up] = word
+        order = slice(None) if up else slice(None, None, -1)
+        parts = [(self.angles, self.unknowns), (wanted[order], x[order])]
+        if not up:
+            parts.reverse()
+        angles, unknowns = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        return Path(self.drive, angles, unknowns, tuple(ended), self.state)
+
+    def _follow(self, angle, unknowns, wanted):
+        """Solutions along ``wanted`` as far as the branch goes, and the status word of what stopped it."""
+        model = self.drive.model
+        x, records = np.empty((len(wanted), model.nx)), ffi.new("mw_info[]", len(wanted))
+        wanted, unknowns = np.ascontiguousarray(wanted), np.ascontiguousarray(unknowns)
+        solved = library().mw_follow(
+            model, pointer(self.state), angle, pointer(unknowns), pointer(wanted), len(wanted), pointer(x), records
+        )
+        word = "" if solved == len(wanted) else text(library().mw_status_word(records[solved].status))
+        return x[:solved], word
+
+    def solve(self, angles):
+        """Unknowns (M, nx) at input angles (M,) in any order; NaN beyond the ends of the path."""
+        angles = self._reached(np.atleast_1d(np.asarray(angles, dtype=float)))
+        solved = np.full((len(angles), self.unknowns.shape[1]), np.nan)
+        nodes = np.clip(np.searchsorted(self.angles, angles), 1, len(self.angles)) - 1
+        for k, angle in enumerate(angles):
+            if self.angles[0] <= angle <= self.angles[-1]:
+                x, _ = self._follow(self.angles[nodes[k]], self.unknowns[nodes[k]], angles[k : k + 1])
+                if len(x):
+                    solved[k] = x[0]
+        return solved
+
+    def _reached(self, angles):
+        """The angles; those hardly beyond an end of the path are that end."""
+        nearest = np.clip(angles, self.angles[0], self.angles[-1])
+        return np.where(np.abs(angles - nearest) <= 2.0 * SHORT_OF_FOLD * self.drive.pitch(), nearest, angles)
+
+    def errors(self, angles):
+        """Transmission error, rad, at input angles (M,)."""
+        return self.solve(angles)[:, self.error_index]
+
+    def observe(self, angles, unknowns=None):
+        """Observations (M, no) at input angles, of the solutions there unless other unknowns are given."""
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        unknowns = self.solve(angles) if unknowns is None else unknowns
+        observed = np.full((len(angles), self.drive.model.no), np.nan)
+        for k, angle in enumerate(angles):
+            if np.all(np.isfinite(unknowns[k])):
+                self.drive.model.set_phi(pointer(self.state), angle)
+                row = np.ascontiguousarray(unknowns[k])
+                self.drive.model.observe(pointer(self.state), pointer(row), pointer(observed[k]))
+        return observed
+
+    def levers(self, angles):
+        """Signed lever of the wheel, mm: how the wheel's flank moves along the contact normal with the wheel angle.
+
+        The normal points out of the pinion: with a positive lever the gap grows with the wheel angle.
+        """
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        x = self.solve(angles)
+        turned = [self._wheel_turned(angles, x, h) for h in (TURN, -TURN)]
+        return np.sum((turned[0] - turned[1]) * self._normals(angles, x), axis=1) / (2.0 * math.sin(TURN))
+
+    def error_slopes(self, angles):
+        """d(transmission error)/d(input angle): the flanks' points move alike along the common normal."""
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        x = self.solve(angles)
+        turned = [self.observe(angles + h, x)[:, 0:3] for h in (TURN, -TURN)]
+        lever = np.sum((turned[0] - turned[1]) * self._normals(angles, x), axis=1) / (2.0 * math.sin(TURN))
+        return lever / self.levers(angles) - self.drive.ratio
+
+    def _wheel_turned(self, angles, unknowns, by):
+        shifted = unknowns.copy()
+        shifted[:, self.error_index] += by
+        return self.observe(angles, shifted)[:, 6:9]
+
+    def _normals(self, angles, unknowns):
+        return self.observe(angles, unknowns)[:, 3:6]
+
+    @cached_property
+    def error_index(self):
+        """Which unknown is the transmission error."""
+        return self.drive.design.description["error"]

@@ -1,0 +1,352 @@
+"""Designs: read, checked and turned into the parameter vector of a drive."""
+
+import copy
+import difflib
+import hashlib
+import math
+import operator
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pydantic
+
+from meshwright.base.errors import DesignError
+from meshwright.base.library import ffi, library, model, pointer, text
+from meshwright.design import description as metadata
+from meshwright.design import schema
+
+PACKAGED = Path(__file__).parent.parent / "designs"
+
+
+def packaged_names():
+    """Names of the packaged designs."""
+    return sorted(path.stem for path in PACKAGED.glob("*.toml"))
+
+
+def read(name_or_path):
+    """The raw tables of a packaged design or of a TOML file."""
+    path = PACKAGED / f"{name_or_path}.toml"
+    if not path.exists():
+        path = Path(name_or_path)
+    if not path.exists():
+        near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
+        hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
+        raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
+    return parsed(_text(path), path)
+
+
+#: A design file is some kilobytes; larger ones are taken for a mistake. Bytes.
+LARGEST_FILE = 2**20
+
+
+def _text(path):
+    """The text of a file of bounded size, in UTF-8 with or without a byte order mark; line ends as they are."""
+    try:
+        with open(path, "rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise DesignError(str(path), None, f"cannot be read: {error.strerror}", "name a readable file") from error
+    if len(content) > LARGEST_FILE:
+        raise DesignError(str(path), None, f"longer than {LARGEST_FILE} bytes", "name a design file")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DesignError(str(path), None, f"not a TOML file: {error}", "save it as UTF-8") from error
+
+
+def parsed(text, place):
+    """The tables of TOML text that was found at ``place``."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise DesignError(str(place), None, f"not a TOML file: {error}", "correct the line named") from error
+    except ValueError as error:  # more digits than a number may have
+        raise DesignError(str(place), None, f"a number that cannot be read: {error}", "write it shorter") from error
+    except RecursionError as error:
+        raise DesignError(str(place), None, "nested too deeply", "a design has tables of keys, no more") from error
+
+
+def changed(tables, changes):
+    """The tables with ``{"table.key": value}`` (or top-level ``"key"``) set."""
+    tables = copy.deepcopy(tables)
+    for place, value in changes.items():
+        *parents, key = place.split(".")
+        target = tables
+        for parent in parents:
+            target = target.setdefault(parent, {})
+            if not isinstance(target, dict):
+                raise DesignError(place, value, f"{parent} is not a table", "write table.key=value")
+        target[key] = value
+    return tables
+
+
+@dataclass(frozen=True, repr=False)
+class Design:
+    """A checked design: the drive that solves it and its complete parameter vector (inner units).
+
+    ``sizes`` are derived, in the units of their keys; NaN where they follow from what the design leaves open.
+    """
+
+    tables: dict
+    description: dict
+    parameters: np.ndarray
+    sizes: dict
+    mirrored: bool
+
+    @property
+    def label(self):
+        """Name, drive, flank and a digest of all parameters, in a line: equal designs have equal digests."""
+        name, drive = self.tables.get("name") or "design", self.description["name"]
+        digest = hashlib.sha256(self.parameters.tobytes()).hexdigest()[:12]
+        return f"{name} ({drive}, {self.tables['flank']} flank, {digest})"
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.label}>"
+
+    @property
+    def family(self):
+        return self.description["family"]
+
+    @property
+    def flank(self):
+        """The flank sign."""
+        return float(self.parameters[0])
+
+    def value(self, key, table="design"):
+        """A parameter in inner units by its design key; NaN if the design leaves it open."""
+        for number, p in zip(self.parameters, self.description["parameters"], strict=True):
+            if p["key"] == key and p["table"] == table:
+                return float(number)
+        raise KeyError(f"{table}.{key}")
+
+    def as_solved(self):
+        """The design with every default and derived size filled in, in the units of the keys; None where it is open."""
+        solved = {"drive": self.family, "name": self.tables.get("name", ""), "flank": self.tables["flank"]}
+        for number, p in zip(self.parameters, self.description["parameters"], strict=True):
+            if p["table"] != "flank":
+                solved.setdefault(p["table"], {})[p["key"]] = _shown(p, float(number))
+        words = {**self.description["variant"], "hand": None}
+        solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
+        solved["design"] |= {key: number if math.isfinite(number) else None for key, number in self.sizes.items()}
+        if "placement" in solved:
+            solved["placement"] |= _vectors(solved["placement"])
+        return solved
+
+
+def _vectors(entries):
+    """Vectors whose components are entries of their own: ``P_mm`` of ``P_x_mm``, ``P_y_mm``, ``P_z_mm``."""
+    stems = [match.groups() for key in entries if (match := re.fullmatch(r"(.+)_x(_mm)?", key))]
+    return {f"{stem}{unit or ''}": [entries[f"{stem}_{axis}{unit or ''}"] for axis in "xyz"] for stem, unit in stems}
+
+
+def _shown(parameter, number):
+    """A parameter in the unit of its key, a choice as its word, None if open."""
+    if math.isnan(number):
+        return None
+    words = {value: word for word, value in parameter["choices"].items()}
+    return words.get(number, number / parameter["factor"])
+
+
+def check(tables):
+    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+    known = metadata.families()
+    if "drive" not in tables:
+        raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
+    family = tables["drive"]
+    if not isinstance(family, str) or family not in known:
+        raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
+    checked = _validated(family, tables)
+    description = _variant(family, checked)
+    _check_exclusive(description, tables["design"])
+    _check_needed(description, checked["design"])
+    _check_order(description, checked)
+    c = model(description["name"])
+    parameters = _vector(description, checked)
+    p = pointer(parameters)
+    _complete(c, description, p, checked)
+    state = np.empty(c.ns)
+    failed = c.setup(p, pointer(state))
+    if failed:
+        raise _guard_error(description["guards"][failed - 1], checked)
+    parameters.flags.writeable = False
+    return Design(checked, description, parameters, _sizes(c, parameters), checked["design"].get("hand") == "left")
+
+
+def _validated(family, tables):
+    try:
+        return schema.design_model(family).model_validate(tables).model_dump()
+    except pydantic.ValidationError as error:
+        raise _first_error(family, error.errors()[0]) from None
+
+
+def _first_error(family, problem):
+    place = [str(part) for part in problem["loc"] if not str(part).startswith(("function-", "constrained"))]
+    key = ".".join(dict.fromkeys(p for p in place if p not in ("float", "int")))
+    value, kind, context = problem.get("input"), problem["type"], problem.get("ctx", {})
+    match kind:
+        case "missing":
+            return DesignError(key, None, "the key is missing", "add it to the design")
+        case "extra_forbidden":
+            near = difflib.get_close_matches(place[-1], _known_keys(family, place), n=1)
+            remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
+            return DesignError(key, value, "unknown key", remedy)
+        case "greater_than":
+            return DesignError(key, value, f"must be greater than {context['gt']:g}", "choose a larger value")
+        case "greater_than_equal":
+            return DesignError(key, value, f"must not be less than {context['ge']:g}", "choose a larger value")
+        case "less_than":
+            return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
+        case "less_than_equal":
+            return DesignError(key, value, f"must not be greater than {context['le']:g}", "choose a smaller value")
+        case "string_pattern_mismatch":
+            return DesignError(key, value, "holds control characters", "write letters, digits and blanks")
+        case "string_too_long":
+            return DesignError(key, value, f"longer than {context['max_length']} letters", "choose a shorter name")
+        case "finite_number":
+            return DesignError(key, value, "not a finite number", "give a finite number")
+        case "literal_error":
+            return DesignError(key, value, "not one of the possible words", f"use {context['expected']}")
+        case "int_type" | "int_from_float":
+            point = isinstance(value, float)
+            remedy = "write it without a decimal point" if point else "write a whole number without quotes"
+            return DesignError(key, value, "must be a whole number", remedy)
+        case "float_type":
+            return DesignError(key, value, "must be a number", "write a number without quotes")
+        case "model_type" | "model_attributes_type":
+            return DesignError(key, value, "must be a table", f"write its keys below [{key}]")
+        case "string_type":
+            return DesignError(key, value, "must be text", "write it in quotes")
+        case _:
+            return DesignError(key, value, problem["msg"], "correct the value")
+
+
+def _known_keys(family, place):
+    if len(place) == 1:
+        return list(schema.design_model(family).model_fields)
+    return [entry["key"] for entry in schema.keys(family) if entry["table"] == place[0]]
+
+
+def _variant(family, checked):
+    """The drive for the design's words; words left out follow the word they default to."""
+    descriptions = metadata.families()[family]
+    words = checked["design"]
+    for key, source in descriptions[0]["variant_defaults"].items():
+        if words[key] is None:
+            words[key] = words[source]
+    return metadata.choose(family, words)
+
+
+def _check_exclusive(description, given):
+    for group in description["exclusive"]:
+        present = [key for key in group if key in given]
+        pair = " and ".join(group)
+        if len(present) > 1:
+            raise DesignError(
+                f"design.{present[1]}", given[present[1]], f"{pair} determine each other", "give exactly one of them"
+            )
+        if not present:
+            raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
+
+
+def _check_needed(description, design):
+    for key in description["required"]:
+        if design.get(key) is None:
+            raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
+    for key in description["excluded"]:
+        if design.get(key) is not None:
+            raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+
+
+def _check_order(description, checked):
+    for p in description["parameters"]:
+        if p["above"] is None:
+            continue
+        value, least = (checked[p["table"]][key] for key in (p["key"], p["above"]))
+        if not _in_order(value, least):
+            reason = f"must be greater than {p['above']}, which is {least:g}"
+            raise DesignError(f"{p['table']}.{p['key']}", value, reason, "choose a larger value")
+
+
+def _in_order(value, least):
+    """Whether a number, or each of an array, is above the one that it must be above; an open one, None, is."""
+    return True if value is None or least is None else np.greater(value, least)
+
+
+def allowed(design, varied):
+    """Which samples keep the bounds and the order of the keys: (S,) of bool.
+
+    ``varied`` are values (S,) by key ("table.key"), in the units of the keys; the other keys are the design's.
+    """
+    values = {f"{table}.{key}": v for table, entries in design.tables.items() if isinstance(entries, dict)
+              for key, v in entries.items()} | varied  # fmt: skip
+    keeps = np.logical_and.reduce([np.isfinite(column) for column in varied.values()])
+    for p in design.description["parameters"]:
+        place = f"{p['table']}.{p['key']}"
+        if place in varied:
+            for comparison, bound in schema.bounds(p).items():
+                keeps = keeps & getattr(operator, comparison)(varied[place], bound)
+        if p["above"] is not None:
+            keeps = keeps & _in_order(values[place], values[f"{p['table']}.{p['above']}"])
+    return keeps
+
+
+def _vector(description, checked):
+    vector = np.full(len(description["parameters"]), np.nan)
+    for k, p in enumerate(description["parameters"]):
+        if p["table"] == "flank":
+            vector[k] = p["choices"][checked["flank"]]
+        elif (value := checked[p["table"]].get(p["key"])) is not None:
+            vector[k] = p["choices"][value] if p["choices"] else _inner(p, value)
+    return vector
+
+
+def _inner(parameter, value):
+    """A number in inner units."""
+    try:
+        return float(value) * parameter["factor"]
+    except OverflowError:
+        place = f"{parameter['table']}.{parameter['key']}"
+        raise DesignError(place, "…", "too large for a number of the machine", "give a smaller number") from None
+
+
+def given_vector(design):
+    """The parameter vector as the design file gives it: NaN where rules and defaults fill in."""
+    return _vector(design.description, design.tables)
+
+
+def is_real(parameter):
+    """Whether a parameter is a real number: neither a count nor a choice."""
+    return not (parameter["integer"] or parameter["choices"])
+
+
+def has_rival(design, key):
+    """Whether a design key is the other name of one that is given, and so determined by it."""
+    given = {k for k, value in design.tables["design"].items() if value is not None}
+    return key not in given and any(key in group and given & set(group) for group in design.description["exclusive"])
+
+
+def _complete(c, description, p, checked):
+    """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
+    work, info = np.empty(c.np + 1), ffi.new("mw_info *")
+    failed = library().mw_complete(c, p, pointer(work), info)
+    if failed:
+        raise _guard_error(description["systems"][failed - 1], checked)
+
+
+def _sizes(c, parameters):
+    numbers = np.empty(c.nd)
+    c.size(pointer(parameters), pointer(numbers))
+    names = (c.sizes[k] for k in range(c.nd))
+    return {text(n.name): float(x) / n.factor for n, x in zip(names, numbers, strict=True)}
+
+
+def _guard_error(guard, checked):
+    given = {key: checked["design"].get(key) for key in guard["keys"]}
+    shown = {key: value for key, value in given.items() if value is not None}
+    first = next(iter(shown or given))
+    others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
+    reason = guard["message"] + (f" (with {others})" if others else "")
+    return DesignError(f"design.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")

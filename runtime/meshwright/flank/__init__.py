@@ -1,0 +1,1 @@
+"""Flanks as surfaces: points, grids, files for other programs."""

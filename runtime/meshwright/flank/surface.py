@@ -1,0 +1,91 @@
+"""Generated flanks as functions of their own parameters, body frame."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshwright.base.errors import UsageError
+from meshwright.base.library import library, model, pointer
+
+
+@dataclass(frozen=True)
+class FlankPoints:
+    """A flank at N parameter pairs (or triples, where one condition stays implicit).
+
+    ``points`` (N, 3) mm, ``normals`` (N, 3) unit and out of the material, ``tangents`` (N, k, 3), body frame;
+    ``regular`` (N,) is 1 at the reference point and negative beyond a singular line; ``margins[event]`` (N,) are
+    negative outside a limit of the design; ``conditions`` (N, c, 1 + k) value and slopes of implicit conditions.
+    """
+
+    parameters: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    tangents: np.ndarray
+    regular: np.ndarray
+    margins: dict[str, np.ndarray]
+    conditions: np.ndarray
+
+
+@dataclass(frozen=True, repr=False)
+class Flank:
+    """The flank of one member of a drive; call it with parameters (…, k)."""
+
+    drive: object
+    body: dict
+    pointer: object
+
+    @classmethod
+    def of(cls, drive, member, region="flank"):
+        """The flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
+        description, model = drive.design.description, drive.model
+        for k, body in enumerate(description["bodies"]):
+            if (body["name"], "flank") == (member, region):
+                return cls(drive, body, model.bodies[k])
+        for k, other in enumerate(description["regions"]):
+            if (other["name"], other["region"]) == (member, region):
+                return cls(drive, other, model.regions[k])
+        known = [f"flank of {b['name']}" for b in description["bodies"]]
+        known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
+        raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.region} of the {self.body['name']} of {self.drive.design.label}>"
+
+    @property
+    def region(self):
+        """"flank", or another region of the member."""
+        return self.body.get("region", "flank")
+
+    @cached_property
+    def state(self):
+        """State of the compiled model, whatever backend solves the contact: flanks do not depend on it."""
+        compiled = model(self.drive.design.description["name"])
+        s = np.empty(compiled.ns)
+        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
+        return s
+
+    @property
+    def parameters(self):
+        """Names of the surface parameters."""
+        return tuple(self.body["parameters"])
+
+    def __call__(self, parameters):
+        """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
+        q = np.atleast_2d(np.asarray(parameters, dtype=float))
+        k, n, c = len(self.parameters), len(q), self.body["conditions"]
+        rows = np.empty((n, self.body["outputs"]))
+        buffers = (pointer(np.ascontiguousarray(a)) for a in (self.state, q))
+        results = pointer(rows)
+        library().mw_flank(self.pointer.flank, k, self.body["outputs"], *buffers, n, results)
+        at = 7 + 3 * k
+        margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}
+        return FlankPoints(
+            parameters=q,
+            points=rows[:, 0:3],
+            normals=rows[:, 3:6],
+            tangents=rows[:, 6 : 6 + 3 * k].reshape(n, k, 3),
+            regular=rows[:, at - 1],
+            margins=margins,
+            conditions=rows[:, at + len(margins) :].reshape(n, c, 1 + k) if c else np.empty((n, 0, 1 + k)),
+        )

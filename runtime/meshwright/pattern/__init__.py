@@ -1,0 +1,1 @@
+"""Contact patterns: the gap between two flanks about a contact, and its level lines."""

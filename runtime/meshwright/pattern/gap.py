@@ -1,0 +1,120 @@
+"""The gap between two flanks near a contact, over the tangent plane: right-hand drive, fixed frame.
+
+Both flanks are met by the line through a point of the tangent plane along the contact normal; what lies between
+the two is the separation. Vectorised over N points of the plane.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.contact.placement import placements_at
+
+MAX_STEPS = 24
+
+#: Newton steps below this length are done, mm; smaller than the second they may also stagnate in round-off.
+STEP_DONE = 1e-11
+STEP_NOISE = 1e-8
+
+#: No point moves further at once, mm.
+STEP_LIMIT = 8.0
+
+
+@dataclass(frozen=True)
+class Side:
+    """One member's flank, placed: ``matrix`` (4, 4) from the body to the fixed frame."""
+
+    flank: object
+    matrix: np.ndarray
+
+    def at(self, parameters):
+        """Flank points with points, tangents in the fixed frame: (FlankPoints, points (N, 3), tangents (N, k, 3))."""
+        found = self.flank(parameters)
+        rotation, origin = self.matrix[:3, :3], self.matrix[:3, 3]
+        return found, found.points @ rotation.T + origin, found.tangents @ rotation.T
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Two flanks in contact at ``point``; ``axes`` (3, 3) by rows: two tangents, the normal out of the pinion.
+
+    ``parameters`` are those of each member's flank at the contact.
+    """
+
+    point: np.ndarray
+    axes: np.ndarray
+    sides: tuple[Side, Side]
+    parameters: tuple[np.ndarray, np.ndarray]
+
+    @classmethod
+    def at(cls, drive, angle, unknowns, point, normal, major):
+        """The gap at a solved contact (right-hand drive)."""
+        placed = placements_at(drive, np.array([angle]), unknowns[None, :]).matrices
+        bodies = drive.design.description["bodies"]
+        return cls(
+            point,
+            np.stack([major, np.cross(normal, major), normal]),
+            tuple(Side(drive.flank(b["name"]), placed[b["name"]][0]) for b in bodies),
+            tuple(unknowns[b["unknowns"]] for b in bodies),
+        )
+
+    def separations(self, places, starts=None):
+        """Where the flanks stand over ``places`` (N, 2) of the tangent plane: :class:`Sections`."""
+        starts = [None, None] if starts is None else starts
+        found = [self._over(k, places, start) for k, start in enumerate(starts)]
+        heights = [f[1] for f in found]
+        return Sections(
+            np.asarray(places), heights[1] - heights[0], tuple(f[0] for f in found),
+            np.fmin(found[0][2], found[1][2]),
+        )  # fmt: skip
+
+    def _over(self, k, places, start):
+        """Parameters (N, k), height along the normal (N,) and smallest margin (N,) of one flank over places."""
+        side, origin = self.sides[k], self.parameters[k]
+        q = np.tile(origin, (len(places), 1)) if start is None else start.copy()
+        open_, before = np.ones(len(q), dtype=bool), np.full(len(q), np.inf)
+        for _ in range(MAX_STEPS):
+            found, points, tangents = side.at(q)
+            step, size = _newton_step(found, (points - self.point) @ self.axes[:2].T - places, tangents, self.axes[:2])
+            q = np.where(open_[:, None], q - step, q)
+            open_ &= ~((size < STEP_DONE) | ((size < STEP_NOISE) & (size > 0.5 * before)))
+            before = size
+            if not open_.any():
+                break
+        found, points, _ = side.at(q)
+        heights = (points - self.point) @ self.axes[2]
+        lost = open_ | ~np.isfinite(heights)
+        return q, np.where(lost, np.nan, heights), np.where(lost, -np.inf, smallest_margin(found))
+
+
+@dataclass(frozen=True)
+class Sections:
+    """Both flanks over N ``places`` of the tangent plane: ``separation`` (N,), mm, NaN where a flank does not reach;
+    ``parameters`` of each flank, (N, k); ``margin`` (N,), negative where either flank has ended.
+    """
+
+    places: np.ndarray
+    separation: np.ndarray
+    parameters: tuple[np.ndarray, np.ndarray]
+    margin: np.ndarray
+
+
+def smallest_margin(found):
+    """The smallest limit function of flank points, (N,); limits that the design leaves open do not count."""
+    values = np.stack([found.regular, *found.margins.values()])
+    return np.where(np.isnan(values), np.inf, values).min(axis=0)
+
+
+def _newton_step(found, misses, tangents, plane):
+    """Step of the parameters (N, k) that cancels the misses in the plane (N, 2) and the flank's own conditions, and its
+    length, mm.
+    """
+    residual = np.concatenate([misses, found.conditions[:, :, 0]], axis=1)
+    slopes = np.einsum("ij,nkj->nik", plane, tangents)
+    matrix = np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1)
+    good = np.isfinite(matrix).all(axis=(1, 2)) & (np.abs(np.linalg.det(np.nan_to_num(matrix))) > 0.0)
+    step = np.full((len(residual), matrix.shape[2]), np.nan)
+    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    length = np.linalg.norm(np.einsum("nk,nkj->nj", step, tangents), axis=1)
+    limit = np.minimum(1.0, STEP_LIMIT / np.maximum(length, 1e-300))
+    return step * limit[:, None], length

@@ -1,0 +1,202 @@
+"""Contact patterns by surface separation: the patch within which the flanks stand closer than a given distance.
+
+In each direction of the tangent plane the flanks are followed outwards until their separation along the contact
+normal reaches the given one or a flank ends. Five unknowns a direction: two parameters on each flank, and the radius.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.pattern.gap import Gap
+
+#: Steps outwards, as shares of the quadratic ellipse's radius, and how many of them at most.
+STEP = 0.125
+MAX_STEPS = 160
+REFINEMENTS = 60
+RADIUS_TOLERANCE = 1e-11
+
+#: The longest ray is this many times as long as the ellipse is narrow, times the steps allowed by STEP.
+LONGEST = 40.0
+
+
+@dataclass(frozen=True)
+class Contour:
+    """The patch of one contact at pinion ``angle`` (rad) and ``separation`` (mm).
+
+    ``directions`` (N,), rad, about the contact normal (out of the pinion) from the major direction. ``radii`` (N,), mm,
+    from the contact point to the separation, the flanks continued past their edges, NaN where they never reach it;
+    ``radii_on_flank`` end at the edges of the flanks. ``points`` (N, 3): the edge of the patch on the flanks, in the
+    tangent plane, fixed frame; ``body_points[member]`` (N, 3) the same on each flank, body frame.
+    """
+
+    angle: float
+    separation: float
+    directions: np.ndarray
+    radii: np.ndarray
+    radii_on_flank: np.ndarray
+    points: np.ndarray
+    body_points: dict[str, np.ndarray]
+
+
+def evenly(count, *_curvatures):
+    """``count`` directions from the major one at equal angles, rad."""
+    return 2.0 * np.pi * np.arange(count) / count
+
+
+def along_ellipse(count, smaller, larger):
+    """``count`` directions from the major one that are spread evenly along the ellipse of relative curvatures
+    ``smaller`` and ``larger`` (1/mm), rad; equal angles where there is no ellipse."""
+    angle = evenly(count)
+    if not smaller > 0.0:
+        return angle
+    return np.arctan2(np.sqrt(smaller) * np.sin(angle), np.sqrt(larger) * np.cos(angle)) % (2.0 * np.pi)
+
+
+def contour(drive, angle, count=72, separation=None, result=None, spacing=evenly):
+    """The :class:`Contour` at a pinion angle in ``count`` directions; None where there is no contact point.
+
+    ``separation`` defaults to the design's. ``result`` is a TCA that holds the angle, if there is one already.
+    ``spacing`` is :func:`evenly`, or :func:`along_ellipse` for a smooth outline of a slender patch.
+    """
+    found = drive.tca([angle]) if result is None else result
+    k = int(np.argmin(np.abs(found.angles - angle)))
+    if not found.solved[k]:
+        return None
+    if separation is None:
+        separation = drive.design.value("separation_mm", "contact")
+    return _contour(drive, found, k, spacing(count, *found.curvatures[k]), separation)
+
+
+def contours(drive, result, count=72, separation=None):
+    """A :class:`Contour`, or None, for every point of a TCA."""
+    return tuple(contour(drive, angle, count, separation, result) for angle in result.angles)
+
+
+def patches(mesh, angle, count=72, separation=None):
+    """The contours of all pairs that touch or stand closer than the separation at a pinion angle, by pair number.
+
+    A pair that lags the leading one is a gap apart already; its patch is where the rest of the separation is reached.
+    """
+    if separation is None:
+        separation = mesh.drive.design.value("separation_mm", "contact")
+    near = [pair for pair in mesh.pairs(angle) if pair.separation < separation]
+    found = {p.number: contour(mesh.drive, p.angle, count, separation - p.separation) for p in near}
+    return {number: patch for number, patch in found.items() if patch is not None}
+
+
+def _contour(drive, found, k, directions, separation):
+    mirror = -1.0 if drive.design.mirrored else 1.0
+    flip = np.array([1.0, mirror, 1.0])
+    contact = (flip * a[k] for a in (found.points, found.normals, found.major))
+    gap = Gap.at(drive, mirror * found.angles[k], found.solutions[k], *contact)
+    rays = _Rays.of(gap, found.curvatures[k], mirror * directions, separation)
+    reached = rays.followed(_separation_reached)
+    on_flank = rays.followed(_separation_or_edge_reached)
+    bodies = drive.design.description["bodies"]
+    return Contour(
+        angle=float(found.angles[k]),
+        separation=float(separation),
+        directions=directions,
+        radii=np.where(reached.value == 0.0, reached.radius, np.nan),
+        radii_on_flank=on_flank.radius,
+        points=flip * (gap.point + (on_flank.radius[:, None] * rays.along) @ gap.axes[:2]),
+        body_points={
+            b["name"]: flip * side.flank(q).points
+            for b, side, q in zip(bodies, gap.sides, on_flank.parameters, strict=True)
+        },
+    )
+
+
+def _separation_reached(rays, sections):
+    """Positive before the separation is reached."""
+    return rays.separation - rays.sign * sections.separation
+
+
+def _separation_or_edge_reached(rays, sections):
+    """Positive before the separation is reached and while both flanks last."""
+    return np.fmin(_separation_reached(rays, sections), sections.margin)
+
+
+@dataclass(frozen=True)
+class _Rays:
+    """Straight lines ``along`` (N, 2) in the tangent plane. ``sign``: where the flanks interfere the separation falls.
+    ``step``: how far to go at once.
+    """
+
+    gap: Gap
+    along: np.ndarray
+    sign: np.ndarray
+    step: np.ndarray
+    separation: float
+
+    @classmethod
+    def of(cls, gap, curvatures, directions, separation):
+        along = np.stack([np.cos(directions), np.sin(directions)], axis=1)
+        curvature = along**2 @ curvatures
+        ellipse = np.sqrt(2.0 * separation / np.maximum(np.abs(curvature), 1e-300))
+        step = STEP * np.minimum(ellipse, LONGEST * np.sqrt(2.0 * separation / np.abs(curvatures).max()))
+        return cls(gap, along, np.where(curvature < 0.0, -1.0, 1.0), step, separation)
+
+    def followed(self, remaining):
+        """Where ``remaining`` falls to 0 on each ray, with the value 0.
+
+        A ray along which a flank is lost before ends there, one that is too long ends somewhere: the value is NaN.
+        """
+        inner = _State.start(self)
+        outer = self._at(self.step, inner, remaining)
+        for _ in range(MAX_STEPS):
+            going = outer.value > 0.0
+            if not going.any():
+                break
+            inner = outer.where(going, inner)
+            outer = self._at(np.where(going, inner.radius + self.step, outer.radius), inner, remaining)
+        return self._refined(inner, outer, remaining)
+
+    def _at(self, radius, near, remaining):
+        sections = self.gap.separations(radius[:, None] * self.along, near.parameters)
+        value = remaining(self, sections)
+        return _State(radius, sections.parameters, np.where(np.isfinite(value), value, np.nan))
+
+    def _refined(self, inner, outer, remaining):
+        """The place between an inner and an outer state, by false position (Illinois) or bisection."""
+        weight = [inner.value.copy(), outer.value.copy()]
+        last = np.zeros(len(inner.radius))
+        for _ in range(REFINEMENTS):
+            width = outer.radius - inner.radius
+            if (width <= RADIUS_TOLERANCE * outer.radius).all():
+                break
+            share = weight[0] / (weight[0] - weight[1])
+            share = np.where((share > 0.0) & (share < 1.0), share, 0.5)
+            middle = self._at(inner.radius + share * width, inner, remaining)
+            before = middle.value > 0.0
+            weight[0] = np.where(before, middle.value, np.where(last < 0, 0.5, 1.0) * weight[0])
+            weight[1] = np.where(before, np.where(last > 0, 0.5, 1.0) * weight[1], middle.value)
+            last = np.where(before, 1.0, -1.0)
+            inner, outer = middle.where(before, inner), outer.where(before, middle)
+        found = np.isfinite(outer.value) & (outer.value <= 0.0)
+        return _State(inner.radius, inner.parameters, np.where(found, 0.0, np.nan))
+
+
+@dataclass(frozen=True)
+class _State:
+    """A place on each ray: radius (N,), parameters of both flanks there, and what remains to the end."""
+
+    radius: np.ndarray
+    parameters: tuple[np.ndarray, np.ndarray]
+    value: np.ndarray
+
+    @classmethod
+    def start(cls, rays):
+        """The contact point itself."""
+        n = len(rays.along)
+        return cls(np.zeros(n), tuple(np.tile(q, (n, 1)) for q in rays.gap.parameters), np.full(n, rays.separation))
+
+    def where(self, chosen, other):
+        """This state on the chosen rays, the other one elsewhere."""
+        pick = chosen[:, None]
+        return _State(
+            np.where(chosen, self.radius, other.radius),
+            tuple(np.where(pick, a, b) for a, b in zip(self.parameters, other.parameters, strict=True)),
+            np.where(chosen, self.value, other.value),
+        )

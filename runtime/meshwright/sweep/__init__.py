@@ -1,0 +1,1 @@
+"""Many samples of one design: plans, slices of results, statistics."""
