@@ -41,8 +41,8 @@ SIDE = {"pinion": s, "gear": -s}
 
 @dataclass(frozen=True)
 class Tooth:
-    """A member's flank, explicit, and the fillet; ``regular`` is positive where the flank is, ``arc`` is the arc
-    length along the blade from its tip.
+    """A member's flank, explicit, and the fillet; ``regular`` and ``fillet_regular`` have the sign of their singular
+    functions where they exist, ``arc`` is the arc length along the blade from its tip.
     """
 
     settings: Settings
@@ -51,6 +51,7 @@ class Tooth:
     blade: CutterBlade
     arc: sp.Expr
     regular: sp.Expr
+    fillet_regular: sp.Expr
     tau: Quantity
     recovered: tuple = ()
 
@@ -98,9 +99,11 @@ def _generated(m, definitions):
     phi_f = Quantity(f"phi_fillet_{name}", "rad", "turn of the cradle where it cuts the fillet", "gen")
     fillet = explicit_angle(rolled(blade.tip(tau, theta), phi_f), tau, _upward)
     arc = definitions.let(f"u_{name}", blade.arc_length(solved.symbol), "along the blade from its tip", "mm", "tool")
+    sign = HAND[name] * SIDE[name]
     return Tooth(
-        m, flank.on("bevel/linear"), fillet, blade, arc, -SIDE[name] * solved.denominator, tau, (arc,)
-    )
+        m, flank.on("bevel/linear"), fillet, blade, arc, sign * solved.denominator,
+        sign * Quantity(f"{tau}_cosine"), tau, (arc,),
+    )  # fmt: skip
 
 
 def _upward(a, b):
@@ -116,7 +119,8 @@ def _formate(m, definitions):
     tau = Quantity(f"tau_{name}", "rad", "inclination of the normal on the rounding of the blade", "tool")
     rest = _machine(m, 0, 0, 0)
     flank, fillet = (c.placed(rest).turned_over() for c in (blade.edge(u, theta), blade.tip(tau, theta)))
-    return Tooth(m, flank, fillet, blade, u, sp.Integer(-1) * SIDE[name], tau)
+    sign = HAND[name] * SIDE[name]
+    return Tooth(m, flank, fillet, blade, u, -sign, sign, tau)
 
 
 # -- the pair -------------------------------------------------------------------------------------------------------
@@ -160,7 +164,7 @@ def bevel(cut_gear):
         pinion=pinion,
         wheel=wheel,
         regions=tuple(
-            Region(body.name, "fillet", tooth.fillet, -SIDE[tooth.name], _fillet_margins(tooth), "axial")
+            Region(body.name, "fillet", tooth.fillet, tooth.fillet_regular, _fillet_margins(tooth), "axial")
             for body, tooth in ((pinion, pinion_tooth), (wheel, gear_tooth))
         ),
         unknowns=unknowns,
@@ -172,6 +176,7 @@ def bevel(cut_gear):
         sample_angle=0.03,
         reference_angle=k.mean_pinion_angle.symbol,
         pinion_teeth=k.pinion_teeth.key,
+        variant_defaults={"pinion.method": "generated", "gear.method": "generated"},
         variant={"pinion.method": "generated", "gear.method": "formate" if formate else "generated"},
         handed="left",
         required=(PINION.ratio_of_roll.place, *(() if formate else (GEAR.ratio_of_roll.place,))),
@@ -222,8 +227,7 @@ def _margins(tooth, point):
 
 
 def _fillet_margins(tooth):
-    (alpha,) = (tooth.settings.blade_angle.symbol,)
-    tau = tooth.fillet.definitions[tooth.tau] if tooth.tau in tooth.fillet.definitions else tooth.tau
+    alpha = tooth.settings.blade_angle.symbol
     return Margin("", "junction", tooth.tau - alpha), Margin("", "bottom", sp.pi / 2 - tooth.tau)
 
 
@@ -267,7 +271,7 @@ class _MeanPoint:
     def rules(self):
         """The angle at which the pinion's point lies where the gear's is."""
         a, b, _ = self._met()
-        x, y = (q.symbol for q in k.mean_point_pinion)
+        x, y, _ = (q.symbol for q in k.mean_point_pinion)
         return (Rule(k.mean_pinion_angle.symbol, v.arc(y * a - x * b, x * a + y * b)),)
 
     @staticmethod
@@ -323,7 +327,7 @@ class _MeanPoint:
             residual=(v.radius(x, y) - v.radius(a, b), z - height),
             guess=_guess(tooth),
             fills=_filled(
-                (k.mean_theta_pinion, k.mean_cradle_pinion, *k.mean_point_pinion), (*tooth.flank.parameters, x, y)
+                (k.mean_theta_pinion, k.mean_cradle_pinion, *k.mean_point_pinion), (*tooth.flank.parameters, x, y, z)
             ),
             message="the settings of the pinion cut no point where the gear's mean point meets it",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.blank_offset),

@@ -146,7 +146,7 @@ mean_pinion_angle = _mean("pinion_angle_deg", "phi_1_mean", "angle of the pinion
 mean_point = tuple(_mean(f"point_{a}_mm", f"mean_point_{a}", f"{a} of the gear's flank, gear frame") for a in "xyz")
 mean_normal = tuple(_mean(f"normal_{a}", f"mean_normal_{a}", f"{a} of its normal, any length") for a in "xyz")
 mean_point_pinion = tuple(
-    _mean(f"point_pinion_{a}_mm", f"mean_point_pinion_{a}", f"{a} of the pinion's flank, pinion frame") for a in "xy"
+    _mean(f"point_pinion_{a}_mm", f"mean_point_pinion_{a}", f"{a} of the pinion's flank, pinion frame") for a in "xyz"
 )
 
 MEAN = (

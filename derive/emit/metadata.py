@@ -53,6 +53,7 @@ def describe(plan, provenance):
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
+        "reference": _reference(drive),
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
         "functions": [_function(function) for function in plan.functions],
@@ -124,6 +125,11 @@ def self_test(plan):
         "x_start": [x.hex() for x in start],
         "x": [inputs[u].hex() for u in plan.unknowns],
     }
+
+
+def _reference(drive):
+    """Index of the parameter that is the reference angle, −1 where that is 0."""
+    return -1 if drive.reference_angle == 0 else [p.symbol for p in drive.parameters].index(drive.reference_angle)
 
 
 def _plain(name, unit, frame=""):

@@ -12,7 +12,6 @@ import sympy as sp
 from derive.language import vectors as v
 from derive.language.definitions import Definitions
 from derive.language.surface import revolved
-from derive.language.symbols import Quantity
 
 #: A straight edge is the arc of this curvature, 1/mm: it stands off the line by less than any round-off.
 STRAIGHT = sp.Rational(1, 10**30)
@@ -98,7 +97,8 @@ class CutterBlade:
         """The rounding of the tip; ``tau`` is the inclination of its normal, the blade angle at the junction."""
         out = -self.side * sp.cos(tau), sp.Integer(0), -sp.sin(tau)
         point = v.sub(self.tip_centre, v.scale(self.tip_radius, out))
-        return self._revolved(point, tau, theta, self.side).with_pole(self._from_axis(self.tip_centre))
+        slope = -self.side * sp.sin(tau), sp.Integer(0), sp.cos(tau)  # also of a sharp tip
+        return self._revolved(point, tau, theta, -self.side, slope).with_pole(self._from_axis(self.tip_centre))
 
     def _revolved(self, profile, along, theta, outward, slope=None):
         return revolved(

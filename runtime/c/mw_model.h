@@ -63,6 +63,7 @@ typedef struct mw_model {
     int nx, np, ns, no, nd, nstart, nguards;
     int error;                   /* index of the transmission error among the unknowns */
     int wheel_angle;             /* index of the wheel angle in the observation */
+    int reference;               /* index in p of the reference angle, where the start values lead; -1: angle 0 */
     const mw_name *unknowns, *parameters, *sizes, *outputs;
     int noutputs;
     const int *output_sizes;     /* how many numbers each named output of the observation has */

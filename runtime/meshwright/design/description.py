@@ -27,6 +27,12 @@ def parameters(family):
     return families()[family][0]["parameters"]
 
 
+def table_and_key(place):
+    """Table and key of "table.key"; a key alone is of [design]."""
+    table, _, key = place.rpartition(".")
+    return table or "design", key
+
+
 def choose(family, words):
     """The drive of a family for the design words that choose a variant (for example the flank forms)."""
     for description in families()[family]:

@@ -115,6 +115,12 @@ class Design:
         """The flank sign."""
         return float(self.parameters[0])
 
+    @property
+    def reference_angle(self):
+        """Input angle to which relative errors refer, rad, for the hand in which the equations are written."""
+        index = self.description["reference"]
+        return 0.0 if index < 0 else float(self.parameters[index])
+
     def value(self, key, table="design"):
         """A parameter in inner units by its design key; NaN if the design leaves it open."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
@@ -128,8 +134,10 @@ class Design:
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["table"] != "flank":
                 solved.setdefault(p["table"], {})[p["key"]] = _shown(p, float(number))
-        words = {**self.description["variant"], "hand": None}
-        solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
+        for place in (*self.description["variant"], "hand"):
+            table, key = metadata.table_and_key(place)
+            if key in self.tables[table]:
+                solved[table][key] = self.tables[table][key]
         solved["design"] |= {key: number if math.isfinite(number) else None for key, number in self.sizes.items()}
         if "placement" in solved:
             solved["placement"] |= _vectors(solved["placement"])
@@ -161,7 +169,7 @@ def check(tables):
     checked = _validated(family, tables)
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
-    _check_needed(description, checked["design"])
+    _check_needed(description, checked)
     _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
@@ -172,7 +180,7 @@ def check(tables):
     if failed:
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
-    return Design(checked, description, parameters, _sizes(c, parameters), checked["design"].get("hand") == "left")
+    return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked))
 
 
 def _validated(family, tables):
@@ -232,11 +240,28 @@ def _known_keys(family, place):
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
     descriptions = metadata.families()[family]
-    words = checked["design"]
-    for key, source in descriptions[0]["variant_defaults"].items():
-        if words[key] is None:
-            words[key] = words[source]
-    return metadata.choose(family, words)
+    places = {place for description in descriptions for place in description["variant"]}
+    for place, source in descriptions[0]["variant_defaults"].items():
+        table, key = metadata.table_and_key(place)
+        if checked[table][key] is None:
+            checked[table][key] = _given(checked, source)
+    return metadata.choose(family, {place: _given(checked, place) for place in places})
+
+
+def _given(tables, place):
+    """The value of a key of these tables by its place, None where it is open."""
+    table, key = metadata.table_and_key(place)
+    return tables[table].get(key)
+
+
+def _full(place):
+    """A place with its table."""
+    return ".".join(metadata.table_and_key(place))
+
+
+def _mirrored(description, checked):
+    """Whether the design has the other hand than the one for which its equations are written."""
+    return bool(description["handed"]) and checked["design"]["hand"] != description["handed"]
 
 
 def _check_exclusive(description, given):
@@ -251,13 +276,14 @@ def _check_exclusive(description, given):
             raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
 
 
-def _check_needed(description, design):
-    for key in description["required"]:
-        if design.get(key) is None:
-            raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
-    for key in description["excluded"]:
-        if design.get(key) is not None:
-            raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+def _check_needed(description, checked):
+    for place in description["required"]:
+        if _given(checked, place) is None:
+            raise DesignError(_full(place), None, f"a {description['title']} cannot be made without it", "add it")
+    for place in description["excluded"]:
+        value = _given(checked, place)
+        if value is not None:
+            raise DesignError(_full(place), value, f"a {description['title']} has no such size", "remove it")
 
 
 def _check_order(description, checked):
@@ -344,9 +370,9 @@ def _sizes(c, parameters):
 
 
 def _guard_error(guard, checked):
-    given = {key: checked["design"].get(key) for key in guard["keys"]}
+    given = {key: _given(checked, key) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
     first = next(iter(shown or given))
     others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(f"design.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+    return DesignError(_full(first), shown.get(first), reason, f"change {' or '.join(guard['keys'])}")

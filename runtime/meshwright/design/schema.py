@@ -57,15 +57,23 @@ def _material_fields():
 
 def _variant_fields(descriptions):
     """Keys whose words choose the drive within the family."""
-    words = {}
+    words, fields = {}, {}
     for description in descriptions:
-        for key, allowed in description["variant"].items():
-            words.setdefault(key, {}).update(dict.fromkeys(allowed))
+        for place, allowed in description["variant"].items():
+            words.setdefault(place, {}).update(dict.fromkeys(allowed))
     defaults = descriptions[0]["variant_defaults"]
-    return {
-        key: (Literal[tuple(allowed)] | None, None) if key in defaults else (Literal[tuple(allowed)], ...)
-        for key, allowed in words.items()
-    }
+    for place, allowed in words.items():
+        table, key = metadata.table_and_key(place)
+        word = Literal[tuple(allowed)]
+        default = defaults.get(place, ...)
+        if default in words:
+            word, default = word | None, None  # follows the word of another key
+        fields.setdefault(table, {})[key] = (word, default)
+    return fields
+
+
+def _has_required(model):
+    return any(field.is_required() for field in model.model_fields.values())
 
 
 @cache
@@ -76,16 +84,19 @@ def design_model(family):
     for parameter in metadata.parameters(family):
         if parameter["table"] != "flank":
             tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
-    tables["design"] |= _variant_fields(descriptions)
+    for table, fields in _variant_fields(descriptions).items():
+        tables[table] |= fields
     if descriptions[0]["handed"]:
-        tables["design"]["hand"] = (HAND, "right")
+        tables["design"]["hand"] = (HAND, descriptions[0]["handed"])
     tables["material"] = _material_fields()
     models = {
         name: create_model(f"{family}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
     }
     flanks = next(p for p in metadata.parameters(family) if p["table"] == "flank")["choices"]
     others = {
-        name: (model, Field(default_factory=model)) for name, model in models.items() if name != "design"
+        name: (model, ...) if _has_required(model) else (model, Field(default_factory=model))
+        for name, model in models.items()
+        if name != "design"
     }
     return create_model(
         family,
