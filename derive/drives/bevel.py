@@ -19,10 +19,22 @@ from derive.language import vectors as v
 from derive.language.chain import Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
+from derive.language.drive import (
+    PATH,
+    Body,
+    DesignSystem,
+    Drive,
+    Loading,
+    Margin,
+    Region,
+    Role,
+    Source,
+    System,
+    body_point,
+)
 from derive.language.envelope import envelope, explicit, explicit_angle
 from derive.language.surface import Surface
-from derive.language.symbols import Guard, Quantity, Rule, Unknown
+from derive.language.symbols import Guard, Quantity, Rule, Unknown, rotation_angle
 from derive.tools.cutter_blade import CutterBlade
 
 s = k.flank.symbol
@@ -87,7 +99,7 @@ def _generated(m, definitions):
     """The flank that the rolling cutter envelops, with its meshing equation solved for the place on the blade."""
     blade, name = _blade(m, definitions), m.body
     theta = Quantity(f"theta_{name}", "rad", "angle around the cutter's axis", "tool")
-    w = Quantity(f"w_{name}", "mm", "place on the blade's line that its normal meets, from the point of contact", "tool")
+    w = Quantity(f"w_{name}", "mm", "where the blade's normal meets its line, from where they touch", "tool")
     phi = Quantity(f"phi_cradle_{name}", "rad", "turn of the cradle", "gen")
 
     def rolled(cutter, turn):
@@ -137,8 +149,8 @@ def _pinion_mounting(phi_1, offset, shaft_angle, axial):
 def bevel(cut_gear):
     """The drive whose gear is cut by ``cut_gear``."""
     definitions = Definitions()
-    phi_1 = Quantity("phi_pinion", "rad", "angle of the pinion in mesh", "f")
-    error = Quantity("transmission_error", "rad", "gear angle less ratio times pinion angle", "f")
+    phi_1 = rotation_angle("phi_pinion", "angle of the pinion in mesh", "f")
+    error = rotation_angle("transmission_error", "gear angle less ratio times pinion angle", "f")
     ratio = definitions.let("ratio", N_1 / N_2, "N1/N2")
     phi_2 = ratio * phi_1 + error
     pinion_tooth, gear_tooth = _generated(PINION, definitions), cut_gear(GEAR, definitions)
@@ -152,7 +164,7 @@ def bevel(cut_gear):
         name="bevel_formate" if formate else "bevel_generated",
         family="bevel",
         title="bevel or hypoid pair with a Formate gear" if formate else "bevel or hypoid pair with a generated gear",
-        parameters=k.PARAMETERS,
+        parameters=k.parameters(formate),
         rules=mean.rules,
         systems=mean.systems,
         guards=(*_guards(PINION), *_guards(GEAR)),
@@ -179,8 +191,8 @@ def bevel(cut_gear):
         variant_defaults={"pinion.method": "generated", "gear.method": "generated"},
         variant={"pinion.method": "generated", "gear.method": "formate" if formate else "generated"},
         handed="left",
-        required=(PINION.ratio_of_roll.place, *(() if formate else (GEAR.ratio_of_roll.place,))),
-        excluded=GEAR.roll_keys if formate else (),
+        loading=Loading(pairs=5, torque_on="wheel"),
+        sources=(Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 21, 22"),),
         flanks_apart=True,
         absorbs_errors=True,
     )  # fmt: skip
@@ -222,13 +234,13 @@ def _margins(tooth, point):
     return (
         Margin("off_tip", "tip", below_tip),
         Margin("off_face", "face", (outer - along) * (along - outer + face) / face),
-        Margin("off_root", "root", tooth.arc - tooth.blade.junction),
+        Margin("off_root", "root", tooth.arc - tooth.blade.junction, Role.JUNCTION, joins="fillet"),
     )
 
 
 def _fillet_margins(tooth):
     alpha = tooth.settings.blade_angle.symbol
-    return Margin("", "junction", tooth.tau - alpha), Margin("", "bottom", sp.pi / 2 - tooth.tau)
+    return Margin("", "junction", tooth.tau - alpha, joins="flank"), Margin("", "bottom", sp.pi / 2 - tooth.tau)
 
 
 def _guards(m):

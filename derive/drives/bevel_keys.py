@@ -1,4 +1,4 @@
-"""Parameters of spiral bevel and hypoid gears: design keys of the drive, of either member, and what a design derives."""
+"""Parameters of spiral bevel and hypoid gears: keys of the drive, of either member, and what a design derives."""
 
 from dataclasses import dataclass
 
@@ -52,17 +52,12 @@ class Settings:
     outer_cone_distance: Parameter
     face_width: Parameter
 
-    @property
-    def parameters(self):
-        """All of them, in the order of the design."""
+    def parameters(self, formate=False):
+        """All of them, in the order of the design; a ``formate`` member is not rolled."""
         listed = (getattr(self, name) for name in self.__dataclass_fields__ if name != "body")
-        return tuple(q for entry in listed for q in (entry if isinstance(entry, tuple) else (entry,)))
-
-    @property
-    def roll_keys(self):
-        """Keys that only a generated member has."""
+        every = (q for entry in listed for q in (entry if isinstance(entry, tuple) else (entry,)))
         rolled = (self.ratio_of_roll, *self.modified_roll, self.helical_motion)
-        return tuple(q.place for q in rolled)
+        return tuple(q for q in every if not (formate and q in rolled))
 
 
 def _settings(body):
@@ -98,7 +93,7 @@ def _settings(body):
         blank_offset=key("blank_offset_mm", "E_m", "blank offset", default=0),
         sliding_base=key("sliding_base_mm", "X_B", "sliding base, above 0 away from the cutter", default=0),
         center_to_back=key("center_to_back_mm", "X_D", "machine centre to back", default=0),
-        ratio_of_roll=key("ratio_of_roll", "R", "turn of the work over turn of the cradle"),
+        ratio_of_roll=key("ratio_of_roll", "R", "turn of the work over turn of the cradle", required=True),
         modified_roll=tuple(
             key(f"roll_{name}", f"roll_{name}", f"modified roll {name.upper()}", default=0)
             for name in ("2c", "6d", "24e", "120f", "720g")
@@ -149,12 +144,14 @@ mean_point_pinion = tuple(
     _mean(f"point_pinion_{a}_mm", f"mean_point_pinion_{a}", f"{a} of the pinion's flank, pinion frame") for a in "xyz"
 )
 
-MEAN = (
-    mean_u_gear, mean_theta_gear, mean_cradle_gear, mean_gear_angle, mean_theta_pinion, mean_cradle_pinion,
-    mean_pinion_angle, *mean_point, *mean_normal, *mean_point_pinion,
-)  # fmt: skip
 
-PARAMETERS = (
-    flank, pinion_teeth, gear_teeth, shaft_angle, offset, *PINION.parameters, *GEAR.parameters, *MEAN,
-    error_offset, error_pinion, error_gear, error_angle, separation,
-)  # fmt: skip
+
+def parameters(formate):
+    """The parameter vector of a pair with a generated or a ``formate`` gear."""
+    place_of_gear = (mean_u_gear, mean_theta_gear) if formate else (mean_theta_gear, mean_cradle_gear)
+    return (
+        flank, pinion_teeth, gear_teeth, shaft_angle, offset, *PINION.parameters(), *GEAR.parameters(formate),
+        *place_of_gear, mean_gear_angle, mean_theta_pinion, mean_cradle_pinion, mean_pinion_angle,
+        *mean_point, *mean_normal, *mean_point_pinion,
+        error_offset, error_pinion, error_gear, error_angle, separation,
+    )  # fmt: skip

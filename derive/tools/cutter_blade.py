@@ -67,7 +67,8 @@ class CutterBlade:
         where normal and line meet is the pole.
         """
         tangent = self._bend * x
-        secant = self.definitions.let(f"secant_{self.member}", v.root(1 + tangent**2), "secant of the turn along the arc")
+        secant = v.root(1 + tangent**2)
+        secant = self.definitions.let(f"secant_{self.member}", secant, "secant of the turn along the arc")
         point = v.sub(
             v.scale(self.reference + x / secant, self._along),
             v.scale(tangent * x / (secant * (secant + 1)), self._out),

@@ -25,8 +25,8 @@ def _tangent(mean, centre, change):
 
 
 def crown_pair(
-    flank="convex", *, hand="left", teeth=(15, 44), shaft_deg=90.0, module=4.0, width=27.0, radius=76.2, spiral_deg=35.0,
-    pressure_deg=20.0, dedendum=3.7, addendum=3.0, lengthwise=0.0, profile=0.0,
+    flank="convex", *, hand="left", teeth=(15, 44), shaft_deg=90.0, module=4.0, width=27.0, radius=76.2,
+    spiral_deg=35.0, pressure_deg=20.0, dedendum=3.7, addendum=3.0, lengthwise=0.0, profile=0.0,
 ):  # fmt: skip
     """Uniform depth, both members by the same crown gear. ``lengthwise``: by how much the pinion's cutter radius
     differs, ``profile``: curvature of the pinion's blade; without either the flanks touch along lines.
@@ -117,7 +117,8 @@ def formate_cradle(
         "sliding_base_mm": z,
         "ratio_of_roll": n2 / n1,
         **_pinion_blank(
-            lay @ np.array([mean, 0, 0]), lay @ np.array([0, 0, 1.0]), lay @ normal, shaft, offset, n1 / n2, width, addendum
+            lay @ np.array([mean, 0, 0]), lay @ np.array([0, 0, 1.0]), lay @ normal, shaft, offset, n1 / n2, width,
+            addendum,
         ),
     }
     return {

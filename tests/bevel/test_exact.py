@@ -1,4 +1,4 @@
-"""Conjugate and crowned pairs whose contact is known in closed form: F. L. Litvin's crown gear and its modifications."""
+"""Conjugate and crowned pairs whose contact is known in closed form: the crown gear and its modifications."""
 
 from math import atan2, degrees
 
@@ -12,10 +12,10 @@ ARCSEC = np.pi / 648000
 HANDS = [(flank, hand) for flank in ("convex", "concave") for hand in ("left", "right")]
 
 
-def path(drive, reach=np.radians(8), points=9):
+def path(drive, reach_deg=8.0, points=9):
     """Tooth contact analysis about the middle of the path."""
     middle = drive.design.reference_angle * (-1 if drive.design.mirrored else 1)
-    return drive.tca(middle + np.linspace(-reach, reach, points))
+    return drive.tca(middle + np.radians(np.linspace(-reach_deg, reach_deg, points)))
 
 
 @pytest.mark.parametrize(("flank", "hand"), HANDS)
@@ -56,7 +56,7 @@ def test_crowned_both_ways_the_gear_lags_on_both_sides(flank, hand):
 def test_a_pinion_that_rolls_with_its_formate_gear_runs_true_at_any_offset(flank, hand, offset):
     cone = degrees(atan2(41, 11)) if offset == 0 else 72.0
     drive = Drive.from_tables(formate_cradle(flank, hand=hand, offset=offset, gear_pitch_deg=cone))
-    found = path(drive, reach=np.radians(5))
+    found = path(drive, reach_deg=5.0)
     assert set(found.status) == {"converged"}
     assert np.abs(found.error).max() < 1e-9 * ARCSEC
     assert np.ptp(found.unknowns["theta_gear"]) < 1e-9
