@@ -15,7 +15,7 @@ from meshwright.contact.analysis import analyse
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
 
-#: Where a path is looked for to either side of the reference angle, in pitches: misalignment may have moved it far away.
+#: Where a path is looked for to either side of the reference angle, in pitches: errors may have moved it far away.
 TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
 
 #: A path that ends in a fold is followed up to this part of a pitch before it, and what is between counts as its end.
