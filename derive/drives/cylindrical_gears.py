@@ -14,7 +14,7 @@ import sympy as sp
 from derive.drives import cylindrical_gears_keys as k
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
 from derive.language import vectors as v
-from derive.language.chain import Rx, Ry, Rz, translation
+from derive.language.chain import Rx, Ry, Rz, placement, translation
 from derive.language.choice import excess, is_zero, only_where_zero
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
@@ -30,6 +30,7 @@ dA, dh, dv, da = (
     q.symbol for q in (k.error_distance, k.error_horizontal, k.error_vertical, k.error_axial)
 )
 x_sum = PINION.profile_shift.symbol + WHEEL.profile_shift.symbol
+half_turn = placement((-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, 0))  # exact, as an angle of π is not
 bases = PINION.base_radius + WHEEL.base_radius
 parallel = is_zero(sp.sin(Sigma))
 
@@ -113,7 +114,7 @@ def cylindrical_gears():
     teeth = pinion_tooth, wheel_tooth = _tooth(PINION, definitions), _tooth(WHEEL, definitions)
     mounting = translation(x=A + dA) @ Rx(-(Sigma + dh)) @ Ry(dv) @ translation(z=da)
     pinion = _body(pinion_tooth, Rz(phi_1 - pinion_tooth.half_pitch))
-    wheel = _body(wheel_tooth, mounting @ Rz(sp.pi - phi_2 - wheel_tooth.half_pitch))
+    wheel = _body(wheel_tooth, mounting @ half_turn @ Rz(-phi_2 - wheel_tooth.half_pitch))
     return Drive(
         name="cylindrical_gears",
         family="cylindrical-gears",
