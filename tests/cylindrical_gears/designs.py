@@ -1,16 +1,11 @@
-"""Designs of cylindrical gears for tests, and the same pairs for the independent formulation."""
+"""Designs of cylindrical gears for tests, and exact solutions of the independent formulation."""
 
 import math
 
 import mpmath
 import numpy as np
 
-from tests.independent.cylindrical_gears import Gear, Pair
-
 ARCSEC = math.pi / 648000
-AMOUNTS = (
-    "profile_crowning", "profile_slope", "tip_relief", "root_relief", "lead_crowning", "lead_slope", "flank_twist"
-)  # fmt: skip
 
 
 def tables(design, misalignment=None, flank="left", blank=None):
@@ -23,46 +18,6 @@ def tables(design, misalignment=None, flank="left", blank=None):
         "misalignment": misalignment or {},
         "blank": blank or {},
     }
-
-
-def pair(design, distance=None):
-    """The independent :class:`Pair` of a design's tables; every input is the exact double of the design file."""
-    keys, errors = ({k: v for k, v in design[table].items() if v is not None} for table in ("design", "misalignment"))
-    number = mpmath.mpf
-    degree, s = mpmath.pi / 180, 1 if design["flank"] == "left" else -1
-
-    def gear(name):
-        modified = {key: number(keys.get(f"{name}_{key}_um", 0)) / 1000 for key in AMOUNTS}
-        for key in ("tip_relief_radius", "root_relief_radius"):
-            modified[key] = number(keys.get(f"{name}_{key}_mm", 0))
-        rounding = keys.get("basic_rack_rounding_mm")
-        return Gear(
-            number(keys["normal_module_mm"]),
-            number(keys["pressure_angle_deg"]) * degree,
-            keys[f"{name}_teeth"],
-            number(keys.get(f"{name}_helix_angle_deg", 0)) * degree,
-            number(keys.get(f"{name}_profile_shift_coefficient", 0)),
-            number(keys["face_width_mm"]),
-            s,
-            None,
-            modified,
-            keys.get("relief_exponent", 2),
-            None if rounding is None else number(rounding),
-        )
-
-    keys.setdefault("wheel_helix_angle_deg", keys.get("shaft_angle_deg", 0) - keys.get("pinion_helix_angle_deg", 0))
-    pinion, wheel = gear("pinion"), gear("wheel")
-    sigma = pinion.beta + wheel.beta if "shaft_angle_deg" not in keys else number(keys["shaft_angle_deg"]) * degree
-    return Pair(
-        pinion,
-        wheel,
-        sigma,
-        number(keys["center_distance_mm"] if distance is None else distance),
-        number(errors.get("center_distance_mm", 0)),
-        number(errors.get("horizontal_deg", 0)) * degree,
-        number(errors.get("vertical_deg", 0)) * degree,
-        number(errors.get("axial_mm", 0)),
-    )
 
 
 def polished(exact, phi, unknowns):

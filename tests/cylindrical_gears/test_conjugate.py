@@ -2,13 +2,15 @@
 fixed normal, both without transmission error."""
 
 import math
+from dataclasses import replace
 
 import mpmath
 import numpy as np
 import pytest
 
 from meshwright import Drive
-from tests.cylindrical_gears.designs import ARCSEC, pair, tables
+from tests.cylindrical_gears.designs import ARCSEC, tables
+from tests.independent.cylindrical_gears import pair_of
 
 ANGLES = np.radians([-8.0, -1.0, 0.0, 3.0, 9.0])
 SPUR = {"pinion_teeth": 12, "wheel_teeth": 24, "pinion_profile_shift_coefficient": 0.6,
@@ -51,7 +53,8 @@ def test_another_centre_distance_shifts_the_error_by_the_involutes(design, widen
     found = drive.tca(ANGLES)
     assert set(found.status) == {"line_contact"}
     with mpmath.workdps(30):
-        exact = pair(changed, pair(changed, 0).zero_backlash_distance())
+        exact = pair_of(changed)
+        exact = replace(exact, distance=exact.zero_backlash_distance())
         assert abs(size(drive, "center_distance_mm") - float(exact.distance)) < 1e-12 * float(exact.distance)
         assert np.abs(found.error - float(exact.parallel_error())).max() < 1e-9 * ARCSEC
 
@@ -65,7 +68,7 @@ def test_a_crossed_pair_has_one_normal_and_no_error_under_every_misalignment(des
     found = drive.tca(ANGLES)
     assert set(found.status) == {"converged"}
     with mpmath.workdps(30):
-        exact = pair(drive.design.tables, size(drive, "center_distance_mm"))
+        exact = pair_of(drive.design.tables)
         normal = np.array([float(c) for c in exact.common_normal()])
         error, lever = float(exact.crossed_error()), float(exact.pinion.r_b * mpmath.cos(exact.pinion.beta_b))
     assert np.abs(found.error - error).max() < 1e-9 * ARCSEC
@@ -84,7 +87,7 @@ def test_a_crossed_pair_without_backlash_has_no_error():
 def test_curvatures_of_a_crossed_pair_are_those_of_two_cylinders(flank):
     drive = Drive.from_tables(tables(CROSSED, flank=flank))
     found = drive.tca(ANGLES)
-    exact = pair(drive.design.tables, size(drive, "center_distance_mm"))
+    exact = pair_of(drive.design.tables)
     p, w = exact.pinion, exact.wheel
     bases = [(float(g.r_b), float(g.beta_b)) for g in (p, w)]
     chi = math.acos((math.cos(float(exact.sigma)) + math.sin(bases[0][1]) * math.sin(bases[1][1]))
@@ -100,7 +103,7 @@ def test_contact_ratios_are_the_closed_forms():
     """Spur and helical in the transverse section; crossed by the travel between the tips."""
     for design in (SPUR, {**SPUR, "center_distance_mm": 56.7}):
         drive = Drive.from_tables(tables(design))
-        exact = pair(drive.design.tables, size(drive, "center_distance_mm"))
+        exact = pair_of(drive.design.tables)
         assert drive.contact_ratio().contact_ratio == pytest.approx(float(exact.parallel_contact()[1]), abs=1e-9)
 
 

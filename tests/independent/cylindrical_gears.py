@@ -4,10 +4,13 @@ One gear: the rack's edge in the normal section, its trace, the rolling turn in 
 pair: assembly with misalignments, contact as common point and opposed normals. The unmodified pair: closed forms.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mpmath import acos, asin, atan, atan2, cos, findroot, mpf, pi, sin, sqrt, tan
 
+AMOUNTS = (
+    "profile_crowning", "profile_slope", "tip_relief", "root_relief", "lead_crowning", "lead_slope", "flank_twist"
+)  # fmt: skip
 NONE = {"profile_crowning": 0, "profile_slope": 0, "tip_relief": 0, "tip_relief_radius": None, "root_relief": 0,
         "root_relief_radius": None, "lead_crowning": 0, "lead_slope": 0, "flank_twist": 0}  # fmt: skip
 
@@ -30,6 +33,7 @@ class Gear:
     tip: object = None
     modified: dict = field(default_factory=dict)
     exponent: int = 2
+    dedendum: object = None
     rounding: object = None
 
     @property
@@ -55,8 +59,9 @@ class Gear:
     @property
     def start(self):
         """Standard basic rack: dedendum 1.25, rounding 0.38 modules unless given."""
+        dedendum = mpf("1.25") * self.m if self.dedendum is None else self.dedendum
         rounding = mpf("0.38") * self.m if self.rounding is None else self.rounding
-        return (-mpf("1.25") * self.m + rounding * (1 - sin(self.alpha))) / cos(self.alpha)
+        return (rounding * (1 - sin(self.alpha)) - dedendum) / cos(self.alpha)
 
     def edge_at(self, radius):
         rolled = sqrt(radius**2 - self.r_b**2) - self.r * sin(self.alpha_t)
@@ -74,7 +79,7 @@ class Gear:
             (c["tip_relief"], c["tip_relief_radius"], end), (c["root_relief"], c["root_relief_radius"], start)
         ):  # fmt: skip
             if amount:
-                begin = self.edge_at(radius)
+                begin = (end + start) / 2 if radius is None else self.edge_at(radius)
                 share = (l - begin) / (limit - begin)
                 if share > 0:
                     value += amount * share**q
@@ -152,10 +157,26 @@ class Pair:
         """α_w of parallel axes without backlash."""
         p, w = self.pinion, self.wheel
         wanted = involute(p.alpha_t) + 2 * (p.x + w.x) * tan(p.alpha) / (p.z + w.z)
-        return findroot(lambda a: involute(a) - wanted, p.alpha_t + mpf("0.05"))
+        return findroot(lambda a: involute(a) - wanted, float(p.alpha_t) + 0.05)
 
     def zero_backlash_distance(self):
+        """On parallel axes."""
         return (self.pinion.r_b + self.wheel.r_b) / cos(self.zero_backlash_angle())
+
+    def rolled_distance(self, parallel):
+        """Without backlash: what both involutes roll off at φ1 = φ2 = 0, along the common normal of s = +1.
+
+        On ``parallel`` axes the normal is that of the zero-backlash working pressure angle, whatever the shaft angle.
+        """
+        p, w = self.pinion, self.wheel
+        if parallel:
+            y = cos(self.zero_backlash_angle()) * cos(p.beta_b)
+        else:
+            y = (sin(w.beta_b) + sin(p.beta_b) * cos(self.sigma)) / sin(self.sigma)
+        x = sqrt(1 - y**2 - sin(p.beta_b) ** 2)
+        turns = atan2(y, x), atan2(y * cos(self.sigma) + sin(p.beta_b) * sin(self.sigma), x)
+        rolled = [mpf(g.z) / 2 * (pi / 2 - nu + involute(g.alpha_t)) for g, nu in zip((p, w), turns, strict=True)]
+        return p.m * (cos(p.alpha) * sum(rolled) + (p.x + w.x) * sin(p.alpha)) / x
 
     def parallel_error(self):
         """TE of the parallel pair at another centre distance."""
@@ -199,3 +220,49 @@ class Pair:
         rest = reach - (p.x + w.x) * tan(p.alpha)
         rest -= mpf(p.z) / 2 * (-s * nu1 + pi / 2 + involute(p.alpha_t))
         return -s * (2 * rest / w.z - pi / 2 - involute(w.alpha_t)) - nu2
+
+
+def pair_of(tables, parallel=None):
+    """The :class:`Pair` of a design's tables, in the units of the keys; every number is taken exactly.
+
+    ``parallel`` tells by which formula the centre distance follows where it is not given: that of the shaft angle.
+    """
+    named = (tables.get(name, {}) for name in ("design", "misalignment", "blank"))
+    keys, errors, blank = ({k: v for k, v in table.items() if v is not None} for table in named)
+    degree, s = pi / 180, 1 if tables["flank"] == "left" else -1
+    if "shaft_angle_deg" not in keys:
+        helix = [mpf(keys[k]) for k in ("pinion_helix_angle_deg", "wheel_helix_angle_deg") if k in keys]
+        keys["shaft_angle_deg"] = sum(helix) if len(helix) == 2 else 0
+    keys.setdefault("pinion_helix_angle_deg", 0)
+    keys.setdefault("wheel_helix_angle_deg", mpf(keys["shaft_angle_deg"]) - mpf(keys["pinion_helix_angle_deg"]))
+
+    def length(key, source=keys):
+        return None if key not in source else mpf(source[key])
+
+    def gear(name):
+        modified = {key: mpf(keys.get(f"{name}_{key}_um", 0)) / 1000 for key in AMOUNTS}
+        for key in ("tip_relief_radius", "root_relief_radius"):
+            modified[key] = length(f"{name}_{key}_mm")
+        return Gear(
+            mpf(keys["normal_module_mm"]),
+            mpf(keys["pressure_angle_deg"]) * degree,
+            keys[f"{name}_teeth"],
+            mpf(keys[f"{name}_helix_angle_deg"]) * degree,
+            mpf(keys.get(f"{name}_profile_shift_coefficient", 0)),
+            mpf(keys.get(f"{name}_face_width_mm", keys["face_width_mm"])),
+            s,
+            length(f"{name}_tip_radius_mm", blank),
+            modified,
+            keys.get("relief_exponent", 2),
+            length("basic_rack_dedendum_mm"),
+            length("basic_rack_rounding_mm"),
+        )
+
+    sigma = mpf(keys["shaft_angle_deg"]) * degree
+    moved = [mpf(errors.get(f"{key}_deg", 0)) * degree for key in ("horizontal", "vertical")]
+    lengths = [mpf(errors.get(f"{key}_mm", 0)) for key in ("center_distance", "axial")]
+    pair = Pair(gear("pinion"), gear("wheel"), sigma, length("center_distance_mm"), lengths[0], *moved, lengths[1])
+    if pair.distance is None:
+        pair = replace(pair, distance=pair.rolled_distance(sigma == 0 if parallel is None else parallel))
+    return pair
+
