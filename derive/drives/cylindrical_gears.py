@@ -3,8 +3,7 @@
 Frames: ``f`` fixed, z along the pinion axis, x from pinion to wheel; the wheel axis is (0, sin Σ, cos Σ) through
 (A, 0, 0). Body frames ``pinion`` and ``wheel``: the tooth is centred on x, z along the gear's own axis, middle of the
 face at z = 0. The pinion turns by +φ1 about z and the wheel by +φ2 about minus its axis; right-hand helix angles are
-positive. Sources: ISO 21771:2007 (geometry, modifications); F. L. Litvin, A. Fuentes: Gear Geometry and Applied
-Theory, 2nd ed. 2004, chapters 13 to 16.
+positive. Words and modifications as in ISO 21771:2007.
 """
 
 from dataclasses import dataclass
@@ -18,11 +17,11 @@ from derive.language.chain import Rx, Ry, Rz, placement, translation
 from derive.language.choice import excess, is_zero, only_where_zero
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, DesignSystem, Drive, Margin, Region, System, body_point
+from derive.language.drive import Body, DesignSystem, Drive, Loading, Margin, Region, Role, Source, System, body_point
 from derive.language.envelope import envelope, explicit
 from derive.language.replace import replaced
 from derive.language.surface import Surface
-from derive.language.symbols import Guard, Quantity, Unknown
+from derive.language.symbols import Guard, Quantity, Unknown, rotation_angle
 from derive.tools.basic_rack import BasicRack, RackBody, Relief, basic_rack
 
 s, m, alpha, Sigma, A = (q.symbol for q in (k.flank, k.module, k.pressure_angle, k.shaft_angle, k.center_distance))
@@ -96,7 +95,7 @@ def _rack_body(gear, definitions):
 
 def _rolled(cutter, gear, angle):
     """The envelope of a cutter's surface on the gear that rolls on it, and the turn of the gear in generation."""
-    phi = Quantity(angle, "rad", f"turn of the {gear.name} in generation", "gen")
+    phi = rotation_angle(angle, f"turn of the {gear.name} in generation", "gen")
     rolling = Rz(phi) @ translation(x=gear.reference_radius, y=-gear.reference_radius * phi)
     surface, solved = explicit(envelope(cutter, rolling, phi))
     proved = (f"cylindrical_gears/{key}" for key in ("meshing", "explicit", "tangent", "undercut"))
@@ -106,8 +105,8 @@ def _rolled(cutter, gear, angle):
 def cylindrical_gears():
     """The pair of gears."""
     definitions = Definitions()
-    phi_1 = Quantity("phi_pinion", "rad", "angle of the pinion in mesh", "f")
-    error = Quantity("transmission_error", "rad", "wheel angle less ratio times pinion angle", "f")
+    phi_1 = rotation_angle("phi_pinion", "angle of the pinion in mesh", "f")
+    error = rotation_angle("transmission_error", "wheel angle less ratio times pinion angle", "f")
     ratio = definitions.let("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "z1/z2")
     phi_2 = ratio * phi_1 + error
 
@@ -139,6 +138,11 @@ def cylindrical_gears():
         sample=SAMPLE,
         sample_angle=0.03,
         pinion_teeth=PINION.teeth.key,
+        loading=Loading(pairs=3, torque_on="pinion"),
+        sources=(
+            Source("ISO", "ISO 21771, Gears: Cylindrical involute gears and gear pairs: Concepts and geometry", 2007),
+            Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 13 to 16"),
+        ),
     )
 
 
@@ -166,13 +170,13 @@ def _margins(tooth):
     return (
         Margin("off_tip", "tip", gear.tip_radius.symbol - v.radius(x, y)),
         Margin("off_face", "face", gear.face_width.symbol / 2 - sp.Abs(z)),
-        Margin("off_root", "root", tooth.rack.along - k.EDGE_START),
+        Margin("off_root", "root", tooth.rack.along - k.EDGE_START, Role.JUNCTION, joins="fillet"),
     )
 
 
 def _fillet_margins(tooth):
     turn = tooth.fillet.parameters[0]
-    return Margin("", "junction", turn), Margin("", "bottom", sp.pi / 2 - alpha - turn)
+    return Margin("", "junction", turn, joins="flank"), Margin("", "bottom", sp.pi / 2 - alpha - turn)
 
 
 # -- the unmodified pair: its common normal fixes centre distance, transmission error and the place of contact ---------
