@@ -89,10 +89,13 @@ def _machine(m, cradle, work, sliding):
     return Rz(-h * work) @ axis @ blank @ cutter
 
 
-def _work(m, phi):
+def _work(m, phi, definitions):
     """Turn of the blank at a turn of the cradle: ratio of roll and modified roll."""
-    lost = sum(c.symbol * phi**n / sp.factorial(n) for n, c in enumerate(m.modified_roll, 2))
-    return m.ratio_of_roll.symbol * (phi - lost)
+    turn = sp.Integer(0)
+    for n, coefficient in reversed([*enumerate(m.modified_roll, 2)]):
+        share = coefficient.symbol / sp.factorial(n)
+        turn = phi * (turn - definitions.let(f"c_{n}_{m.body}", share, f"share of the turn's power {n}"))
+    return m.ratio_of_roll.symbol * phi * (1 + turn)
 
 
 def _generated(m, definitions):
@@ -103,7 +106,7 @@ def _generated(m, definitions):
     phi = Quantity(f"phi_cradle_{name}", "rad", "turn of the cradle", "gen")
 
     def rolled(cutter, turn):
-        motion = _machine(m, turn, _work(m, turn), m.helical_motion.symbol * turn)
+        motion = _machine(m, turn, _work(m, turn, definitions), m.helical_motion.symbol * turn)
         return envelope(cutter, motion, turn).on("bevel/meshing", "bevel/pole")
 
     flank, solved = explicit(rolled(blade.swung_edge(w, theta), phi))
