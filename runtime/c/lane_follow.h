@@ -6,6 +6,11 @@
 
 #define MW_LANE_LOOP _Pragma("omp simd") for (int l = 0; l < MW_LANES; l++)
 
+static inline double magnitude(double a)
+{
+    return a < 0.0 ? -a : a;
+}
+
 /* Whether the n angles of every lane are equally spaced. */
 static int equally_spaced(const double *phi, size_t n)
 {
@@ -14,8 +19,8 @@ static int equally_spaced(const double *phi, size_t n)
     for (size_t k = 1; k + 1 < n; k++) {
         const double *a = phi + (k - 1) * MW_LANES;
         MW_LANE_LOOP {
-            const double excess = MW_ABS(a[2 * MW_LANES + l] - 2.0 * a[MW_LANES + l] + a[l])
-                                  - MW_EQUAL_SPACING * MW_ABS(phi[MW_LANES + l] - phi[l]);
+            const double excess = magnitude(a[2 * MW_LANES + l] - 2.0 * a[MW_LANES + l] + a[l])
+                                  - MW_EQUAL_SPACING * magnitude(phi[MW_LANES + l] - phi[l]);
             worst[l] = excess > worst[l] ? excess : worst[l];
         }
     }

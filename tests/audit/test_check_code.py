@@ -88,6 +88,6 @@ def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path):
 def test_a_folder_without_the_programs_is_rejected(tmp_path):
     (tmp_path / "audit").mkdir()
     (tmp_path / "c").mkdir()
-    shutil.copy(GENERATED / "c" / "models.h", tmp_path / "c")
+    shutil.copy(GENERATED / "c" / "face_worm_lanes.h", tmp_path / "c")
     (tmp_path / "c" / "drive.h").write_text("static inline int drive_setup(const double *p, double *s)\n{\n}\n")
     assert check_code.main([str(tmp_path / "audit")]) == 1

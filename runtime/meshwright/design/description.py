@@ -1,35 +1,90 @@
-"""The generated descriptions of the drives: what keys a family has, what each number means."""
+"""The generated descriptions of the drives: what keys a family has, what each number means.
+
+A family is known from the tables that the compiler writes and from the descriptions in folders of drives; the
+description of a drive that is in none of them is made when it is first asked for (:mod:`meshwright.base.drives`).
+"""
 
 import json
+from dataclasses import dataclass
 from functools import cache
 
-from meshwright.base.library import SHIPPED
+from meshwright.base.drives import SHIPPED, folder_of, folders
+from meshwright.base.errors import LibraryError
 
 
-@cache
-def drives():
-    """Every drive's description by name."""
-    paths = sorted(SHIPPED.glob("*.json"))
-    described = (json.loads(path.read_text(encoding="utf-8")) for path in paths)
-    return {d["name"]: d for d in described if d.get("schema") == "meshwright.drive/1"}
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A family of drives: its keys, those of all its drives together, and what words choose which drive.
+
+    ``parameters`` are described as in a drive's own description. ``variants``: drive → key → words that mean it.
+    ``variant_defaults``: a key that may be left out → the key that it then follows. ``handed``: it has a left hand.
+    """
+
+    name: str
+    parameters: list
+    variants: dict
+    variant_defaults: dict
+    handed: bool
+
+    @classmethod
+    def of(cls, name, drives):
+        """The family of these drives (parts of descriptions)."""
+        parameters, variants, defaults = {}, {}, {}
+        for drive in drives:
+            variants.setdefault(drive["name"], drive["variant"])
+            defaults |= drive["variant_defaults"]
+            for parameter in drive["parameters"]:
+                parameters.setdefault((parameter["table"], parameter["key"]), parameter)
+        handed = any(drive["handed"] for drive in drives)
+        return cls(name, list(parameters.values()), variants, defaults, handed)
 
 
 def families():
-    """The descriptions of each family's drives: family name → list."""
+    """Every family by name."""
+    return _families(folders())
+
+
+@cache
+def _families(places):
     grouped = {}
-    for description in drives().values():
-        grouped.setdefault(description["family"], []).append(description)
-    return grouped
+    for place in places:
+        for drive in _drives_in(place):
+            grouped.setdefault(drive["family"], []).append(drive)
+    return {name: Family.of(name, drives) for name, drives in grouped.items()}
 
 
-def parameters(family):
-    """The parameters of a family in the order of the parameter vector: equal for all its drives."""
-    return families()[family][0]["parameters"]
+def _drives_in(folder):
+    """What is known of each drive of a folder: of all that the table of families names, where there is one."""
+    table = folder / "families.json"
+    if table.exists():
+        for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
+            for drive in family["drives"]:
+                yield drive | {"parameters": [family["parameters"][k] for k in drive["parameters"]]}
+    elif folder == SHIPPED:
+        raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
+    else:
+        described = (json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json")))
+        yield from (d for d in described if d.get("schema") == "meshwright.drive/1")
+
+
+def described(name):
+    """The description of a drive."""
+    return _described(name, folders())
+
+
+@cache
+def _described(name, places):
+    return json.loads((folder_of(name) / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def drives():
+    """The names of all drives."""
+    return [name for family in families().values() for name in family.variants]
 
 
 def choose(family, words):
     """The drive of a family for the design words that choose a variant (for example the flank forms)."""
-    for description in families()[family]:
-        if all(words[key] in allowed for key, allowed in description["variant"].items()):
-            return description
+    for name, variant in families()[family].variants.items():
+        if all(words[key] in allowed for key, allowed in variant.items()):
+            return described(name)
     raise KeyError(words)

@@ -136,6 +136,7 @@ def check(tables):
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
     _check_needed(description, checked["design"])
+    _check_own(description, checked)
     _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
@@ -199,9 +200,8 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    descriptions = metadata.families()[family]
     words = checked["design"]
-    for key, source in descriptions[0]["variant_defaults"].items():
+    for key, source in metadata.families()[family].variant_defaults.items():
         if words[key] is None:
             words[key] = words[source]
     return metadata.choose(family, words)
@@ -226,6 +226,16 @@ def _check_needed(description, design):
     for key in description["excluded"]:
         if design.get(key) is not None:
             raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+
+
+def _check_own(description, checked):
+    """Refuse keys that other drives of the family have and this one has not."""
+    own = {(p["table"], p["key"]) for p in description["parameters"]}
+    for p in metadata.families()[description["family"]].parameters:
+        value = checked.get(p["table"], {}).get(p["key"]) if p["table"] != "flank" else None
+        if value is not None and (p["table"], p["key"]) not in own:
+            reason = f"a {description['title']} has no such key"
+            raise DesignError(f"{p['table']}.{p['key']}", value, reason, "remove it")
 
 
 def _check_order(description, checked):
