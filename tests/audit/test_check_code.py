@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from derive.audit import check_code
+from meshwright.base.drives import folder_of
 
 ALL_ATTEMPTS = check_code.ATTEMPTS
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -23,7 +24,7 @@ def test_every_generated_header_is_its_own_mathematics():
 
 
 def header(name):
-    return (GENERATED / "c" / f"{name}.h").read_text(encoding="utf-8")
+    return (folder_of(name) / "include" / f"{name}.h").read_text(encoding="utf-8")
 
 
 def rejected(tmp_path, text, match):
