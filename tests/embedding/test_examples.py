@@ -115,9 +115,9 @@ def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
     assert [name for name in tracked.splitlines() if not (unpacked / name).exists()] == []
     assert not (c.ROOT / "MANIFEST.in").exists()
     program = Path("runtime", "meshwright", "base", "compile.py")
-    c.run(sys.executable, program, "generated", tmp_path / "built", "spherical_convex_spur", "--objects", tmp_path / "o",
-          cwd=unpacked)  # fmt: skip
-    assert (tmp_path / "built" / "spherical_convex_spur.so").exists()
+    built, objects = tmp_path / "built", tmp_path / "objects"
+    c.run(sys.executable, program, "generated", built, "spherical_convex_spur", "--objects", objects, cwd=unpacked)
+    assert (built / "spherical_convex_spur.so").exists()
 
 
 def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):

@@ -16,8 +16,10 @@ from meshwright.base.errors import LibraryError
 class Family:
     """A family of drives: its keys, those of all its drives together, and what words choose which drive.
 
-    ``parameters`` are described as in a drive's own description. ``variants``: drive → key → words that mean it.
-    ``variant_defaults``: a key that may be left out → the key that it then follows. ``handed``: it has a left hand.
+    ``parameters`` are described as in a drive's own description, each once; ``required`` where every drive requires it,
+    ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
+    key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows.
+    ``handed``: it has a left hand.
     """
 
     name: str
@@ -29,14 +31,27 @@ class Family:
     @classmethod
     def of(cls, name, drives):
         """The family of these drives (parts of descriptions)."""
-        parameters, variants, defaults = {}, {}, {}
-        for drive in drives:
-            variants.setdefault(drive["name"], drive["variant"])
-            defaults |= drive["variant_defaults"]
-            for parameter in drive["parameters"]:
-                parameters.setdefault((parameter["table"], parameter["key"]), parameter)
-        handed = any(drive["handed"] for drive in drives)
-        return cls(name, list(parameters.values()), variants, defaults, handed)
+        named = {drive["name"]: drive for drive in reversed(drives)}  # of drives of one name the first counts
+        listed, variants, defaults = {}, {}, {}
+        for drive in dict.fromkeys(drive["name"] for drive in drives):
+            variants[drive] = named[drive]["variant"]
+            defaults |= named[drive]["variant_defaults"]
+            for parameter in named[drive]["parameters"]:
+                listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
+        parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
+        return cls(name, parameters, variants, defaults, any(drive["handed"] for drive in named.values()))
+
+
+def _joint(family, place, found, everywhere):
+    """One entry for what the drives of a family say of a key."""
+    shared = [{k: v for k, v in p.items() if k not in ("tools", "required")} for p in found]
+    if any(p != shared[0] for p in shared):
+        raise LibraryError(
+            f"the drives of the family {family} disagree about the key {'.'.join(place)}: derive them again, or give one "
+            "of them another family"
+        )
+    tools = sorted({word for p in found for word in p["tools"]})
+    return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
 
 
 def families():
@@ -75,6 +90,11 @@ def described(name):
 @cache
 def _described(name, places):
     return json.loads((folder_of(name) / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def parameters(family):
+    """The parameters of a family: see :class:`Family`."""
+    return families()[family].parameters
 
 
 def drives():
