@@ -47,8 +47,8 @@ def _joint(family, place, found, everywhere):
     shared = [{k: v for k, v in p.items() if k not in ("tools", "required")} for p in found]
     if any(p != shared[0] for p in shared):
         raise LibraryError(
-            f"the drives of the family {family} disagree about the key {'.'.join(place)}: derive them again, or give one "
-            "of them another family"
+            f"the drives of the family {family} disagree about the key {'.'.join(place)}: derive them again, or give "
+            "one of them another family"
         )
     tools = sorted({word for p in found for word in p["tools"]})
     return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
