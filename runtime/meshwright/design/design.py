@@ -284,12 +284,12 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    descriptions = metadata.families()[family]
-    places = {place for description in descriptions for place in description["variant"]}
-    for place, source in descriptions[0]["variant_defaults"].items():
+    known = metadata.families()[family]
+    for place, source in known.variant_defaults.items():
         table, key = metadata.table_and_key(place)
         if checked[table][key] is None:
             checked[table][key] = _given(checked, source)
+    places = {place for variant in known.variants.values() for place in variant}
     return metadata.choose(family, {place: _given(checked, place) for place in places})
 
 

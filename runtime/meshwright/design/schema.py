@@ -55,17 +55,16 @@ def _material_fields():
     }
 
 
-def _variant_fields(descriptions):
+def _variant_fields(family):
     """Keys whose words choose the drive within the family."""
     words, fields = {}, {}
-    for description in descriptions:
-        for place, allowed in description["variant"].items():
+    for variant in family.variants.values():
+        for place, allowed in variant.items():
             words.setdefault(place, {}).update(dict.fromkeys(allowed))
-    defaults = descriptions[0]["variant_defaults"]
     for place, allowed in words.items():
         table, key = metadata.table_and_key(place)
         word = Literal[tuple(allowed)]
-        default = defaults.get(place, ...)
+        default = family.variant_defaults.get(place, ...)
         if default in words:
             word, default = word | None, None  # follows the word of another key
         fields.setdefault(table, {})[key] = (word, default)
@@ -76,32 +75,35 @@ def _has_required(model):
     return any(field.is_required() for field in model.model_fields.values())
 
 
-@cache
 def design_model(family):
     """The pydantic model of a family's design file."""
-    descriptions = metadata.families()[family]
+    return _design_model(metadata.families()[family])
+
+
+@cache
+def _design_model(family):
     tables = {}
-    for parameter in metadata.parameters(family):
+    for parameter in family.parameters:
         if parameter["table"] != "flank":
             tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
-    for table, fields in _variant_fields(descriptions).items():
+    for table, fields in _variant_fields(family).items():
         tables[table] |= fields
-    if descriptions[0]["handed"]:
-        tables["design"]["hand"] = (HAND, descriptions[0]["handed"])
+    if family.handed:
+        tables["design"]["hand"] = (HAND, family.handed)
     tables["material"] = _material_fields()
     models = {
-        name: create_model(f"{family}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
+        name: create_model(f"{family.name}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
     }
-    flanks = next(p for p in metadata.parameters(family) if p["table"] == "flank")["choices"]
+    flanks = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     others = {
         name: (model, ...) if _has_required(model) else (model, Field(default_factory=model))
         for name, model in models.items()
         if name != "design"
     }
     return create_model(
-        family,
+        family.name,
         __config__=_STRICT,
-        drive=(Literal[family], ...),
+        drive=(Literal[family.name], ...),
         name=(Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$")], ""),
         flank=(Literal[tuple(flanks)], next(iter(flanks))),
         design=(models["design"], ...),
