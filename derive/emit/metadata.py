@@ -24,19 +24,13 @@ def describe(plan, provenance):
     return {
         "schema": "meshwright.drive/1",
         "generator": GENERATOR,
-        "name": drive.name,
-        "prefix": drive.name,
-        "family": drive.family,
-        "title": drive.title,
-        "variant": {key: [word] for key, word in drive.variant.items()},
-        "variant_defaults": drive.variant_defaults,
-        "handed": drive.handed,
+        **identity(drive),
         "abi": 1,
         "specification_hash": specification_hash(plan),
         **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
         "unknowns": [_name(u.symbol) for u in drive.unknowns],
-        "parameters": [_parameter(drive, p) for p in drive.parameters],
+        "parameters": parameters(drive),
         "quantities": _quantities(drive),
         "tools": [
             {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
@@ -75,6 +69,24 @@ def describe(plan, provenance):
         "operations": operations(plan),
         "self_test": self_test(plan),
     }
+
+
+def identity(drive):
+    """What tells a drive from the others of its family."""
+    return {
+        "name": drive.name,
+        "prefix": drive.name,
+        "family": drive.family,
+        "title": drive.title,
+        "variant": {key: [word] for key, word in drive.variant.items()},
+        "variant_defaults": drive.variant_defaults,
+        "handed": drive.handed,
+    }
+
+
+def parameters(drive):
+    """The parameters of a drive in the order of its parameter vector."""
+    return [_parameter(drive, p) for p in drive.parameters]
 
 
 def specification_hash(plan):

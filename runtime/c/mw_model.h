@@ -86,6 +86,7 @@ typedef struct mw_model {
     const mw_region *regions;
     int nfunctions;
     const mw_function *functions;
+    const struct mw_kernels *kernels; /* lane kernels and tangents: of a drive's object; NULL in the header alone */
 } mw_model;
 
 #endif

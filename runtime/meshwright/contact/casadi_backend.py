@@ -8,7 +8,8 @@ from functools import cache
 
 import numpy as np
 
-from meshwright.base.library import SHIPPED, callback, ffi, model
+from meshwright.base.drives import folder_of
+from meshwright.base.library import callback, ffi, model
 from meshwright.design import description as metadata
 
 #: Entries of the model table that are replaced; each is the name of a method of :class:`_Arithmetic`.
@@ -26,9 +27,10 @@ def model_of(description):
 def _table(name):
     """A copy of the compiled model table with the arithmetic replaced; returns it with what must stay alive."""
     compiled = model(name)
-    arithmetic = _Arithmetic(metadata.drives()[name], compiled)
+    arithmetic = _Arithmetic(metadata.described(name), compiled)
     table = ffi.new("mw_model *", compiled[0])
     table.ns = arithmetic.parameters + 1
+    table.kernels = ffi.NULL  # lanes and tangents are of the compiled arithmetic
     callbacks = {key: callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
     for key, function in callbacks.items():
         setattr(table, key, function)
@@ -45,7 +47,7 @@ class _Arithmetic:
     def __init__(self, description, compiled):
         import casadi
 
-        self.values = casadi.Function.load(str(SHIPPED / f"{description['name']}.casadi"))
+        self.values = casadi.Function.load(str(folder_of(description["name"]) / f"{description['name']}.casadi"))
         self.names = self.values.name_out()
         self.unknowns, self.parameters = len(description["unknowns"]), len(description["parameters"])
         self.observed = compiled.no
