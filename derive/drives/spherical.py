@@ -126,9 +126,16 @@ def spherical(pinion_form, wheel_form):
 
 
 def _undercut(tooth):
-    """Undercut is sought in sections of the face, from far beyond the root to the end of the edge."""
+    """Undercut is sought in sections of the face, from far beyond the root to the end of the edge.
+
+    Beyond the centre of its arc a cutter has a second sheet, which cuts nothing.
+    """
     gear, tool = tooth.gear, tooth.tool
-    ends = {"first": -2 * gear.pitch_radius, "start": 0, "middle": tool.pitch_point, "last": tool.edge_length}
+    far = 2 * gear.pitch_radius
+    if tool.arc_radius is not None:
+        to_centre = (tool.arc_radius - gear.edge_offset.symbol - gear.face_width.symbol / 2) / sp.cos(alpha)
+        far = (far + to_centre - sp.Abs(far - to_centre)) / 2
+    ends = {"first": -far, "start": 0, "middle": tool.pitch_point, "last": tool.edge_length}
     return (
         Function(
             f"undercut_range_{gear.name}",
