@@ -58,7 +58,7 @@ def compile_drive(drive, record, log, open_=None):
         # last: it adds the changes of the inputs to the tape
         tangents = sensitivity.tangents(plan)
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-        evaluated = [*conditions.functions(plan), *tangents.functions()]
+        evaluated = [*conditions.functions(plan), conditions.along(plan), *tangents.functions()]
         description["side_conditions"] = conditions.side_conditions(plan, evaluated)
         files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
         return files

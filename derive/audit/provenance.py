@@ -53,13 +53,16 @@ def _steps(plan: Schedule) -> Iterator[tuple[str, tuple[str, ...]]]:
     on_surface = (UNIT.statement, SINGULAR)
     for body in drive.bodies:
         yield f"flank_{body.name}", joined(body.surface.rests_on, on_surface)
+        yield f"curvature_flank_{body.name}", joined(body.surface.rests_on, on_surface)
     for region in drive.regions:
         yield f"{region.name}_{region.member}", joined(region.surface.rests_on, on_surface)
+        yield f"curvature_{region.name}_{region.member}", joined(region.surface.rests_on, on_surface)
     mesh = joined(*(body.placed.rests_on for body in drive.bodies), (CONTACT, ANGLES))
     yield "eval", mesh
+    yield "along", mesh
     yield "step", joined(mesh, (ELIMINATION, STEP_SIZE.statement))
     yield "observe", joined(mesh, on_surface)
-    yield from ((function.name, function.rests_on) for function in drive.functions)
+    yield from ((function.name, function.rests_on) for function in plan.functions)
 
 
 def _not_proved(objects: Mapping[str, dict], names: set[str]) -> Iterator[tuple[str, str]]:

@@ -14,7 +14,8 @@ from meshwright.design import description as metadata
 
 #: Entries of the model table that are replaced; each is the name of a method of :class:`_Arithmetic`.
 REPLACED = (
-    "setup", "set_phi", "eval", "step", "scale", "guess", "start_scale", "start_eval", "start_solution", "observe",
+    "setup", "set_phi", "eval", "step", "along", "scale", "guess", "start_scale", "start_eval", "start_solution",
+    "observe",
 )  # fmt: skip
 
 
@@ -56,6 +57,9 @@ class _Arithmetic:
         out = dict(zip(self.names, self.values(p, phi, x), strict=True))
         y = casadi.vertcat(*(x[k] for k in self.columns))
         self.contact = casadi.Function("contact", [p, phi, x], _with_jacobian(casadi, out["residual"], x))
+        v = casadi.SX.sym("v", self.unknowns + 1)
+        derivatives = _along(casadi, out["residual"], casadi.vertcat(x, phi), v)
+        self.directional = casadi.Function("directional", [p, phi, x, v], derivatives)
         self.start = casadi.Function("start", [p, phi, x], _with_jacobian(casadi, out["start_residual"], y))
 
     def setup(self, p, s):
@@ -78,6 +82,13 @@ class _Arithmetic:
             return float("nan")
         values -= change
         return float(np.sum(np.abs(change / self._value("scale", s, values))))
+
+    def along(self, s, phi, x, direction, first, second):
+        parameters, _ = self._inputs(s)
+        derivatives = self.directional(parameters, phi, _numpy(x, self.unknowns), _numpy(direction, self.unknowns + 1))
+        for place, values in zip((first, second), derivatives, strict=True):
+            if place != ffi.NULL:
+                _numpy(place, self.unknowns)[:] = np.asarray(values).ravel()
 
     def scale(self, s, x):
         _numpy(x, self.unknowns)[:] = self._value("scale", s)
@@ -117,6 +128,12 @@ class _Arithmetic:
         _numpy(residual, values.numel())[:] = np.asarray(values).ravel()
         if jacobian != ffi.NULL:
             _numpy(jacobian, slopes.numel())[:] = np.asarray(slopes).ravel()
+
+
+def _along(casadi, residual, y, direction):
+    """First and second derivative of the residual along a direction of y = (unknowns, input angle)."""
+    first = casadi.jtimes(residual, y, direction)
+    return [first, casadi.jtimes(first, y, direction)]
 
 
 def _with_jacobian(casadi, residual, unknowns):
