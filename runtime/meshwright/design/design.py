@@ -145,6 +145,12 @@ class Design:
             if p["table"] == "flank"
         )
 
+    @property
+    def other_flank(self):
+        """The word of the opposite flank."""
+        words = next(p["choices"] for p in self.description["parameters"] if p["table"] == "flank")
+        return next(word for word in words if word != self.tables["flank"])
+
     def value(self, key, table="design"):
         """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
