@@ -151,6 +151,12 @@ class Design:
         index = self.description["reference"]
         return 0.0 if index < 0 else float(self.parameters[index])
 
+    @property
+    def other_flank(self):
+        """The word of the opposite flank."""
+        words = next(p["choices"] for p in self.description["parameters"] if p["table"] == "flank")
+        return next(word for word in words if word != self.tables["flank"])
+
     def value(self, key, table="design"):
         """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
@@ -299,9 +305,12 @@ def _given(tables, place):
     return tables[table].get(key)
 
 
-def _full(place):
-    """A place with its table."""
-    return ".".join(metadata.table_and_key(place))
+def _full(place, checked):
+    """A place with its table; a key alone is of [design] if that has it, else of the table that does."""
+    if "." in place:
+        return place
+    tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
+    return f"{next((name for name in tables if place in checked[name]), 'design')}.{place}"
 
 
 def _mirrored(description, checked):
@@ -421,9 +430,9 @@ def _sizes(c, parameters):
 
 
 def _guard_error(guard, checked):
-    given = {key: _given(checked, key) for key in guard["keys"]}
+    given = {_full(key, checked): _given(checked, _full(key, checked)) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
     first = next(iter(shown or given))
-    others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
+    others = ", ".join(f"{k.removeprefix('design.')} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(_full(first), shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+    return DesignError(first, shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
