@@ -9,7 +9,7 @@ OBJECTS := $(VENV)/objects
 CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
 CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
-.PHONY: setup generate audit bench build check examples run lint test solver cmake test-fe
+.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe
 
 setup: $(READY)
 
@@ -37,6 +37,12 @@ generate: setup
 audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
+
+# Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
+kernel: generate
+	@command -v coqc >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
+		&& apt-get update -qq && apt-get install -y -qq coq libcoq-coquelicot; } >/dev/null 2>&1 || true
+	$(PY) -m derive.audit kernel
 
 # The shared library and the data that the Python package ships; the lane kernels take the time.
 build: setup

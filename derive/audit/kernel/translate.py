@@ -16,8 +16,10 @@ from dataclasses import dataclass
 from derive.audit import check
 
 RESERVED = frozenset(
-    "R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match mod "
-    "open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved".split()
+    (
+        "R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match "
+        "mod open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved"
+    ).split()
 )
 
 
@@ -203,12 +205,13 @@ def _theorem(
     stated = " ->\n  ".join([*hypotheses, f"{_shown(sides[0], names)}\n  = {_shown(sides[1], names)}"])
     left_text, right_text = (_reified(side, variables) for side in sides)
     divisor_text = "; ".join(_reified(node, variables) for node in divisors)
+    scale_text = "; ".join(_written(terms, place) for terms in scale)
     return Theorem(
         name,
         f"{head}Theorem {name} : {quantified}\n  {stated}.\nProof.\n"
         + (f"  intros {binder}.\n" if binder else "")
         + f"  refine (proved [{'; '.join(names.values())}]\n    ({left_text})\n    ({right_text})\n    [{relations}]\n"
-        f"    [{divisor_text}]\n    [{'; '.join(_written(terms, place) for terms in scale)}]\n"
+        f"    [{divisor_text}]\n    [{scale_text}]\n"
         f"    {held} {divided} {scaled} _).\n  vm_cast_no_check (eq_refl true).\nQed.\n",
     )
 
