@@ -16,10 +16,59 @@ from dataclasses import dataclass
 from derive.audit import check
 
 RESERVED = frozenset(
-    (
-        "R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match "
-        "mod open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved"
-    ).split()
+    [
+        "R",
+        "I",
+        "N",
+        "Z",
+        "S",
+        "O",
+        "C",
+        "E",
+        "Set",
+        "Prop",
+        "Type",
+        "SProp",
+        "as",
+        "at",
+        "by",
+        "cofix",
+        "else",
+        "end",
+        "exists",
+        "exists2",
+        "fix",
+        "for",
+        "forall",
+        "fun",
+        "if",
+        "in",
+        "let",
+        "match",
+        "mod",
+        "open",
+        "return",
+        "then",
+        "using",
+        "where",
+        "with",
+        "exp",
+        "ln",
+        "sin",
+        "cos",
+        "tan",
+        "sqrt",
+        "pow",
+        "PI",
+        "Var",
+        "Int",
+        "Add",
+        "Mul",
+        "Opp",
+        "Inv",
+        "value",
+        "proved",
+    ]
 )
 
 
@@ -165,9 +214,7 @@ def _pairs(certificate: dict, component: dict) -> list[tuple[dict, str, dict]]:
     ]
 
 
-def _theorem(
-    name: str, head: str, left, right, pairs: list, generators: Sequence[str], scale: list[dict]
-) -> Theorem:
+def _theorem(name: str, head: str, left, right, pairs: list, generators: Sequence[str], scale: list[dict]) -> Theorem:
     sides = [part.node if isinstance(part, Term) else ("Int", 0) for part in (left, right)]
     variables: dict[str, int] = {}
     for side in sides:
@@ -186,7 +233,8 @@ def _theorem(
     place = {index: variables[generator] for index, generator in enumerate(generators) if generator in variables}
     shown = {index: names[generators[index]] for index in place}
     hypotheses = [
-        f"{names[generator]} * {names[generator]} - ({_polynomial(square, shown)}) = 0" for _, generator, square in pairs
+        f"{names[generator]} * {names[generator]} - ({_polynomial(square, shown)}) = 0"
+        for _, generator, square in pairs
     ]
     hypotheses += [f"{_shown(node, names)} <> 0" for node in divisors]
     hypotheses += [f"{_polynomial(terms, shown)} <> 0" for terms in scale]
