@@ -73,14 +73,18 @@ def _kernel(folder: Path, output: Path | None) -> int:
 
 
 def _html(generated: Path, output: Path) -> int:
+    from derive import compiler
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
     texts = {
         name: (generated / name).read_text(encoding="utf-8") for name in named if not name.startswith("audit/")
     }
-    for name, text in record.files(record.ledger(), texts).items():
+    written = record.files(record.ledger(), texts)
+    for name, text in written.items():
         replace_text(output / Path(name).name, text)
+    if output.resolve() == (generated / "audit").resolve():
+        replace_text(generated / "manifest.json", compiler.manifest({**texts, **written}))
     print(output / "index.html")
     return 0
 
