@@ -2,19 +2,19 @@
 
 The header needs only ``sqrt``, has no heap, no writable data and no input or output, compiles as C99 and C++11, and
 gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction). Compiled with
-MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums, and needs ``fma`` too.
+MW_FUSED it fuses the products that :mod:`derive.passes.fuse` chooses into sums, and needs ``fma`` too.
 """
 
 from dataclasses import dataclass
 
 from derive.emit import approximation
-from derive.emit.fusion import fused_products
-from derive.emit.order import Operation, latency_order
 from derive.emit.render import render
 from derive.language.drive import PATH
-from derive.quotients import by_reciprocal
-from derive.schedule import Schedule
-from derive.tape import Stage
+from derive.passes.fuse import fused_products
+from derive.passes.order import Operation, latency_order
+from derive.passes.quotients import by_reciprocal
+from derive.passes.schedule import Schedule
+from derive.program.tape import Stage
 
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
