@@ -3,6 +3,21 @@
 A division takes as long as a dozen products.
 """
 
+from derive.passes import check
+from derive.program.routine import Operation, Routine
+
+
+def reciprocals(routine: Routine) -> Routine:
+    """The routine with products for quotients whose divisor's reciprocal is at hand."""
+    tape, readable = routine.tape, routine.known
+    factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
+    steps = []
+    for i in tape.needed(routine.outputs, readable, factors):
+        node = tape.nodes[i]
+        steps.append((i, Operation("mul", factors[i]) if i in factors else Operation(node.op, node.args)))
+    after = Routine(tape, routine.outputs, readable, tuple(steps), routine.later, routine.name)
+    return check.same("reciprocals", routine, after)
+
 
 def by_reciprocal(tape, outputs, known):
     """Quotient → its dividend and the reciprocal of its divisor, in a function that is given ``known``."""

@@ -14,7 +14,7 @@ import sympy as sp
 from derive.language.drive import Body, Drive, System
 from derive.language.limits import singular_function
 from derive.language.origin import STEP_SIZE, Origin
-from derive.passes import geometry, guards, linearise, pivot_order, sample
+from derive.passes import check, geometry, guards, linearise, pivot_order, sample
 from derive.passes.completion import ParameterTape, SystemTape, lower_system, on_parameters
 from derive.passes.directional import Derivatives
 from derive.passes.guards import DesignGuard
@@ -153,10 +153,12 @@ def schedule(drive):
     plan.sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
     plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
     plan.jacobian = linearise.jacobian(tape, plan.linear)
+    check.derives("linearise", tape, plan.residual, [plan.lower(u) for u in plan.unknowns], plan.jacobian)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
     plan.sample = sample.sample_contact(plan)
     plan.step, plan.change = pivot_order.newton_step(plan)
+    check.solves("pivot order", tape, plan.jacobian, plan.change, plan.residual)
     with tape.within(STEP_SIZE):
         plan.weight = [tape.div(tape.constant(1), s) for s in plan.scales]
     _observe(plan)
