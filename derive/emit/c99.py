@@ -78,7 +78,7 @@ class Printer:
         return side_by_side([self], outputs, [operands], later), operands
 
     def routine(self, outputs, known, later=()):
-        """The :class:`~derive.program.routine.Routine` behind ``outputs`` as it is printed, in an order of evaluation."""
+        """The routine behind ``outputs`` as it is printed, in an order of evaluation."""
         readable = known.keys() | self.leaves.keys()
         return fuse(reciprocals(routine(self.tape, outputs, readable, later)))
 

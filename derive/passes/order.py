@@ -37,7 +37,7 @@ def order(routine: Routine) -> Routine:
 
 
 def interleaved(routine: Routine, lags):
-    """Pairs (copy, node): the order in which copies of the routine are printed side by side, see :func:`latency_order`."""
+    """Pairs (copy, node) in the order in which copies of the routine are printed side by side."""
     pairs = latency_order(dict(routine.steps), routine.outputs, lags)
     for copy in range(len(lags)):
         _reordered(routine, [i for k, i in pairs if k == copy])
@@ -58,7 +58,7 @@ def _reordered(routine, nodes):
 def latency_order(program, outputs, lags=(0,)):
     """Pairs (copy, node) of a program, each after its arguments, the most urgent first.
 
-    ``program`` holds the :class:`~derive.program.routine.Operation` of each node, in any order of evaluation; of sine and cosine of one
+    ``program`` holds the operation of each node, in any order of evaluation; of sine and cosine of one
     argument the first stands for both. Urgent is what a long chain waits for, and what is the last to use a value.
     The program is printed once for each of ``lags``, copy beside copy; a copy's operations count as so many cycles
     less urgent.

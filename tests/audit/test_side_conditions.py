@@ -89,6 +89,7 @@ def run(tape, outputs, inputs, broken):
     apply = {
         "add": np.add, "sub": np.subtract, "mul": np.multiply, "div": np.divide, "neg": np.negative, "sqrt": np.sqrt,
         "sin": np.sin, "cos": np.cos, "atan2": np.arctan2,
+        "sign": np.sign,
     }  # fmt: skip
     for i in tape.needed(outputs):
         args = [value(a) for a in tape.nodes[i].args]
