@@ -1,11 +1,11 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``            → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
-derive    ``derive.language.surface, envelope`` → locus, normal, equation of meshing
-reduce    ``derive.language.envelope``          → explicit surfaces, fewer unknowns
-prove     ``derive.prove, audit``      → certificates for the identities behind them, and the record that holds them
-schedule  ``derive.passes.schedule``          → one tape with derivatives, binding times and pivot order
-emit      ``derive.emit``              → C99, CasADi, JSON
+define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
+derive    ``derive.language`` → locus, normal, equation of meshing, placements
+reduce    ``derive.language`` → explicit surfaces, fewer unknowns
+prove     ``derive.prove``    → certificates for the identities behind them, and the record (``derive.audit``) of them
+schedule  ``derive.passes``   → one tape (``derive.program``) with derivatives, curvature, binding times, pivot order
+emit      ``derive.emit``     → C99, CasADi, JSON, text
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
 a paper. The stages after that are common to all drives. Statements are proved once for all of them; which ones a
