@@ -6,6 +6,7 @@ passes use (odd, even). A wrong pass is let through with a probability of about 
 
 import random
 import secrets
+import weakref
 from fractions import Fraction
 from functools import cache
 
@@ -65,21 +66,39 @@ _APPLY = {
 }
 
 
+#: Of each tape the residues of its nodes that were needed so far.
+_TAPES = weakref.WeakKeyDictionary()
+
+
+def _residue(tape, i):
+    """The residue of a node: of an input random, of a constant its own, of all else by the tape's operations."""
+    values = _TAPES.setdefault(tape, {})
+    if i not in values:
+        for k in [*tape.needed([i], values), i]:
+            node = tape.nodes[k]
+            if k not in values:
+                args = (values[a] if a in values else _residue(tape, a) for a in node.args)
+                values[k] = _APPLY[node.op](*args) % _prime() if node.args else _leaf(tape, k)
+    return values[i]
+
+
 def _leaf(tape, i):
     value = tape.const_value(i)
     if value is None:
-        return _mixed("leaf", id(tape), i)
+        return _SOURCE.randrange(1, _prime())
     exact = Fraction(value)
     return exact.numerator * _inverse(exact.denominator) % _prime()
 
 
 def residues(program):
-    """Values of a routine's outputs modulo the prime, at random inputs."""
+    """Values of a routine's outputs modulo the prime, at the inputs' random residues."""
     p, values = _prime(), {}
 
     def value(i):
         if i not in values:
-            values[i] = _leaf(program.tape, i)
+            if program.tape.nodes[i].args and i not in program.known:
+                raise PassError(f"{program.name or 'a routine'} reads node {i} before it is computed")
+            values[i] = _residue(program.tape, i)
         return values[i]
 
     for i, step in program.steps:
@@ -123,7 +142,7 @@ def _rates(tape, outputs, variable):
 
     def at(i):
         if i not in value:
-            value[i] = _leaf(tape, i)
+            value[i] = _residue(tape, i)
         return value[i], rate.get(i, 0)
 
     for i in tape.needed(outputs):
