@@ -22,7 +22,6 @@ from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
-MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
 
 
 def compile_drive(drive, record, log):
@@ -37,7 +36,7 @@ def compile_drive(drive, record, log):
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
         files = {
-            f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
+            f"c/{drive.name}.h": c99.header(plan, description),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         }
         files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}

@@ -58,7 +58,7 @@ def describe(plan, provenance):
         "functions": [_function(function) for function in plan.functions],
         "shapes": {
             "p": [len(drive.parameters)],
-            "s": [len(plan.state)],
+            "s": [len(plan.state) + len(drive.parameters)],  # the parameters are kept at its end
             "x": [len(drive.unknowns)],
             "R": [len(drive.unknowns)],
             "J": [len(drive.unknowns)] * 2,

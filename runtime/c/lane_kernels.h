@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 #include "lanes.h"
-#include "trace.h"
+#include "solver/steps.h"
 
 #define MW_LANE_MODEL(drive) \
     { #drive, MW_LANE_NAME(drive##_setup_lanes), MW_LANE_NAME(drive##_set_phi_lanes), \

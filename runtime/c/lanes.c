@@ -2,7 +2,8 @@
 #include <stdint.h>
 #include <string.h>
 #include "lanes.h"
-#include "trace.h"
+#include "solver/basics.h"
+#include "solver/steps.h"
 
 extern const mw_lane_set mw_lanes_native, mw_lanes_avx2, mw_lanes_avx512;
 
@@ -110,7 +111,7 @@ static size_t all_again(const mw_model *m, const double *p, size_t designs, cons
 static int in_lanes(const mw_lane_model *k, const double *phi, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (!mw_angle_in_range(phi[i])) return 0;
+        if (!mwi_angle_in_range(phi[i])) return 0;
     return k != NULL && n > 0;
 }
 

@@ -1,7 +1,7 @@
 /* Exact sensitivities of a design and of its contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
 #include "complete.h"
-#include "linear.h"
+#include "solver/linear.h"
 
 typedef struct mw_system_tangents {
     void (*equations)(const double *q, const double *dq, const double *y, const double *dy, double *dR);
@@ -33,7 +33,7 @@ static int implicit(int n, double *J, double *dR, const double *scale, double *c
 {
     double gap;
     for (int i = 0; i < n; i++) dR[i] = -dR[i];
-    return mw_linear_solve(n, J, dR, scale, RANK_TOLERANCE, change, &gap) < n ? MW_SINGULAR : MW_CONVERGED;
+    return mwi_linear_solve(n, J, dR, scale, RANK_TOLERANCE, change, &gap) < n ? MW_SINGULAR : MW_CONVERGED;
 }
 
 static int place(const mw_model *m, const mw_system *system, const mw_system_tangents *t, const double *p,

@@ -1,0 +1,76 @@
+/* Success means touching: the one gate that every solution passes.  SPDX-License-Identifier: MIT-0
+ *
+ * The equations of contact ask that two points agree and that one normal is perpendicular to the tangent plane of the other
+ * surface. They hold as well where the normals are parallel instead of opposed, and beyond the domain of a surface, where
+ * its formula describes no flank. */
+#ifndef MWI_TOUCH_H
+#define MWI_TOUCH_H
+
+#include "contact.h"
+
+/* Units in the last place of a point's own terms that the operations behind it may lose, and the shares of a size and of
+ * a radian beyond which no round-off is believed, however ill-determined a surface says it is. */
+static const double MWI_ROUNDING = 4096.0 * 2.220446049250313e-16, MWI_BELIEVED = 1e-9;
+
+static inline int mwi_within_bounds(const mw_model *m, const double *x)
+{
+    const mw_name *end = m->unknowns + m->nx;
+    for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
+        if (!(*x >= unknown->lower && *x <= unknown->upper)) return 0;
+    return 1;
+}
+
+/* Whether what the solution implies, eliminated surface parameters among it, is within its bounds. */
+static inline int mwi_implied_within_bounds(const mw_model *m, const double *o)
+{
+    for (int k = 0; k < m->noutputs; o += m->output_sizes[k], k++)
+        for (int i = 0; i < m->output_sizes[k]; i++)
+            if (o[i] < m->outputs[k].lower || o[i] > m->outputs[k].upper) return 0;
+    return 1;
+}
+
+static inline double mwi_length(const double *a)
+{
+    return sqrt(mwi_dot(a, a));
+}
+
+/* Add to sizes[2] the terms of a body's point, mm, and of its normal, each as large as it turns and moves with the surface
+ * parameters x; angle is what the body has turned by. */
+static inline void mwi_add_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x,
+                                 double *sizes)
+{
+    const double turned = 1.0 + mwi_abs(angle);
+    sizes[0] += turned * mwi_length(place);
+    sizes[1] += turned;
+    for (int i = 0; i < body->parameters; i++) {
+        const double q = mwi_abs(x[body->unknowns[i]]), *d = o + body->at + 6 * i;
+        sizes[0] += q * mwi_length(d);
+        sizes[1] += q * mwi_length(d + 3);
+    }
+}
+
+/* Whether a gap is within the rounding of terms of this size. */
+static inline int mwi_is_rounding(double gap, double size, double unit)
+{
+    return gap <= MWI_ROUNDING * size && gap <= MWI_BELIEVED * unit;
+}
+
+/* Judge a solution x[nx] by its observation o[no]: MW_CONVERGED where the flanks touch in it, else why they do not. */
+static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
+{
+    double apart[3], sum[3], sizes[2] = { 0.0, 0.0 };
+    const double *pinion = o, *wheel = o + 6; /* point and normal of each, fixed frame */
+    if (!mwi_within_bounds(m, x) || !mwi_implied_within_bounds(m, o)) return MW_LEFT_FLANK;
+    for (int i = 0; i < 3; i++) {
+        apart[i] = pinion[i] - wheel[i];
+        sum[i] = pinion[3 + i] + wheel[3 + i];
+    }
+    mwi_add_terms(&m->bodies[0], o, pinion, 0.0, x, sizes);
+    mwi_add_terms(&m->bodies[1], o, wheel, o[m->wheel_angle], x, sizes);
+    const double unit = 1.0 + mwi_larger(mwi_length(pinion), mwi_length(wheel));
+    if (mwi_is_rounding(mwi_length(apart), sizes[0], unit) && mwi_is_rounding(mwi_length(sum), sizes[1], 1.0))
+        return MW_CONVERGED;
+    return mwi_dot(pinion + 3, wheel + 3) > 0.0 ? MW_NO_CONTACT : MW_DIVERGED;
+}
+
+#endif
