@@ -45,13 +45,13 @@ build: setup
 $(addprefix $(OBJECTS)/,library.o sensitivity.o casadi_entry.o $(patsubst runtime/c/%.c,%.o,$(wildcard runtime/c/lanes*.c))): \
 		$(wildcard generated/c/*.h)
 
-$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h)
+$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h runtime/c/solver/*.h)
 	@mkdir -p $(OBJECTS)
 	$(CC) $(CFLAGS) -Igenerated/c -Iruntime/c -c $< -o $@
 
 $(SHIP)/libmeshwright.so: $(patsubst runtime/c/%.c,$(OBJECTS)/%.o,$(wildcard runtime/c/*.c)) $(wildcard generated/*/*)
 	mkdir -p $(SHIP)/include
-	cp generated/c/*.h runtime/c/meshwright.h runtime/c/mw_model.h $(SHIP)/include/
+	cp generated/c/*.h runtime/c/meshwright.h runtime/c/mw_model.h runtime/c/mw_status.h $(SHIP)/include/
 	cp generated/c/*.json generated/casadi/*.casadi $(SHIP)/
 	$(CC) -shared $(filter %.o,$^) -o $@ -lm
 

@@ -9,7 +9,7 @@ from meshwright.base.library import SHIPPED, library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.design import description as metadata
 
-HEADER = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
+HEADER = (SHIPPED / "include" / "mw_status.h").read_text(encoding="utf-8")
 
 #: Name → value of the largest sizes that the runtime has room for.
 MOST = {name: int(value) for name, value in re.findall(r"MW_MAX_(\w+) = (\d+)", HEADER)}
@@ -28,7 +28,7 @@ def test_a_model_fits_the_runtime(name):
 
 
 def test_python_and_c_refuse_the_same_angles():
-    assert MOST["ANGLE"] == analysis.LARGEST_ANGLE
+    assert MOST["ANGLE"] == analysis.largest_angle()
 
 
 def test_the_library_and_the_descriptions_list_the_same_drives():

@@ -46,7 +46,10 @@ size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t 
             if (!again) break;
             mwi_solve(m, p, phi[k], s, work, x, info + k);
         }
-        if (info[k].status < 0) no_contact_at(m, o, contact + k);
+        if (info[k].status < 0) {
+            no_contact_at(m, o, contact + k);
+            for (int i = 0; i < m->nx; i++) x[i] = NAN;
+        }
         succeeded += info[k].status >= 0;
     }
     return succeeded;

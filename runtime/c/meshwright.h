@@ -39,8 +39,8 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
  * So one angle has one contact and one status, whichever other angles are asked for. A line of contact has no branch:
  * there every angle is solved from the start values. */
 
-/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result. Misalignments are applied
- * by continuation. Returns info->status. */
+/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result, not a number where
+ * there is none. Misalignments are applied by continuation. Returns info->status. */
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
 
 /* Solve from start values x[nx], state s set up for p and phi already. Returns info->status. */

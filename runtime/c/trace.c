@@ -105,6 +105,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     size_t succeeded = 0;
     const int usable = mwi_usable(m), guard = usable ? m->setup(p, s) : 0;
     for (size_t k = 0; k < n; k++) info[k] = mwi_ended(MW_BAD_INPUT, guard);
+    for (size_t i = 0; i < n * (size_t)m->nx && guard; i++) x[i] = NAN;
     if (!usable || guard || n == 0) return 0;
     t.m = t.pair.m = m;
     t.pair.p = p, t.pair.s = s, t.pair.work = work;
@@ -113,6 +114,9 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     t.checked = t.walked = 0;
     mwi_find_reference(&t.pair);
     for (size_t k = trace_in_range(&t, 0); k < n;) k = trace_in_range(&t, k + 1);
-    for (size_t k = 0; k < n; k++) succeeded += info[k].status >= 0;
+    for (size_t k = 0; k < n; k++) {
+        succeeded += info[k].status >= 0;
+        for (int i = 0; i < m->nx && info[k].status < 0; i++) x[k * (size_t)m->nx + (size_t)i] = NAN;
+    }
     return succeeded;
 }

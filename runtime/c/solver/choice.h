@@ -122,20 +122,23 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     return 0;
 }
 
-/* The contact at phi; s[ns] is left set up for it. Returns info->status. */
+/* The contact at phi, not a number where there is none; s[ns] is left set up for it. Returns info->status. */
 static inline int mwi_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x,
                             mw_info *info)
 {
     mwi_pair t;
     *info = mwi_ended(MW_BAD_INPUT, 0);
-    if (!mwi_usable(m) || !mwi_angle_in_range(phi)) return MW_BAD_INPUT;
-    info->guard = m->setup(p, s);
-    if (info->guard) return MW_BAD_INPUT;
-    t.m = m, t.p = p, t.s = s, t.work = work;
-    mwi_find_reference(&t);
-    if (t.reference.count > 0) mwi_by_walk(&t, phi, x, info);
-    else mwi_alone(&t, phi, x, info);
-    m->set_phi(s, phi);
+    if (!mwi_usable(m)) return MW_BAD_INPUT;
+    const int known = mwi_angle_in_range(phi);
+    if (known) info->guard = m->setup(p, s);
+    if (known && !info->guard) {
+        t.m = m, t.p = p, t.s = s, t.work = work;
+        mwi_find_reference(&t);
+        if (t.reference.count > 0) mwi_by_walk(&t, phi, x, info);
+        else mwi_alone(&t, phi, x, info);
+        m->set_phi(s, phi);
+    }
+    for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
 }
 

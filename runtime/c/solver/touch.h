@@ -20,18 +20,10 @@ static inline int mwi_within_bounds(const mw_model *m, const double *x)
     return 1;
 }
 
-/* Whether what the solution implies, eliminated surface parameters among it, is within its bounds. */
-static inline int mwi_implied_within_bounds(const mw_model *m, const double *o)
+/* Size of a vector, without a root. */
+static inline double mwi_extent(const double *a)
 {
-    for (int k = 0; k < m->noutputs; o += m->output_sizes[k], k++)
-        for (int i = 0; i < m->output_sizes[k]; i++)
-            if (o[i] < m->outputs[k].lower || o[i] > m->outputs[k].upper) return 0;
-    return 1;
-}
-
-static inline double mwi_length(const double *a)
-{
-    return sqrt(mwi_dot(a, a));
+    return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
 
 /* Add to sizes[2] the terms of a body's point, mm, and of its normal, each as large as it turns and moves with the surface
@@ -40,12 +32,12 @@ static inline void mwi_add_terms(const mw_body *body, const double *o, const dou
                                  double *sizes)
 {
     const double turned = 1.0 + mwi_abs(angle);
-    sizes[0] += turned * mwi_length(place);
+    sizes[0] += turned * mwi_extent(place);
     sizes[1] += turned;
     for (int i = 0; i < body->parameters; i++) {
         const double q = mwi_abs(x[body->unknowns[i]]), *d = o + body->at + 6 * i;
-        sizes[0] += q * mwi_length(d);
-        sizes[1] += q * mwi_length(d + 3);
+        sizes[0] += q * mwi_extent(d);
+        sizes[1] += q * mwi_extent(d + 3);
     }
 }
 
@@ -60,15 +52,15 @@ static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
     double apart[3], sum[3], sizes[2] = { 0.0, 0.0 };
     const double *pinion = o, *wheel = o + 6; /* point and normal of each, fixed frame */
-    if (!mwi_within_bounds(m, x) || !mwi_implied_within_bounds(m, o)) return MW_LEFT_FLANK;
+    if (!mwi_within_bounds(m, x)) return MW_LEFT_FLANK;
     for (int i = 0; i < 3; i++) {
         apart[i] = pinion[i] - wheel[i];
         sum[i] = pinion[3 + i] + wheel[3 + i];
     }
     mwi_add_terms(&m->bodies[0], o, pinion, 0.0, x, sizes);
     mwi_add_terms(&m->bodies[1], o, wheel, o[m->wheel_angle], x, sizes);
-    const double unit = 1.0 + mwi_larger(mwi_length(pinion), mwi_length(wheel));
-    if (mwi_is_rounding(mwi_length(apart), sizes[0], unit) && mwi_is_rounding(mwi_length(sum), sizes[1], 1.0))
+    const double unit = 1.0 + mwi_larger(mwi_extent(pinion), mwi_extent(wheel));
+    if (mwi_is_rounding(mwi_extent(apart), sizes[0], unit) && mwi_is_rounding(mwi_extent(sum), sizes[1], 1.0))
         return MW_CONVERGED;
     return mwi_dot(pinion + 3, wheel + 3) > 0.0 ? MW_NO_CONTACT : MW_DIVERGED;
 }
