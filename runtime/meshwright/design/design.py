@@ -35,12 +35,38 @@ def read(name_or_path):
         near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
         hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
         raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
+    return parsed(_text(path), path)
+
+
+#: A design file is some kilobytes; larger ones are taken for a mistake. Bytes.
+LARGEST_FILE = 2**20
+
+
+def _text(path):
+    """The text of a file of bounded size, in UTF-8 with or without a byte order mark; line ends as they are."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise DesignError(str(path), None, f"not a TOML file: {error}", "correct the line named") from error
+        with open(path, "rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
     except OSError as error:
         raise DesignError(str(path), None, f"cannot be read: {error.strerror}", "name a readable file") from error
+    if len(content) > LARGEST_FILE:
+        raise DesignError(str(path), None, f"longer than {LARGEST_FILE} bytes", "name a design file")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DesignError(str(path), None, f"not a TOML file: {error}", "save it as UTF-8") from error
+
+
+def parsed(text, place):
+    """The tables of TOML text that was found at ``place``."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise DesignError(str(place), None, f"not a TOML file: {error}", "correct the line named") from error
+    except ValueError as error:  # more digits than a number may have
+        raise DesignError(str(place), None, f"a number that cannot be read: {error}", "write it shorter") from error
+    except RecursionError as error:
+        raise DesignError(str(place), None, "nested too deeply", "a design has tables of keys, no more") from error
 
 
 def changed(tables, changes):
@@ -173,6 +199,12 @@ def _first_error(family, problem):
             return DesignError(key, value, f"must not be less than {context['ge']:g}", "choose a larger value")
         case "less_than":
             return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
+        case "less_than_equal":
+            return DesignError(key, value, f"must not be greater than {context['le']:g}", "choose a smaller value")
+        case "string_pattern_mismatch":
+            return DesignError(key, value, "holds control characters", "write letters, digits and blanks")
+        case "string_too_long":
+            return DesignError(key, value, f"longer than {context['max_length']} letters", "choose a shorter name")
         case "finite_number":
             return DesignError(key, value, "not a finite number", "give a finite number")
         case "literal_error":
