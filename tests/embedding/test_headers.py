@@ -74,7 +74,7 @@ CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUS
 @pytest.mark.parametrize("fused", [False, True])
 @pytest.mark.parametrize("drive", FAMILIES)
 def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, fused):
-    """A contact from nothing: for this machine's instructions too, products are fused where the header says so alone."""
+    """A contact from nothing: with this machine's instructions too, products are fused where the header says."""
     problem, solution = problem_of(drive)
     results = {}
     for name, (command, _) in c.compilers().items():

@@ -1,7 +1,7 @@
-"""``X_solve`` of a header alone, from nothing: the contact that the library finds, to the bit, or a status that says why not.
+"""``X_solve`` of a header alone, from nothing: the library's contact, to the bit, or a status that says why not.
 
 Random input angles and misalignments, within and far beyond what the teeth can do, go through a C program that holds
-the header and is linked with the library. What it calls a success is judged again by what the two surfaces themselves say.
+the header and is linked with the library. What it calls a success is judged again by what the two surfaces say.
 """
 
 import json
@@ -70,7 +70,7 @@ int main(void)
 
 
 def _inputs(drive, count, seed):
-    """Angles and complete parameters (count, 1 + np): half of the misalignments are small, some angles are no angles."""
+    """Angles and complete parameters (count, 1 + np): half the misalignments are small, some angles are none."""
     described = json.loads((c.GENERATED / f"{drive}.json").read_text(encoding="utf-8"))
     generator = np.random.default_rng(seed)
     rows = np.tile([0.0, *(float.fromhex(v) for v in described["self_test"]["p"])], (count, 1))

@@ -21,12 +21,12 @@ class LibraryError(RuntimeError):
 
 def _interface():
     """C declarations of the model table and of the runtime, as cffi wants them."""
-    model, status, runtime = (
-        (SHIPPED / "include" / name).read_text(encoding="utf-8") for name in ("mw_model.h", "mw_status.h", "meshwright.h")
-    )
+    names = ("mw_model.h", "mw_status.h", "meshwright.h")
+    model, status, runtime = ((SHIPPED / "include" / name).read_text(encoding="utf-8") for name in names)
     codes = ", ".join(f"{code} = {value}" for code, value in re.findall(r"X\((MW_\w+), (-?\d+),", status))
     end = re.search(r"MW_STATUS_END = \d+", status).group()
-    declared = re.sub(r"^#.*$", "", model, flags=re.MULTILINE) + f"typedef enum mw_status {{ {codes}, {end} }} mw_status;"
+    declared = re.sub(r"^#.*$", "", model, flags=re.MULTILINE)
+    declared += f"typedef enum mw_status {{ {codes}, {end} }} mw_status;"
     for text in (status, runtime):
         declared += re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", text, re.DOTALL).group(1)
     return declared

@@ -9,6 +9,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact.results import OFF_TIP, TCA
 
+
 def largest_angle():
     """Largest input angle to either side, rad."""
     return float(library().MW_MAX_ANGLE)
@@ -143,7 +144,8 @@ class _Points:
         for output in self.description["outputs"]:
             if output["name"] in recovered:
                 columns[output["name"]] = output, self.observed[:, output["offset"]]
-        values = {name: self._only(_times(mirror if turns(name) else 1.0, column)) for name, (_, column) in columns.items()}
+        signs = {name: mirror if turns(name) else 1.0 for name in columns}
+        values = {name: self._only(_times(signs[name], column)) for name, (_, column) in columns.items()}
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
     @cached_property

@@ -88,7 +88,7 @@ class TCA:
 
         code = library().MW_NO_CONTACT
         word, message = text(library().mw_status_word(code)), text(library().mw_status_text(code))
-        arrays = ("residual", "wheel_angles", "error", "points", "normals", "curvatures", "major", "semi_axes", "solutions")
+        arrays = ("residual", "wheel_angles", "error", "points", "normals", "curvatures", "major", "semi_axes")
         groups = ("unknowns", "body_points", "margins")
         error = only(self.error)
         left = np.flatnonzero(np.isfinite(error))
@@ -100,7 +100,7 @@ class TCA:
             iterations=np.where(rows, 0, self.iterations),
             flags=words(self.flags, ()),
             reference_error=float(nearest),
-            **{name: only(getattr(self, name)) for name in arrays},
+            **{name: only(getattr(self, name)) for name in (*arrays, "solutions")},
             **{name: {key: only(values) for key, values in getattr(self, name).items()} for name in groups},
         )
 
