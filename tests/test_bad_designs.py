@@ -32,7 +32,7 @@ CASES = [
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
     ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),
-    ({"design.worm_threads": 10**330}, ("worm_threads", "too large", "smaller")),
+    ({"design.worm_threads": 10**330}, ("worm_threads", "greater than 100000", "smaller")),
     ({"contact.elastic_allowance_mm": -1.0}, ("elastic_allowance_mm", "-1", "not be less than 0", "larger")),
     ({"misalignment": 3.0}, ("misalignment", "3.0", "table", "[misalignment]")),
     ({"name": 3}, ("name", "3", "text", "quotes")),

@@ -3,6 +3,7 @@
 import copy
 import difflib
 import hashlib
+import json
 import math
 import operator
 import re
@@ -28,6 +29,11 @@ def packaged_names():
 
 def read(name_or_path):
     """The raw tables of a packaged design or of a TOML file."""
+    return parsed(text_of(name_or_path), name_or_path)
+
+
+def text_of(name_or_path):
+    """The text of a packaged design or of a design file."""
     path = PACKAGED / f"{name_or_path}.toml"
     if not path.exists():
         path = Path(name_or_path)
@@ -35,7 +41,7 @@ def read(name_or_path):
         near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
         hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
         raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
-    return parsed(_text(path), path)
+    return _text(path)
 
 
 #: A design file is some kilobytes; larger ones are taken for a mistake. Bytes.
@@ -67,6 +73,19 @@ def parsed(text, place):
         raise DesignError(str(place), None, f"a number that cannot be read: {error}", "write it shorter") from error
     except RecursionError as error:
         raise DesignError(str(place), None, "nested too deeply", "a design has tables of keys, no more") from error
+
+
+def toml_text(tables):
+    """A design as TOML: nested plain dictionaries of numbers and words."""
+    loose = [f"{key} = {_toml(value)}" for key, value in tables.items() if not isinstance(value, dict)]
+    for name, entries in tables.items():
+        if isinstance(entries, dict) and entries:
+            loose += ["", f"[{name}]", *(f"{key} = {_toml(value)}" for key, value in entries.items())]
+    return "\n".join(loose) + "\n"
+
+
+def _toml(value):
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else repr(value)
 
 
 def changed(tables, changes):
@@ -121,6 +140,16 @@ class Design:
             if p["key"] == key and p["table"] == table:
                 return float(number)
         raise KeyError(f"{table}.{key}")
+
+    def given(self):
+        """The tables as the design file gives them, without the keys that it leaves open."""
+        closed = {}
+        for name, entry in self.tables.items():
+            if isinstance(entry, dict):
+                closed |= {name: kept} if (kept := {k: v for k, v in entry.items() if v is not None}) else {}
+            else:
+                closed[name] = entry
+        return closed
 
     def as_solved(self):
         """The design with every default and derived size filled in, in the units of the keys; None where it is open."""
@@ -179,7 +208,9 @@ def _validated(family, tables):
     try:
         return schema.design_model(family).model_validate(tables).model_dump()
     except pydantic.ValidationError as error:
-        raise _first_error(family, error.errors()[0]) from None
+        # a misspelt key is what the missing one was meant to be: it is named first
+        first = sorted(error.errors(), key=lambda problem: problem["type"] != "extra_forbidden")[0]
+        raise _first_error(family, first) from None
 
 
 def _first_error(family, problem):
@@ -299,17 +330,8 @@ def _vector(description, checked):
         if p["table"] == "flank":
             vector[k] = p["choices"][checked["flank"]]
         elif (value := checked[p["table"]].get(p["key"])) is not None:
-            vector[k] = p["choices"][value] if p["choices"] else _inner(p, value)
+            vector[k] = p["choices"][value] if p["choices"] else float(value) * p["factor"]
     return vector
-
-
-def _inner(parameter, value):
-    """A number in inner units."""
-    try:
-        return float(value) * parameter["factor"]
-    except OverflowError:
-        place = f"{parameter['table']}.{parameter['key']}"
-        raise DesignError(place, "…", "too large for a number of the machine", "give a smaller number") from None
 
 
 def given_vector(design):
