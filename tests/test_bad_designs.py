@@ -29,6 +29,8 @@ CASES = [
     ({"design.pitch_line_shift_mm": 10.0}, ("pitch_line_shift_mm", "10", "groove", "change")),
     ({"design.worm_profile": "ZX"}, ("worm_profile", "ZX", "use")),
     ({"design.worm_profile": "ZK"}, ("grinding_wheel_radius_mm", "without it", "add")),
+    ({"design.grinding_wheel_radius_mm": 60.0}, ("grinding_wheel_radius_mm", "60", "not use it", "ZC, ZK", "remove")),
+    ({"design.hob_profile_arc_radius_mm": 40.0}, ("hob_profile_arc_radius_mm", "40", "not use it", "ZC", "remove")),
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
     ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),

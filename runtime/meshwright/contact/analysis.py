@@ -42,8 +42,8 @@ def analyse(drive, angles):
 
     The points are traced in ascending order; relative errors refer to angle 0.
     """
-    mirror = -1.0 if drive.design.mirrored else 1.0
-    grid, rows = mirror * angles, slice(None)
+    mirror = drive.design.mirror
+    grid, rows = mirror.sign * angles, slice(None)
     if not np.all(np.diff(grid) > 0.0):
         grid, rows = np.unique(grid, return_inverse=True)
     points = _Points.of(drive, grid)
@@ -57,9 +57,9 @@ def at_solutions(drive, angles, unknowns):
 
     Angles and unknowns are those of the right-hand drive, whatever the design's hand.
     """
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror
     points = _Points.solved(drive, angles, unknowns)
-    return points.result(mirror * angles, slice(None), mirror, points.reference())
+    return points.result(mirror.sign * angles, slice(None), mirror, points.reference())
 
 
 @dataclass(frozen=True)
@@ -144,8 +144,7 @@ class _Points:
         for output in self.description["outputs"]:
             if output["name"] in recovered:
                 columns[output["name"]] = output, self.observed[:, output["offset"]]
-        signs = {name: mirror if turns(name) else 1.0 for name in columns}
-        values = {name: self._only(_times(signs[name], column)) for name, (_, column) in columns.items()}
+        values = {name: self._only(_times(mirror.factor(name), column)) for name, (_, column) in columns.items()}
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
     @cached_property
@@ -160,7 +159,7 @@ class _Points:
             return _times(sign, self._only(values)[rows])
 
         def vectors(values):
-            return column(values, 1.0 if mirror > 0.0 else np.array([1.0, -1.0, 1.0]))
+            return column(values, 1.0 if mirror.sign > 0.0 else mirror.flip)
 
         names, status, bits = flag_names(self.drive.model), self.status[rows], self.bits[rows]
         off_tip = sum(1 << k for k, name in enumerate(names) if name == OFF_TIP)
@@ -175,9 +174,9 @@ class _Points:
             messages=_looked_up(status, lambda code: text(library().mw_status_text(code))),
             iterations=self.records["iterations"][rows],
             residual=np.maximum(self.contacts["distance"], self.contacts["misfit"])[rows],
-            wheel_angles=_times(mirror, self.observed[:, self.description["wheel_angle"]][rows]),
-            error=_times(mirror, self.error[rows]),
-            reference_error=mirror * reference,
+            wheel_angles=_times(mirror.sign, self.observed[:, self.description["wheel_angle"]][rows]),
+            error=_times(mirror.sign, self.error[rows]),
+            reference_error=mirror.sign * reference,
             unknowns={name: values[rows] for name, values in unknowns.items()},
             units=units,
             points=vectors(self.contacts["point"]),
@@ -200,11 +199,6 @@ class _Points:
 def _times(factor, values):
     """The product; the values themselves, not copied, if the factor is 1."""
     return values if isinstance(factor, float) and factor == 1.0 else factor * values
-
-
-def turns(name):
-    """Whether a number of this name is an angle of rotation about a z-type axis, which a mirror image negates."""
-    return name.startswith(("psi_", "phi_"))
 
 
 def _looked_up(codes, meaning):

@@ -9,6 +9,7 @@ import operator
 import re
 import tomllib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, pointer, text
 from meshwright.design import description as metadata
 from meshwright.design import schema
+from meshwright.design.mirror import Mirror
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -125,6 +127,11 @@ class Design:
     def __repr__(self):
         return f"<{type(self).__name__} {self.label}>"
 
+    @cached_property
+    def mirror(self):
+        """The :class:`~meshwright.design.mirror.Mirror` of the design's hand."""
+        return Mirror.of(self.description, self.mirrored)
+
     @property
     def family(self):
         return self.description["family"]
@@ -132,13 +139,19 @@ class Design:
     @property
     def flank(self):
         """The flank sign."""
-        return float(self.parameters[0])
+        return next(
+            float(number)
+            for number, p in zip(self.parameters, self.description["parameters"], strict=True)
+            if p["table"] == "flank"
+        )
 
     def value(self, key, table="design"):
-        """A parameter in inner units by its design key; NaN if the design leaves it open."""
+        """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["key"] == key and p["table"] == table:
                 return float(number)
+        if any(p["key"] == key and p["table"] == table for p in metadata.parameters(self.family)):
+            return math.nan
         raise KeyError(f"{table}.{key}")
 
     def given(self):
@@ -190,7 +203,8 @@ def check(tables):
     checked = _validated(family, tables)
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
-    _check_needed(description, checked["design"])
+    _check_needed(description, checked)
+    _check_together(description, checked)
     _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
@@ -282,13 +296,29 @@ def _check_exclusive(description, given):
             raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
 
 
-def _check_needed(description, design):
-    for key in description["required"]:
-        if design.get(key) is None:
-            raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
-    for key in description["excluded"]:
-        if design.get(key) is not None:
-            raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+def _check_needed(description, checked):
+    """Every key that the drive requires is given, and none that its tools do not use."""
+    own = {(p["table"], p["key"]) for p in description["parameters"]}
+    for p in description["parameters"]:
+        if p["required"] and p["table"] != "flank" and checked[p["table"]].get(p["key"]) is None:
+            place = f"{p['table']}.{p['key']}"
+            raise DesignError(place, None, f"a {description['title']} cannot be made without it", "add it")
+    for p in metadata.parameters(description["family"]):
+        table, key = p["table"], p["key"]
+        if table != "flank" and (table, key) not in own and (value := checked[table].get(key)) is not None:
+            of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else ""
+            raise DesignError(f"{table}.{key}", value, f"a {description['title']} does not use it{of}", "remove it")
+
+
+def _check_together(description, checked):
+    """Of keys that make sense together alone, such as the components of a vector, all are given or none."""
+    for group in description["together"]:
+        values = {place: checked[table].get(key) for place in group for table, key in [place.split(".")]}
+        missing = [place for place, value in values.items() if value is None]
+        if missing and len(missing) < len(group):
+            given = next(place for place in group if place not in missing)
+            reason = f"given without {', '.join(missing)}, which belong to it"
+            raise DesignError(given, values[given], reason, "give all of them or none")
 
 
 def _check_order(description, checked):

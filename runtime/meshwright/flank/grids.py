@@ -13,7 +13,6 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import pointer
-from meshwright.contact.analysis import turns
 from meshwright.cycle.pairs import Mesh
 from meshwright.pattern.pattern import contours
 
@@ -213,9 +212,8 @@ class _Sheet:
     def grid(self, shape, values):
         """The grid of these parameters, mirrored where the design is."""
         found = self.flank(values)
-        mirror = -1.0 if self.drive.design.mirrored else 1.0
-        flip = np.array([1.0, mirror, 1.0])
-        signs = np.array([mirror if turns(name) else 1.0 for name in self.flank.parameters])
+        mirror = self.drive.design.mirror
+        flip, signs = mirror.flip, np.array([mirror.factor(name) for name in self.flank.parameters])
         return Grid(
             self.member, self.region, self.flank.parameters, tuple(shape), signs * values, flip * found.points,
             flip * found.normals,
