@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
+from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, pointer
 from meshwright.contact import analysis
-from meshwright.base.errors import DesignError
 from meshwright.sweep import samples
 from tests import lanes
 
