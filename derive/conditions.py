@@ -99,8 +99,15 @@ def functions(plan):
     yield results("observe", plan.observed)
     for table in (*plan.flanks, *plan.regions):
         yield results(f"{table.region}_{table.body}", table.outputs)
+        yield results(f"curvature_{table.region}_{table.body}", table.curvature)
     for function in plan.functions:
         yield results(function.name, function.outputs)
+
+
+def along(plan):
+    """The derivatives of the residual along a direction; they read the design part of the state and the instant."""
+    design = frozenset(list(plan.state)[: plan.design_slots])
+    return Evaluated("along", plan.tape, plan.lower, (plan.along.first, plan.along.second), design, "tangent")
 
 
 def _on_parameters(name, program, guard, part=0):
@@ -143,7 +150,7 @@ def factors(tape, i):
             return factors(tape, node.args[0]) + factors(tape, node.args[1])
         case "neg" | "div":
             return factors(tape, node.args[0])
-        case "const":
+        case "const" | "sign":
             return Counter()
     return Counter({i: 1})
 
@@ -281,7 +288,7 @@ def _reached(tape, order, failing):
     """Node → which conditions change its value where they fail, and which make it certainly infinite or not a number.
 
     ``failing`` lists for each condition the operations that are then not defined; condition k is bit k of a number.
-    A quotient by an infinite number and the angle of an infinite point may be finite; all else passes it on.
+    A quotient by an infinite number, the angle of an infinite point and a sign may be finite; all else passes it on.
     """
     changed, infinite, nan = defaultdict(int), defaultdict(int), defaultdict(int)
     for k, operations in enumerate(failing):
@@ -303,6 +310,8 @@ def _reached(tape, order, failing):
                 passed = infinite[a]  # of (1 − a)(1 + a), −∞ for any infinite a
             case "atan2":
                 pass
+            case "sign":
+                passed = 0
             case _:
                 infinite[i] |= infinite[a] | infinite[b]
         nan[i] |= passed

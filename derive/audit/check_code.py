@@ -112,6 +112,11 @@ def root(a: Number) -> Number:
     return Number(value, combined(a.rates, pow(2 * value, -1, PRIME), (), 0))
 
 
+def sign(a: Number) -> Number:
+    """1 for squares, else -1, which is as odd and as constant as the sign of a real number."""
+    return Number(1 if pow(a.value, (PRIME - 1) // 2, PRIME) in (0, 1) else PRIME - 1)
+
+
 def scaled(a: Number, literal: Fraction, product: Number) -> Number:
     """A product with a literal keeps its linear form if there is one."""
     angle = None if a.angle is None else {name: factor * literal for name, factor in a.angle.items() if literal}
@@ -124,7 +129,7 @@ STATEMENT = re.compile(r"const double (t\d+) = (.+);|(\w+\[\d+\]) = (.+);|\w+_si
 SILENT = re.compile(r"\(void\)|double s\d+, c\d+;|if \(|int failed|return |[{}]|$")
 OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
-CALL = re.compile(r"(?:\w+_)?(sqrt|atan2)\((.+)\)")
+CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
 
 #: A product and a number: a b + c, a b - c, c - a b.
 FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
@@ -250,7 +255,7 @@ class Machine:
     def _expression(self, text: str) -> Number:
         if match := CALL.fullmatch(text):
             arguments = [self.value(argument) for argument in match[2].split(", ")]
-            return root(*arguments) if match[1] == "sqrt" else self._arc(*arguments)
+            return {"sqrt": root, "SIGN": sign, "atan2": self._arc}[match[1]](*arguments)
         if match := FUSED.fullmatch(text):
             product, number = self._product(match[2], match[3]), self.value(match[4])
             if match[1] == "FNMA":
@@ -460,20 +465,26 @@ def attempt(check: Callable[..., None], *arguments: object) -> None:
     raise refusals[-1] if refusals else Rejected("no input was found at which every root exists")
 
 
+def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
+    """What is checked of a header: words, and the check with its arguments."""
+    yield "jacobian of the residual", (check_jacobian, header)
+    yield "assembly of the two points", (check_assembly, header)
+    for name in header.functions:
+        if name.startswith(("flank_", "fillet_")):
+            yield f"tangents and normal of {name}", (check_flank, header, name)
+    for body in header.unknowns:
+        yield f"agreement of flank and observation of the {body}", (check_agreement, header, body)
+
+
 def check_header(path: Path) -> int:
     """All checks of one header; how many were made."""
     try:
-        header = read_header(path.read_text(encoding="utf-8"))
-        flanks = [name for name in header.functions if name.startswith(("flank_", "fillet_"))]
-        attempt(check_jacobian, header)
-        attempt(check_assembly, header)
-        for name in flanks:
-            attempt(check_flank, header, name)
-        for body in header.unknowns:
-            attempt(check_agreement, header, body)
+        checks = list(checks_of(read_header(path.read_text(encoding="utf-8"))))
+        for _, check in checks:
+            attempt(*check)
     except (Rejected, LookupError, ValueError) as error:
         raise Rejected(f"{path.name}: {error}") from error
-    return 2 + len(flanks) + len(header.unknowns)
+    return len(checks)
 
 
 def verify(folder: Path) -> tuple[int, int]:

@@ -5,9 +5,6 @@ They are the same text under the same guards in every header, and the text from 
 
 import re
 from functools import cache
-from pathlib import Path
-
-RUNTIME = Path(__file__).resolve().parents[2] / "runtime" / "c"
 
 _INCLUDE = re.compile(r'^#include "(.+)"\n', re.MULTILINE)
 _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
@@ -15,15 +12,19 @@ _EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
 
 
 @cache
-def tables():
-    """Model table and statuses, as their headers have them."""
-    return "".join((RUNTIME / name).read_text(encoding="utf-8") + "\n" for name in ("mw_model.h", "mw_status.h"))
+def tables(runtime):
+    """Model table and statuses, as their headers in the folder ``runtime`` have them."""
+    return "".join((runtime / name).read_text(encoding="utf-8") + "\n" for name in ("mw_model.h", "mw_status.h"))
 
 
 @cache
-def solver():
+def solver(runtime):
     """The solver behind ``X_solve``: every header that ``solver/choice.h`` needs, in order, without its comments."""
-    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in _needed(RUNTIME / "solver" / "choice.h", set()))
+    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in _texts(runtime))
+
+
+def _texts(runtime):
+    return _needed((runtime / "solver" / "choice.h").resolve(), set())
 
 
 def _needed(path, seen):

@@ -7,6 +7,7 @@ static void no_contact_at(const mw_model *m, double *o, mw_contact *c)
     for (int i = 0; i < m->no; i++) o[i] = NAN;
     for (int i = 0; i < 3; i++) c->point[i] = c->normal[i] = c->major[i] = NAN;
     c->curvature_min = c->curvature_max = c->distance = c->misfit = NAN;
+    c->lever_pinion = c->lever_wheel = c->ratio = NAN;
     c->line = 0;
     c->flags = 0;
 }

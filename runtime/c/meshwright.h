@@ -87,6 +87,13 @@ void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, co
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant);
 
+/* The singular point of the equations next to phi and x[nx], to round-off. crossing = 0: a fold, where the branch turns
+ * back (dR/dx singular); else a point where another branch crosses, a pitchfork or transcritical point (dR/d(x, phi)
+ * singular). Newton's method on the extended system of Moore, "The numerical treatment of non-trivial bifurcation points",
+ * Numer. Funct. Anal. Optim. 2 (1980): the residual, the left null vector and its length, with exact second derivatives.
+ * s[ns] set up by setup(). Returns MW_CONVERGED, or MW_DIVERGED if there is none nearby; phi and x are then unchanged. */
+int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, double *x);
+
 /* One call for a whole trace: mw_trace, then the contact geometry of every point: o[n*no], contact[n] (NaN and 0 where
  * there is none). info[k].status becomes line contact where the flanks touch along a line. A point that does not pass
  * mw_touch is solved again by itself. Returns the number of points that succeeded. */

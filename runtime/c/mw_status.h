@@ -36,7 +36,9 @@ typedef struct mw_info {
 } mw_info;
 
 /* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
- * positive without interference. major: direction of curvature_min. flags: see mw_flag. */
+ * positive without interference. major: direction of curvature_min. lever: velocity of a member's point along the normal
+ * for a unit velocity of its own angle, mm; ratio: instantaneous d(wheel angle)/d(pinion angle), the quotient of both.
+ * flags: see mw_flag. */
 typedef struct mw_contact {
     double point[3], normal[3];
     double curvature_min, curvature_max;
@@ -44,6 +46,7 @@ typedef struct mw_contact {
     double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
     int line;                    /* curvature_min is zero to round-off: line contact */
     unsigned flags;
+    double lever_pinion, lever_wheel, ratio;
 } mw_contact;
 
 /* END INTERFACE */

@@ -1,4 +1,4 @@
-"""The compiled library through ctypes, without the Python package. Argument: path of the library."""
+"""A drive's shared object through ctypes, without the Python package. Argument: path of cylindrical_worm_zn_zn.so."""
 
 import ctypes
 import math
@@ -17,8 +17,8 @@ class Info(ctypes.Structure):
 library = ctypes.CDLL(sys.argv[1])
 if library.mw_abi() != ABI:
     sys.exit(f"{sys.argv[1]} has ABI {library.mw_abi()}, this program needs ABI {ABI}")
-library.mw_find.restype = ctypes.c_void_p
-drive = ctypes.c_void_p(library.mw_find(b"cylindrical_worm_zn_zn"))
+library.mw_drive_cylindrical_worm_zn_zn.restype = ctypes.c_void_p
+drive = ctypes.c_void_p(library.mw_drive_cylindrical_worm_zn_zn())
 header = (Path(sys.argv[1]).parent / "include" / "cylindrical_worm_zn_zn.h").read_text(encoding="utf-8")
 place = {key: int(index) for key, index in re.findall(r"#define \w+_P_(\w+) (\d+)", header)}
 design = {

@@ -2,11 +2,10 @@
 #ifndef MWI_ARCLENGTH_H
 #define MWI_ARCLENGTH_H
 
-#include "basics.h"
+#include "linear.h"
 
 enum { MWI_ARC_N = MW_MAX_UNKNOWNS + 1, MWI_ARC_MAX_CORRECTIONS = 15, MWI_ARC_MAX_SPLITS = 10 };
 
-static const double MWI_ARC_ANGLE_STEP = 1e-5;  /* of the difference quotient by the input angle, rad */
 static const double MWI_ARC_DONE = 1e-12, MWI_ARC_ENOUGH = 1e-8;
 static const double MWI_ARC_SMOOTH = 0.9;       /* cosine by which chord and tangent may turn on a step; past it lie other branches */
 
@@ -27,58 +26,18 @@ static inline void mwi_arc_unscaled(const mwi_arc_curve *c, const double *y, dou
 static inline void mwi_arc_equations(const mwi_arc_curve *c, const double *y, const double *border, double *R, double *A)
 {
     const int n = c->n, w = n + 1;
-    double x[MWI_ARC_N], J[MWI_ARC_N * MWI_ARC_N], ahead[MWI_ARC_N], behind[MWI_ARC_N];
+    double x[MWI_ARC_N], J[MWI_ARC_N * MWI_ARC_N], with_angle[MWI_ARC_N], by_angle[MWI_ARC_N];
     mwi_arc_unscaled(c, y, x);
-    c->m->set_phi(c->s, y[n] + MWI_ARC_ANGLE_STEP);
-    c->m->eval(c->s, x, ahead, NULL);
-    c->m->set_phi(c->s, y[n] - MWI_ARC_ANGLE_STEP);
-    c->m->eval(c->s, x, behind, NULL);
+    mwi_clear(with_angle, MWI_ARC_N);
+    with_angle[n] = 1.0;
     c->m->set_phi(c->s, y[n]);
     c->m->eval(c->s, x, R, J);
+    c->m->along(c->s, y[n], x, with_angle, by_angle, NULL);
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) A[i * w + j] = J[i * n + j] * c->scale[j];
-        A[i * w + n] = (ahead[i] - behind[i]) / (2.0 * MWI_ARC_ANGLE_STEP);
+        A[i * w + n] = by_angle[i];
     }
     mwi_copy(A + n * w, border, w);
-}
-
-/* Gaussian elimination with partial pivoting of rows scaled to unit size; returns the determinant. */
-static inline double mwi_arc_solve(int w, double *A, double *b)
-{
-    double determinant = 1.0;
-    for (int i = 0; i < w; i++) {
-        double size = 0.0;
-        for (int j = 0; j < w; j++) size = mwi_larger(size, mwi_abs(A[i * w + j]));
-        for (int j = 0; j < w; j++) A[i * w + j] /= size;
-        b[i] /= size;
-    }
-    for (int k = 0; k < w; k++) {
-        int pivot = k;
-        for (int i = k + 1; i < w; i++)
-            if (mwi_abs(A[i * w + k]) > mwi_abs(A[pivot * w + k])) pivot = i;
-        if (pivot != k) {
-            for (int j = 0; j < w; j++) {
-                const double keep = A[k * w + j];
-                A[k * w + j] = A[pivot * w + j];
-                A[pivot * w + j] = keep;
-            }
-            const double keep = b[k];
-            b[k] = b[pivot];
-            b[pivot] = keep;
-            determinant = -determinant;
-        }
-        determinant *= A[k * w + k];
-        for (int i = k + 1; i < w; i++) {
-            const double factor = A[i * w + k] / A[k * w + k];
-            for (int j = k; j < w; j++) A[i * w + j] -= factor * A[k * w + j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (int k = w - 1; k >= 0; k--) {
-        for (int j = k + 1; j < w; j++) b[k] -= A[k * w + j] * b[j];
-        b[k] /= A[k * w + k];
-    }
-    return determinant;
 }
 
 /* Unit tangent t[n+1] of the curve at y, on the side of `before`; returns the bordered determinant. */
@@ -89,13 +48,13 @@ static inline double mwi_arc_tangent(const mwi_arc_curve *c, const double *y, co
     mwi_arc_equations(c, y, before, R, A);
     mwi_clear(t, MWI_ARC_N);
     t[c->n] = 1.0;
-    mwi_arc_solve(w, A, t);
+    mwi_bordered_solve(w, A, t);
     for (int i = 0; i < w; i++) length += t[i] * t[i];
     for (int i = 0; i < w; i++) t[i] /= sqrt(length);
     mwi_arc_equations(c, y, t, R, A);
     double unused[MWI_ARC_N];
     mwi_clear(unused, MWI_ARC_N);
-    return mwi_arc_solve(w, A, unused);
+    return mwi_bordered_solve(w, A, unused);
 }
 
 /* Newton from y on the plane through it across t. Nonzero if it settles. */
@@ -106,7 +65,7 @@ static inline int mwi_arc_correct(const mwi_arc_curve *c, const double *t, doubl
     for (int k = 0; k < MWI_ARC_MAX_CORRECTIONS; k++) {
         mwi_arc_equations(c, y, t, R, A);
         R[c->n] = 0.0;
-        mwi_arc_solve(w, A, R);
+        mwi_bordered_solve(w, A, R);
         double change = 0.0;
         for (int i = 0; i < w; i++) {
             y[i] -= R[i];

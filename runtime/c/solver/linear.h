@@ -1,4 +1,4 @@
-/* Small dense linear algebra with complete pivoting.  SPDX-License-Identifier: MIT-0 */
+/* Small dense linear algebra.  SPDX-License-Identifier: MIT-0 */
 #ifndef MWI_LINEAR_H
 #define MWI_LINEAR_H
 
@@ -67,6 +67,46 @@ static inline int mwi_linear_solve(int n, double *A, double *b, const double *sc
     for (int j = 0; j < n; j++) x[j] *= scale[j];
     *gap = first > 0.0 ? last / first : 0.0;
     return rank;
+}
+
+/* Solve A x = b (A[w*w] row-major, both overwritten, x in b) with partial pivoting of rows scaled to unit size; returns the
+ * determinant of the scaled matrix. What is singular gives numbers that are not finite. */
+static inline double mwi_bordered_solve(int w, double *A, double *b)
+{
+    double determinant = 1.0;
+    for (int i = 0; i < w; i++) {
+        double size = 0.0;
+        for (int j = 0; j < w; j++) size = mwi_larger(size, mwi_abs(A[i * w + j]));
+        for (int j = 0; j < w; j++) A[i * w + j] /= size;
+        b[i] /= size;
+    }
+    for (int k = 0; k < w; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < w; i++)
+            if (mwi_abs(A[i * w + k]) > mwi_abs(A[pivot * w + k])) pivot = i;
+        if (pivot != k) {
+            for (int j = 0; j < w; j++) {
+                const double keep = A[k * w + j];
+                A[k * w + j] = A[pivot * w + j];
+                A[pivot * w + j] = keep;
+            }
+            const double keep = b[k];
+            b[k] = b[pivot];
+            b[pivot] = keep;
+            determinant = -determinant;
+        }
+        determinant *= A[k * w + k];
+        for (int i = k + 1; i < w; i++) {
+            const double factor = A[i * w + k] / A[k * w + k];
+            for (int j = k; j < w; j++) A[i * w + j] -= factor * A[k * w + j];
+            b[i] -= factor * b[k];
+        }
+    }
+    for (int k = w - 1; k >= 0; k--) {
+        for (int j = k + 1; j < w; j++) b[k] -= A[k * w + j] * b[j];
+        b[k] /= A[k * w + k];
+    }
+    return determinant;
 }
 
 #endif

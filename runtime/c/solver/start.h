@@ -85,6 +85,7 @@ static inline int mwi_raise_misalignments(const mw_model *m, const double *p, do
         }
     }
     if (share < 1.0 && mwi_ended_well(info->status)) info->status = MW_DIVERGED; /* no attempts left */
+    if (share < 1.0 && info->status == MW_SINGULAR) info->status = MW_NO_CONTACT;
     if (share < 1.0 && info->status == MW_DIVERGED) {
         mwi_setup_share(m, p, share, phi, s, work);
         if (mwi_pivot_gap(m, s, good) <= MWI_SINGULAR_SHARE * regular) info->status = MW_NO_CONTACT;

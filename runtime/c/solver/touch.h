@@ -26,19 +26,12 @@ static inline double mwi_extent(const double *a)
     return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
 
-/* Add to sizes[2] the terms of a body's point, mm, and of its normal, each as large as it turns and moves with the surface
- * parameters x; angle is what the body has turned by. */
-static inline void mwi_add_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x,
-                                 double *sizes)
+/* Size of the terms of a body's point, mm, which moves with its surface parameters x and turns by an angle. */
+static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
 {
-    const double turned = 1.0 + mwi_abs(angle);
-    sizes[0] += turned * mwi_extent(place);
-    sizes[1] += turned;
-    for (int i = 0; i < body->parameters; i++) {
-        const double q = mwi_abs(x[body->unknowns[i]]), *d = o + body->at + 6 * i;
-        sizes[0] += q * mwi_extent(d);
-        sizes[1] += q * mwi_extent(d + 3);
-    }
+    double size = (1.0 + mwi_abs(angle)) * mwi_extent(place);
+    for (int i = 0; i < body->parameters; i++) size += mwi_abs(x[body->unknowns[i]]) * mwi_extent(o + body->at + 3 * i);
+    return size;
 }
 
 /* Whether a gap is within the rounding of terms of this size. */
@@ -50,18 +43,19 @@ static inline int mwi_is_rounding(double gap, double size, double unit)
 /* Judge a solution x[nx] by its observation o[no]: MW_CONVERGED where the flanks touch in it, else why they do not. */
 static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
-    double apart[3], sum[3], sizes[2] = { 0.0, 0.0 };
-    const double *pinion = o, *wheel = o + 6; /* point and normal of each, fixed frame */
+    double apart[3], sum[3];
+    const double *pinion = o, *wheel = o + 6, *forms = o + m->geometry + 6; /* points and normals; second forms */
+    const double angle = o[m->wheel_angle];
     if (!mwi_within_bounds(m, x)) return MW_LEFT_FLANK;
     for (int i = 0; i < 3; i++) {
         apart[i] = pinion[i] - wheel[i];
         sum[i] = pinion[3 + i] + wheel[3 + i];
     }
-    mwi_add_terms(&m->bodies[0], o, pinion, 0.0, x, sizes);
-    mwi_add_terms(&m->bodies[1], o, wheel, o[m->wheel_angle], x, sizes);
+    const double size = mwi_terms(&m->bodies[0], o, pinion, 0.0, x) + mwi_terms(&m->bodies[1], o, wheel, angle, x);
     const double unit = 1.0 + mwi_larger(mwi_extent(pinion), mwi_extent(wheel));
-    if (mwi_is_rounding(mwi_extent(apart), sizes[0], unit) && mwi_is_rounding(mwi_extent(sum), sizes[1], 1.0))
-        return MW_CONVERGED;
+    /* a normal turns by the curvature of its surface where the point moves */
+    const double turns = 2.0 + mwi_abs(angle) + (mwi_extent(forms) + mwi_extent(forms + 3)) * size;
+    if (mwi_is_rounding(mwi_extent(apart), size, unit) && mwi_is_rounding(mwi_extent(sum), turns, 1.0)) return MW_CONVERGED;
     return mwi_dot(pinion + 3, wheel + 3) > 0.0 ? MW_NO_CONTACT : MW_DIVERGED;
 }
 

@@ -184,6 +184,8 @@ class _Points:
             body_points={b["name"]: vectors(self.observed[:, b["point"] : b["point"] + 3]) for b in bodies},
             curvatures=curvatures,
             major=vectors(self.contacts["major"]),
+            lever_arms={b["name"]: column(self.contacts[f"lever_{b['name']}"]) for b in bodies},
+            instantaneous_ratio=column(self.contacts["ratio"]),
             semi_axes=semi_axes,
             flags=_looked_up(bits, lambda b: tuple(dict.fromkeys(n for k, n in enumerate(names) if b >> k & 1))),
             margins={

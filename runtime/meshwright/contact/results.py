@@ -27,10 +27,12 @@ class TCA:
 
     Angles in rad, lengths in mm. ``points``, ``normals`` (out of the pinion) and ``major`` in the fixed frame,
     ``body_points[name]`` in the frame of each body: (N, 3). ``unknowns[name]``: (N,). ``curvatures``: (N, 2), relative,
-    smaller first, 1/mm. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
-    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of the
-    right-hand model in its own order, NaN where there is no solution. ``outside_the_tips`` says which points have no
-    contact within the tips of both members: (N,) of bool.
+    smaller first, 1/mm. ``lever_arms[name]``: (N,), velocity of a member's point along the normal for a unit velocity
+    of its own angle, mm; ``instantaneous_ratio`` (N,): d(wheel angle)/d(pinion angle), the pinion's lever over the
+    wheel's. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
+    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of
+    the right-hand model in its own order, NaN where there is no solution. ``outside_the_tips`` says which points have
+    no contact within the tips of both members: (N,) of bool.
     """
 
     angles: np.ndarray
@@ -48,6 +50,8 @@ class TCA:
     body_points: dict[str, np.ndarray]
     curvatures: np.ndarray
     major: np.ndarray
+    lever_arms: dict[str, np.ndarray]
+    instantaneous_ratio: np.ndarray
     semi_axes: np.ndarray
     flags: tuple[tuple[str, ...], ...]
     margins: dict[str, np.ndarray]
@@ -89,7 +93,8 @@ class TCA:
         code = library().MW_NO_CONTACT
         word, message = text(library().mw_status_word(code)), text(library().mw_status_text(code))
         arrays = ("residual", "wheel_angles", "error", "points", "normals", "curvatures", "major", "semi_axes")
-        groups = ("unknowns", "body_points", "margins")
+        arrays += ("instantaneous_ratio", "solutions")
+        groups = ("unknowns", "body_points", "lever_arms", "margins")
         error = only(self.error)
         left = np.flatnonzero(np.isfinite(error))
         nearest = error[left[np.argmin(np.abs(self.angles[left]))]] if left.size else np.nan
@@ -100,7 +105,7 @@ class TCA:
             iterations=np.where(rows, 0, self.iterations),
             flags=words(self.flags, ()),
             reference_error=float(nearest),
-            **{name: only(getattr(self, name)) for name in (*arrays, "solutions")},
+            **{name: only(getattr(self, name)) for name in arrays},
             **{name: {key: only(values) for key, values in getattr(self, name).items()} for name in groups},
         )
 
@@ -155,6 +160,8 @@ class TCA:
                 "semi_major_mm": _number(self.semi_axes[k, 0]),
                 "semi_minor_mm": _number(self.semi_axes[k, 1]),
             },
+            "lever_arms_mm": {name: _number(arms[k]) for name, arms in self.lever_arms.items()},
+            "instantaneous_ratio": _number(self.instantaneous_ratio[k]),
             "flags": list(self.flags[k]),
         }
 
