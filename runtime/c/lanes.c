@@ -172,7 +172,7 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
     const mw_lane_model *k = kernels_of(m, set);
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, part = (n + lanes - 1) / lanes;
     const room r = divide(set, m, part, work);
-    double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
+    double begin[MW_MAX_LANES] = { 0.0 }, valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_info info[MW_MAX_LANES];
     mw_lane_row rows[MW_MAX_LANES];

@@ -40,10 +40,9 @@ static void gaps(const double *s, const double *x, double *distance, double *nor
 int main(void)
 {
     double p[X(NP)], phi, s[X(NS)], x[X(NX)], other[X(NX)], state[X(NS)], work[X(NP)];
-    const mw_model *m = mw_find("DRIVE");
+    const mw_model *m = &X(model);
     mw_info info, by_library;
     long solved = 0, differ = 0, garbage = 0, numbers = 0, count = 0;
-    if (!m) return 2;
     while (fread(&phi, sizeof phi, 1, stdin) == 1 && fread(p, sizeof p, 1, stdin) == 1) {
         double distance = 0.0, normals = 0.0, size = 0.0;
         count++;
