@@ -5,7 +5,7 @@
 #include "branch.h"
 #include "search.h"
 
-/* Where nothing touches at angle 0 (misalignment may have moved the contact): angles at which a contact on both flanks
+/* Where nothing touches at the reference angle (misalignment may have moved the contact): angles at which a contact on both flanks
  * is tried next, ever further to either side. From FIRST on they double; the last is past a turn of the pinion. */
 enum { MWI_DOUBLINGS = 10 };
 static const double MWI_FIRST = 1.0 / 64.0; /* rad */
@@ -32,25 +32,31 @@ static inline void mwi_begin_walk(mwi_pair *t)
     t->walked = t->reference;
 }
 
-/* The tangency at a reference angle: what the start values lead to or, at angle 0 and if that is impossible, a contact
+/* Where the pair meets in the middle of its flanks. */
+static inline double mwi_reference_angle(const mwi_pair *t)
+{
+    return t->m->reference < 0 ? 0.0 : t->p[t->m->reference];
+}
+
+/* The tangency at a reference angle: what the start values lead to or, at the first and if that is impossible, a contact
  * that bodies can make. */
 static inline int mwi_tangency_at(mwi_pair *t, double phi, mw_info *info)
 {
     double *x = t->at_reference;
     const int started = mwi_start(t->m, t->p, phi, t->s, t->work, x, info) >= 0;
     if (started && mwi_worth_of(t->m, t->s, x) != MWI_IMPOSSIBLE) return 1;
-    return (phi == 0.0 && mwi_search(t->m, t->s, x, info)) || started;
+    return (phi == mwi_reference_angle(t) && mwi_search(t->m, t->s, x, info)) || started;
 }
 
 /* The pair of a design that passes its guards, at its reference; there is none if t->reference is empty. */
 static inline void mwi_find_reference(mwi_pair *t)
 {
     mw_info info;
-    double angle = 0.0, next = MWI_FIRST;
-    int found = mwi_tangency_at(t, 0.0, &info);
+    double angle = mwi_reference_angle(t), next = MWI_FIRST;
+    int found = mwi_tangency_at(t, angle, &info);
     t->reference = mwi_no_history();
     for (int k = 0; k < 2 * MWI_DOUBLINGS && !found; k++) {
-        angle = k % 2 ? -next : next;
+        angle = mwi_reference_angle(t) + (k % 2 ? -next : next);
         if (k % 2) next *= 2.0;
         found = mwi_tangency_at(t, angle, &info) && mwi_worth_of(t->m, t->s, t->at_reference) >= MWI_ON_BOTH_FLANKS;
     }

@@ -40,14 +40,14 @@ def trace(drive, angles):
 def analyse(drive, angles):
     """:class:`~meshwright.contact.results.TCA` at pinion angles (rad), in any order.
 
-    The points are traced in ascending order; relative errors refer to angle 0.
+    The points are traced in ascending order; relative errors refer to the design's reference angle.
     """
     mirror = drive.design.mirror
     grid, rows = mirror.sign * angles, slice(None)
     if not np.all(np.diff(grid) > 0.0):
         grid, rows = np.unique(grid, return_inverse=True)
     points = _Points.of(drive, grid)
-    x, zero = trace(drive, np.zeros(1))
+    x, zero = trace(drive, np.array([drive.design.reference_angle], dtype=float))
     reference = x[0, points.description["error"]] if zero["status"][0] >= 0 else points.reference()
     return points.result(angles, rows, mirror, float(reference))
 
@@ -125,9 +125,10 @@ class _Points:
         return self.x[:, self.description["error"]]
 
     def reference(self):
-        """Transmission error at the solved angle nearest to 0; NaN if nothing is solved."""
+        """Transmission error at the solved angle nearest to the reference angle; NaN if nothing is solved."""
         rows = np.flatnonzero(self.touching)
-        return float(self.error[rows[np.argmin(np.abs(self.grid[rows]))]]) if rows.size else np.nan
+        distance = np.abs(self.grid[rows] - self.drive.design.reference_angle)
+        return float(self.error[rows[np.argmin(distance)]]) if rows.size else np.nan
 
     def _only(self, values):
         """Columns with NaN where there is no contact point."""
@@ -153,7 +154,7 @@ class _Points:
         return np.where(self.pointlike, self.contacts["flags"], 0)
 
     def result(self, angles, rows, mirror, reference):
-        """The rows asked for, as the drive of the design's hand has them; ``reference`` is the error at angle 0."""
+        """The rows asked for, as the drive of the design's hand has them; ``reference`` is the error they refer to."""
 
         def column(values, sign=1.0):
             return _times(sign, self._only(values)[rows])
