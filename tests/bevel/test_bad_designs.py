@@ -1,9 +1,9 @@
 """Settings that make no gear are refused with the key, the value and the reason."""
 
 import pytest
+
 from meshwright import Drive
 from meshwright.base.errors import DesignError
-
 from tests.bevel.exact import crown_pair, formate_cradle
 
 
@@ -12,7 +12,7 @@ from tests.bevel.exact import crown_pair, formate_cradle
     [
         ("pinion", "radial_setting_mm", 0.0, "pinion.radial_setting_mm"),
         ("gear", "point_radius_mm", -76.0, "gear.point_radius_mm"),
-        ("gear", "blade_angle_deg", 60.0, "gear.blade_angle_deg"),
+        ("gear", "blade_angle_deg", 61.0, "gear.blade_angle_deg"),
         ("pinion", "face_width_mm", 200.0, "pinion.outer_cone_distance_mm"),
         ("pinion", "method", "formate", "pinion.method"),
         ("pinion", "ratio_of_roll", None, "pinion.ratio_of_roll"),
