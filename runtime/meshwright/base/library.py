@@ -1,5 +1,6 @@
 """The compiled core library, its interface read from its own headers, and the drives' objects, loaded on first use."""
 
+import contextlib
 import ctypes
 import hashlib
 import os
@@ -9,6 +10,8 @@ import tempfile
 import threading
 from functools import cache
 from pathlib import Path
+
+import numpy as np
 
 from meshwright.base.drives import SHIPPED, cache_folder, folders, object_of
 from meshwright.base.errors import LibraryError
@@ -20,14 +23,39 @@ _loading, _thread = threading.Lock(), threading.local()
 
 def _interface():
     """C declarations of the model table and of the runtime, as cffi wants them."""
-    model = (SHIPPED / "include" / "mw_model.h").read_text(encoding="utf-8")
-    runtime = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
-    functions = re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", runtime, re.DOTALL).group(1)
-    return re.sub(r"^#.*$", "", model, flags=re.MULTILINE) + functions
+    names = ("mw_model.h", "mw_status.h", "meshwright.h")
+    model, status, runtime = ((SHIPPED / "include" / name).read_text(encoding="utf-8") for name in names)
+    codes = ", ".join(f"{code} = {value}" for code, value in re.findall(r"X\((MW_\w+), (-?\d+),", status))
+    end = re.search(r"MW_STATUS_END = \d+", status).group()
+    declared = re.sub(r"^#.*$", "", model, flags=re.MULTILINE)
+    declared += f"typedef enum mw_status {{ {codes}, {end} }} mw_status;"
+    for text in (status, runtime):
+        declared += re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", text, re.DOTALL).group(1)
+    return declared
+
+
+def record(name):
+    """NumPy's view of a plain structure of the interface, field by field as C lays it out."""
+    library()
+    fields = dict(ffi.typeof(name).fields)
+    return np.dtype(
+        {
+            "names": list(fields),
+            "formats": [_format(field.type) for field in fields.values()],
+            "offsets": [field.offset for field in fields.values()],
+            "itemsize": ffi.sizeof(name),
+        }
+    )
+
+
+def _format(kind):
+    if kind.kind == "array":
+        return (_format(kind.item), kind.length)
+    return {"double": "f8", "int": "i4", "unsigned int": "u4"}[kind.cname]
 
 
 def _parsed():
-    """cffi's view of the interface. Parsing takes a third of a short command's time: the result is kept in the cache."""
+    """cffi's view of the interface; parsing takes a third of a short command's time, so the result is kept."""
     try:
         declarations = _interface()
     except OSError:  # nothing is built yet; whoever loads the library is told so
@@ -49,14 +77,12 @@ def _written(declarations, place):
     with tempfile.TemporaryDirectory() as folder:
         written = Path(folder) / "interface.py"
         made.emit_python_code(str(written))
-        try:
+        with contextlib.suppress(OSError):  # a cache that cannot be written costs time, nothing else
             place.parent.mkdir(parents=True, exist_ok=True)
             handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=".interface.")
             with os.fdopen(handle, "w", encoding="utf-8") as stream:
                 stream.write(written.read_text(encoding="utf-8"))
             os.replace(temporary, place)
-        except OSError:
-            pass  # a cache that cannot be written costs time, nothing else
         return runpy.run_path(str(written))["ffi"]
 
 
@@ -77,6 +103,8 @@ class _Calls:
 
     def __getattr__(self, name):
         function = getattr(self._functions, name)
+        if isinstance(function, int):  # a constant
+            return function
 
         def call(*arguments):
             result = function(*arguments)
