@@ -112,6 +112,11 @@ def root(a: Number) -> Number:
     return Number(value, combined(a.rates, pow(2 * value, -1, PRIME), (), 0))
 
 
+def sign(a: Number) -> Number:
+    """1 for squares, else -1, which is as odd and as constant as the sign of a real number."""
+    return Number(1 if pow(a.value, (PRIME - 1) // 2, PRIME) in (0, 1) else PRIME - 1)
+
+
 def scaled(a: Number, literal: Fraction, product: Number) -> Number:
     """A product with a literal keeps its linear form if there is one."""
     angle = None if a.angle is None else {name: factor * literal for name, factor in a.angle.items() if literal}
@@ -124,7 +129,7 @@ STATEMENT = re.compile(r"const double (t\d+) = (.+);|(\w+\[\d+\]) = (.+);|\w+_si
 SILENT = re.compile(r"\(void\)|double s\d+, c\d+;|if \(|int failed|return |[{}]|$")
 OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
-CALL = re.compile(r"(?:\w+_)?(sqrt|atan2)\((.+)\)")
+CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
 
 #: A product and a number: a b + c, a b - c, c - a b.
 FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
@@ -250,7 +255,7 @@ class Machine:
     def _expression(self, text: str) -> Number:
         if match := CALL.fullmatch(text):
             arguments = [self.value(argument) for argument in match[2].split(", ")]
-            return root(*arguments) if match[1] == "sqrt" else self._arc(*arguments)
+            return {"sqrt": root, "SIGN": sign, "atan2": self._arc}[match[1]](*arguments)
         if match := FUSED.fullmatch(text):
             product, number = self._product(match[2], match[3]), self.value(match[4])
             if match[1] == "FNMA":

@@ -48,6 +48,7 @@ class Table(Enum):
 #: Interface unit (key suffix) → the unit used inside and the exact factor to it.
 _INTERFACE_UNITS = {
     "mm": ("mm", sp.S.One),
+    "um": ("mm", sp.Rational(1, 1000)),
     "deg": ("rad", sp.rad(1)),
     "per_mm": ("1/mm", sp.S.One),
     "mm_per_rad2": ("mm/rad^2", sp.S.One),
