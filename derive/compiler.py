@@ -1,15 +1,15 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``            → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
+define    ``derive.drives``                     → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources
 derive    ``derive.language.surface, envelope`` → locus, normal, equation of meshing
 reduce    ``derive.language.envelope``          → explicit surfaces, fewer unknowns
-prove     ``derive.prove, audit``      → certificates for the identities behind them, and the record that holds them
-schedule  ``derive.schedule``          → one tape with derivatives, binding times and pivot order
-emit      ``derive.emit``              → C99, CasADi, JSON
+prove     ``derive.prove, audit``               → certificates for the identities behind them, and their record
+schedule  ``derive.schedule``                   → one tape with derivatives, binding times and pivot order
+emit      ``derive.emit``                       → C99, CasADi, JSON, the description as data
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
-a paper. The stages after that are common to all drives. Statements are proved once for all of them; which ones a
-drive rests on is looked up when its operations are known.
+a paper; what comes out is checked before and after it is scheduled. The stages after that are common to all drives.
+Statements are proved once for all of them; which ones a drive rests on is looked up when its operations are known.
 """
 
 import hashlib
@@ -19,6 +19,9 @@ from pathlib import Path
 from derive import conditions
 from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, lanes, metadata, sensitivity
+from derive.language import description
+from derive.language.validate import validate, validate_normals
+from derive.newton import observation
 from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -28,26 +31,36 @@ MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
 def compile_drive(drive, record, log):
     """All generated files of one drive: relative path → text.
 
-    ``record`` holds the objects of the audit record against which it is checked, by their hash.
+    ``record`` holds the objects of the audit record against which it is checked, by their hash. Raises
+    :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
     """
+    with log("validate", drive.name):
+        validate(drive)
     with log("schedule", drive.name):
         plan = schedule(drive)
+        validate_normals(drive, observation(plan), plan.sample)
     with log("prove", drive.name):
         origin = provenance(record, plan)
     with log("emit", drive.name):
-        description = metadata.describe(plan, origin)
-        files = {
-            f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
-            f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
-        }
-        files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
-        # last: it adds the changes of the inputs to the tape
-        tangents = sensitivity.tangents(plan)
-        files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-        evaluated = [*conditions.functions(plan), *tangents.functions()]
-        description["side_conditions"] = conditions.side_conditions(plan, evaluated)
-        files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
-        return files
+        return _files(plan, origin)
+
+
+def _files(plan, origin):
+    """What every printer makes of a schedule."""
+    drive, metadata_of = plan.drive, metadata.describe(plan, origin)
+    files = {
+        f"c/{drive.name}.h": c99.header(plan, metadata_of, MODEL_HEADER.read_text(encoding="utf-8")),
+        f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
+        f"descriptions/{drive.name}.json": description.text(drive),
+    }
+    files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
+    # last: it adds the changes of the inputs to the tape
+    tangents = sensitivity.tangents(plan)
+    files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
+    evaluated = [*conditions.functions(plan), *tangents.functions()]
+    metadata_of["side_conditions"] = conditions.side_conditions(plan, evaluated)
+    files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
+    return files
 
 
 def manifest(files):

@@ -9,12 +9,14 @@ import json
 import sympy as sp
 
 from derive.language.chain import Motion, Placement, Rotation, Station, Swing, Translation
+from derive.language.choice import excess, unit_step
 
 SCHEMA = "meshwright.description/1"
 
 _FUNCTIONS = {
     sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos", sp.atan: "atan",
-    sp.atan2: "atan2", sp.Abs: "abs", sp.Min: "min", sp.Max: "max",
+    sp.atan2: "atan2", sp.Abs: "abs", sp.Min: "min", sp.Max: "max", sp.sign: "sign",
+    unit_step: "unit_step", excess: "excess",
 }  # fmt: skip
 
 

@@ -154,11 +154,11 @@ class Region:
 
 @dataclass(frozen=True)
 class Source:
-    """What a drive's page follows: author, title, year, and where in it."""
+    """What a drive's page follows: author, title, year (None if unknown), and where in it."""
 
     author: str
     title: str
-    year: int
+    year: int | None
     where: str = ""
 
 

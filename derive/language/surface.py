@@ -18,10 +18,10 @@ from derive.language.origin import joined
 class Step:
     """A step by which a surface was made: its name and what went into it, by name.
 
-    ``swept``: a ``curve`` in ``along`` carried by ``motion``, which ``sweep`` moves; the normal is ``outward`` times the
-    tangents' cross product. ``given``: point, tangents and normal written down. ``moved`` by ``motion``. ``envelope``
-    under ``motion``, which ``variable`` moves. ``merged``: ``total`` = ``kept`` + ``removed`` replaces ``removed``.
-    ``solved``: the last condition solved for ``parameter``, whose value is ``value``.
+    ``swept``: a ``curve`` in ``along`` carried by ``motion``, which ``sweep`` moves; the normal is ``outward`` times
+    the tangents' cross product. ``given``: point, tangents and normal written down. ``moved`` by ``motion``.
+    ``envelope`` under ``motion``, which ``variable`` moves. ``merged``: ``total`` = ``kept`` + ``removed`` replaces
+    ``removed``. ``solved``: the last condition solved for ``parameter``, whose value is ``value``.
     """
 
     word: str
@@ -71,7 +71,8 @@ class Surface:
         motion = self.motion
         for outer in reversed(motions):
             motion = outer @ motion
-        return replace(self.written_down, motion=motion).by(*(Step.of("moved", motion=outer) for outer in reversed(motions)))
+        moves = (Step.of("moved", motion=outer) for outer in reversed(motions))
+        return replace(self.written_down, motion=motion).by(*moves)
 
     @property
     def written_down(self):

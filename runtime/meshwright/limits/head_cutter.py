@@ -1,7 +1,7 @@
 """Interference of a head-cutter with the teeth beside the space that it cuts, and the tilt that avoids it.
 
 The blades turn about the tool axis and pass over the gear twice: through the space being cut and, across the tool,
-over finished teeth. There the blades must stay above the tips. Source: 001_d957fec2e26e51c5.txt, sections 2 and 3,
+over finished teeth. There the blades must stay above the tips. Source: NASA/CR-2002-211895, sections 2 and 3,
 Fig. 9, where this is judged by eye. The back of the blade, whose width the source does not give, is left out.
 """
 
