@@ -42,7 +42,7 @@ SOURCES = (
         "JSME International Conference on Motion and Power Transmissions, GUD-02: ZK worm, ZN hob, shaft angle",
     ),
     Source("ISO", "ISO 10828, Worm gears: worm profiles and gear mesh geometry", 2015, "flank forms A, I, N, K, C"),
-    Source("author not named", "Right-angle cylindrical worm gear drives as rack and pinion", None, "limit points, axes"),
+    Source("author not named", "Right-angle cylindrical worm gear drives as rack and pinion", None, "limit points"),
 )
 
 #: ISO 10828 letters and the tools that make them.

@@ -186,7 +186,7 @@ def validate_normals(drive, observed, values):
     if not _dot(first, second) < 0:
         names = " and ".join(body.name for body in drive.bodies)
         raise DescriptionError(f"{drive.name}: the normals of {names} point the same way in contact; one points inward")
-    low, high = _relative_curvatures(drive, observed, first)
+    low, high = observed["curvature_gap"]
     least = max(abs(low), abs(high)) / 10**6
     if high < least or (low < -least and not _narrows(drive, observed, values)):
         raise DescriptionError(
@@ -224,44 +224,3 @@ def _number(expression, values):
 
 def _dot(a, b):
     return sum(p * q for p, q in zip(a, b, strict=True))
-
-
-def _relative_curvatures(drive, observed, normal):
-    """Least and largest curvature by which the bodies part along the first one's normal, 1/mm."""
-    import mpmath
-
-    axis = min(range(3), key=lambda k: abs(normal[k]))
-    helper = [mpmath.mpf(k == axis) for k in range(3)]
-    u = _unit(_cross(normal, helper))
-    w = _cross(normal, u)
-    form = mpmath.matrix(2)
-    for body in drive.bodies:
-        turned = [_turning(body, observed, direction) for direction in (u, w)]
-        for i in range(2):
-            for j, direction in enumerate((u, w)):
-                form[i, j] += _dot(turned[i], direction)
-    middle = (form[0, 0] + form[1, 1]) / 2
-    half = mpmath.hypot((form[0, 0] - form[1, 1]) / 2, (form[0, 1] + form[1, 0]) / 2)
-    return middle - half, middle + half
-
-
-def _turning(body, observed, direction):
-    """Change of a body's unit normal along a unit direction of the tangent plane."""
-    import mpmath
-
-    names = [q.name for q in body.surface.parameters]
-    tangents = [observed[f"tangent_{name}"] for name in names]
-    slopes = [observed[f"condition_{body.name}_{k}"] for k in range(len(body.surface.conditions))]
-    rows = [[t[i] for t in tangents] for i in range(3)] + [list(row) for row in slopes]
-    right = [*direction, *(0 for _ in slopes)]
-    change = mpmath.lu_solve(mpmath.matrix(rows), mpmath.matrix(right))
-    return [sum(change[k] * observed[f"turning_{name}"][i] for k, name in enumerate(names)) for i in range(3)]
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _unit(a):
-    length = _dot(a, a) ** 0.5
-    return [c / length for c in a]

@@ -9,8 +9,7 @@ import re
 import sys
 
 from meshwright import commands
-from meshwright.base.errors import DesignError, UsageError
-from meshwright.base.library import LibraryError
+from meshwright.base.errors import DesignError, LibraryError, UsageError
 
 
 def parser():

@@ -276,9 +276,8 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    descriptions = metadata.families()[family]
     words = checked["design"]
-    for key, source in descriptions[0]["variant_defaults"].items():
+    for key, source in metadata.families()[family].variant_defaults.items():
         if words[key] is None:
             words[key] = words[source]
     return metadata.choose(family, words)
