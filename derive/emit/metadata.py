@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from dataclasses import asdict
 
 import mpmath
 
@@ -58,6 +59,8 @@ def describe(plan, provenance):
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
         "functions": [_function(function) for function in plan.functions],
+        "least_teeth": {member: asdict(search) for member, search in drive.least_teeth.items()},
+        "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
             "s": [len(plan.state)],

@@ -145,6 +145,12 @@ class Design:
             if p["table"] == "flank"
         )
 
+    @property
+    def other_flank(self):
+        """The word of the opposite flank."""
+        words = next(p["choices"] for p in self.description["parameters"] if p["table"] == "flank")
+        return next(word for word in words if word != self.tables["flank"])
+
     def value(self, key, table="design"):
         """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
@@ -395,9 +401,16 @@ def _sizes(c, parameters):
 
 
 def _guard_error(guard, checked):
-    given = {key: checked["design"].get(key) for key in guard["keys"]}
+    places = {key: _place(key, checked) for key in guard["keys"]}
+    given = {key: checked[table].get(key) for key, table in places.items()}
     shown = {key: value for key, value in given.items() if value is not None}
     first = next(iter(shown or given))
     others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(f"design.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+    return DesignError(f"{places[first]}.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+
+
+def _place(key, checked):
+    """The table of a key: the design's if that has it."""
+    tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
+    return next((name for name in tables if key in checked[name]), "design")

@@ -13,7 +13,7 @@ HAND = Literal["right", "left"]
 
 #: Magnitudes beyond which a number of a design, in the unit of its key, is taken for a mistake: nothing that is made
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
-LARGEST = {"mm": 1e5, "um": 1e6, "deg": 360.0, "": 1e5}
+LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
 
 def _field(parameter):

@@ -41,7 +41,7 @@ def _observed(drive, angle, x):
 
 
 def _regular_part(drive, branch, angle):
-    """The branch up to where it leaves the wheel's or the worm's regular sheet or the angles of interest."""
+    """The branch up to where it leaves the regular sheet of either member or the angles of interest."""
     bodies = drive.design.description["bodies"]
     sheets = [b["regular"] for b in bodies]
     sheets += [b["margin"] + i for b in bodies for i, m in enumerate(b["margins"]) if m["flag"] == "spurious_sheet"]
