@@ -352,7 +352,7 @@ def cylindrical_worm(worm_profile, hob_profile):
         ),
         loading=Loading(pairs=5, torque_on="wheel"),
         sources=SOURCES,
-        handed=True,
+        handed="right",
         exclusive=(
             (normal_module.key, axial_module.key),
             (lead_angle.key, pitch_radius.key),

@@ -310,7 +310,7 @@ def face_worm():
         sample=k.SAMPLE,
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
-        together=tuple(tuple(f"{p.table.value}.{p.key}" for p in group) for group in k.TOGETHER),
+        together=tuple(tuple(f"{p.table}.{p.key}" for p in group) for group in k.TOGETHER),
         functions=_limit_functions(cutter, gear, worm, reference),
         tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),

@@ -106,7 +106,7 @@ def _data(value):
 
 def _key(drive, p):
     return {
-        "key": p.key, "table": p.table.value, "symbol": quantity(p.symbol), "factor": prefix(p.factor),
+        "key": p.key, "table": str(p.table), "symbol": quantity(p.symbol), "factor": prefix(p.factor),
         "default": None if p.default is None else prefix(p.default), "required": p.required, "integer": p.integer,
         "lower_included": p.lower_included, "above": p.above, "choices": dict(p.choices),
         "tools": [use.word for use in drive.tools if p.key in use.keys],
@@ -130,6 +130,7 @@ def _body(body):
         "surface": surface(body.surface),
         "motion": motion(body.motion),
         "reference": _named(body.reference),
+        "regular": None if body.regular is None else prefix(body.regular),
         "coordinates": [q.name for q in body.point],
         "margins": [_margin(m) for m in body.margins],
         "recovered": [quantity(q) for q in body.recovered],
@@ -169,6 +170,7 @@ def _design_system(system):
         "guess": _named(system.guess),
         "fills": _named(system.fills),
         "fixed": _named(system.fixed),
+        "homotopy": system.homotopy,
         "message": system.message,
         "keys": list(system.keys),
         "regular": system.regular and {"surface": surface(system.regular[0]), "sign": prefix(system.regular[1])},

@@ -33,28 +33,42 @@ def validate(drive):
 
 
 def _keys(drive):
-    """Keys are unique; only the table of misalignments may repeat a key: the error of the size of that name."""
+    """Keys are unique; the table of misalignments may repeat a key, as the error of the size of that name.
+
+    A family's own tables, such as one a member, may have the same keys.
+    """
     places = Counter((p.table, p.key) for p in drive.parameters)
     for (table, key), count in places.items():
         if count > 1:
-            yield f"the key {key!r} is declared {count} times in [{table.value}]; rename all but one"
+            yield f"the key {key!r} is declared {count} times in [{table}]; rename all but one"
     tables = {}
     for p in drive.parameters:
-        if p.table is not Table.MISALIGNMENT and tables.setdefault(p.key, p.table) is not p.table:
-            yield f"the key {p.key!r} is declared in [{tables[p.key].value}] and in [{p.table.value}]; rename one"
+        shared = p.table == Table.MISALIGNMENT or p.table not in list(Table)
+        if not shared and tables.setdefault(p.key, p.table) != p.table:
+            yield f"the key {p.key!r} is declared in [{tables[p.key]}] and in [{p.table}]; rename one"
     flanks = [p.key for p in drive.parameters if p.table is Table.FLANK]
     if len(flanks) != 1 or not all(p.choices for p in drive.parameters if p.table is Table.FLANK):
         yield f"exactly one key of the table 'flank' with its words chooses the flank; found {flanks}"
-    known = {p.key for p in drive.parameters}
+    known = _places(drive)
     for group in drive.exclusive:
         for key in group:
             if key not in known:
                 yield f"the exclusive group {group} names the key {key!r}, which is not declared"
     for place in (place for group in drive.together for place in group):
-        if place not in {f"{p.table.value}.{p.key}" for p in drive.parameters}:
+        if place not in {f"{p.table}.{p.key}" for p in drive.parameters}:
             yield f"the group of keys given together names {place!r}, which is not declared"
     if drive.pinion_teeth not in known:
         yield f"pinion_teeth names the key {drive.pinion_teeth!r}, which is not declared"
+
+
+def _places(drive):
+    """How keys may be named: as they are, and with their table."""
+    return {p.key for p in drive.parameters} | {p.place for p in drive.parameters}
+
+
+def _in_sample(p):
+    """How the sample design names a key."""
+    return p.key if p.table == Table.FLANK else p.place
 
 
 def _names(drive):
@@ -103,7 +117,7 @@ def _completion(drive):
 
 
 def _guards(drive):
-    parameters, keys = {p.symbol for p in drive.parameters}, {p.key for p in drive.parameters}
+    parameters, keys = {p.symbol for p in drive.parameters}, _places(drive)
     for guard in drive.guards:
         if not guard.keys:
             yield f"the guard {guard.message!r} names no keys; name those that meet in it"
@@ -115,13 +129,13 @@ def _guards(drive):
 
 
 def _sample(drive):
-    keys = {p.key for p in drive.parameters if p.table in (Table.DESIGN, Table.FLANK)}
+    keys = {_in_sample(p) for p in drive.parameters}
     for key in drive.sample:
         if key not in keys:
             yield f"the sample design gives {key!r}, which is no key of the drive"
     for p in drive.parameters:
-        if p.required and p.key not in drive.sample:
-            yield f"the sample design lacks {p.key!r}, which is required"
+        if p.required and _in_sample(p) not in drive.sample:
+            yield f"the sample design lacks {_in_sample(p)!r}, which is required"
     for group in drive.exclusive:
         if len(drive.sample.keys() & {*group}) != 1:
             yield f"the sample design must give exactly one of {', '.join(group)}"
@@ -196,14 +210,17 @@ def validate_normals(drive, observed, values):
 
 
 def _narrows(drive, observed, values):
-    """Whether each tooth whose tip is a limit of its body coordinates is the narrower the nearer to it."""
+    """Whether a tooth whose tip is a limit of its body coordinates is the narrower the nearer to it.
+
+    Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
+    """
     found = [
         _dot(_body_normal(drive, body, observed, values), _slope(body, m, observed, values)) < 0
         for body in drive.bodies
         for m in body.margins
         if m.role is Role.TIP and {*body.point} & m.positive.free_symbols
     ]
-    return bool(found) and all(found)
+    return not found or any(found)
 
 
 def _body_normal(drive, body, observed, values):
