@@ -1,11 +1,11 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``                     → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources
-derive    ``derive.language.surface, envelope`` → locus, normal, equation of meshing
-reduce    ``derive.language.envelope``          → explicit surfaces, fewer unknowns
-prove     ``derive.prove, audit``               → certificates for the identities behind them, and their record
-schedule  ``derive.schedule``                   → one tape with derivatives, binding times and pivot order
-emit      ``derive.emit``                       → C99, CasADi, JSON, the description as data
+define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources
+derive    ``derive.language`` → locus, normal, equation of meshing, placements
+reduce    ``derive.language`` → explicit surfaces, fewer unknowns
+prove     ``derive.prove``    → certificates for the identities behind them, and the record (``derive.audit``) of them
+schedule  ``derive.passes``   → one tape (``derive.program``) with derivatives, curvature, binding times, pivot order
+emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
 a paper; what comes out is checked before and after it is scheduled. The stages after that are common to all drives.
@@ -16,13 +16,13 @@ import hashlib
 import json
 from pathlib import Path
 
-from derive import conditions
 from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals
-from derive.newton import observation
-from derive.schedule import schedule
+from derive.passes import guards
+from derive.passes.sample import observation
+from derive.passes.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -35,10 +35,9 @@ def package():
 
 
 #: In a checkout; the installed package has both among its own files.
-RECORD = ROOT / "generated" / "audit"
-MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
-if not MODEL_HEADER.exists():
-    RECORD, MODEL_HEADER = ROOT / "derive" / "record", package() / "include" / "mw_model.h"
+RECORD, RUNTIME = ROOT / "generated" / "audit", ROOT / "runtime" / "c"
+if not RUNTIME.exists():
+    RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
 def compile_drive(drive, record, log, open_=None):
@@ -63,7 +62,7 @@ def _files(plan, origin):
     """What every printer makes of a schedule."""
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     files = {
-        f"c/{drive.name}.h": c99.header(plan, metadata_of, MODEL_HEADER.read_text(encoding="utf-8")),
+        f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
         f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         f"descriptions/{drive.name}.json": description.text(drive),
     }
@@ -71,8 +70,8 @@ def _files(plan, origin):
     # last: it adds the changes of the inputs to the tape
     tangents = sensitivity.tangents(plan)
     files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-    evaluated = [*conditions.functions(plan), conditions.along(plan), *tangents.functions()]
-    metadata_of["side_conditions"] = conditions.side_conditions(plan, evaluated)
+    evaluated = [*guards.functions(plan), guards.along(plan), *tangents.functions()]
+    metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
     files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
     return files
 

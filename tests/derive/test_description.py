@@ -8,9 +8,10 @@ from pathlib import Path
 import mpmath
 import pytest
 
-from derive import drives, newton
+from derive import drives
 from derive.language.description import describe, prefix, text
-from derive.schedule import schedule
+from derive.passes.sample import observation
+from derive.passes.schedule import schedule
 
 mp = mpmath.mp
 ROOT = Path(__file__).parents[2]
@@ -83,7 +84,7 @@ def solved(request):
     drive = drives.catalogue([request.param])[request.param]()
     plan = schedule(drive)
     with mpmath.workdps(40):
-        observed = newton.observation(plan)
+        observed = observation(plan)
         values = {symbol.name: value for symbol, value in plan.sample.items() if symbol.name != "ratio"}
     return json.loads(text(drive)), values, observed
 

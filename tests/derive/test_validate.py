@@ -6,13 +6,14 @@ import mpmath
 import pytest
 import sympy as sp
 
-from derive import drives, newton
+from derive import drives
 from derive.language import vectors as v
 from derive.language.contact import contact
 from derive.language.drive import Margin, Role
 from derive.language.symbols import Guard, Quantity, Rule, Table, parameter
 from derive.language.validate import DescriptionError, validate, validate_normals
-from derive.schedule import schedule
+from derive.passes.sample import observation
+from derive.passes.schedule import schedule
 
 POINT = "spherical_convex_concave"
 
@@ -109,7 +110,7 @@ def _turned_round(body):
 def _checked(drive):
     plan = schedule(drive)
     with mpmath.workdps(30):
-        validate_normals(drive, newton.observation(plan), plan.sample)
+        validate_normals(drive, observation(plan), plan.sample)
 
 
 @pytest.mark.parametrize("name", [POINT, "spherical_spur_spur", "spherical_concave_concave", "cylindrical_worm_zn_zn",
