@@ -32,10 +32,9 @@ def package():
 
 
 #: In a checkout; the installed package has both among its own files.
-RECORD = ROOT / "generated" / "audit"
-MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
-if not MODEL_HEADER.exists():
-    RECORD, MODEL_HEADER = ROOT / "derive" / "record", package() / "include" / "mw_model.h"
+RECORD, RUNTIME = ROOT / "generated" / "audit", ROOT / "runtime" / "c"
+if not RUNTIME.exists():
+    RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
 def compile_drive(drive, record, log, open_=None):
@@ -51,7 +50,7 @@ def compile_drive(drive, record, log, open_=None):
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
         files = {
-            f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
+            f"c/{drive.name}.h": c99.header(plan, description, RUNTIME),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         }
         files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}

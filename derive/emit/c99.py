@@ -7,7 +7,7 @@ MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums,
 
 from dataclasses import dataclass
 
-from derive.emit import approximation
+from derive.emit import approximation, embedded
 from derive.emit.fusion import fused_products
 from derive.emit.order import Operation, latency_order
 from derive.emit.render import render
@@ -188,8 +188,9 @@ class Leaves:
         )
 
 
-def header(plan: Schedule, description: dict, model_source: str):
-    """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`)."""
+def header(plan: Schedule, description: dict, runtime):
+    """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
+    ``runtime`` the folder of the C runtime."""
     drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
     leaves = Leaves.of(plan)
     design = Printer(tape, prefix, leaves.design, seldom=True)
@@ -207,11 +208,14 @@ def header(plan: Schedule, description: dict, model_source: str):
         drive=drive,
         X=prefix,
         description=description,
-        model_source=model_source,
+        tables=embedded.tables(runtime),
+        solver=embedded.solver(runtime),
+        indices=list(_indices(description)),
         rules=list(_rules(plan)),
         sizes=_from_parameters(drive, plan.sizes).body(plan.sizes.nodes)[0],
         guards=design.body([g.node for g in plan.guards])[0],
         setup=design.body(slots[: plan.design_slots])[0],
+        kept=[f"p[{k}]" for k in range(len(drive.parameters))],
         set_phi=instant.body(slots[plan.design_slots :])[0],
         residual=residual,
         jacobian=jacobian,
@@ -232,6 +236,18 @@ def header(plan: Schedule, description: dict, model_source: str):
         approximation=approximation,
         estrin=estrin,
     )
+
+
+def _indices(description):
+    """Names and values of the index macros: parameters by key, unknowns and outputs by name.
+
+    A key that several tables of a design have is the design's own; that of another table begins with its name.
+    """
+    keys = [p["key"] or p["name"] for p in description["parameters"]]
+    for k, (key, p) in enumerate(zip(keys, description["parameters"], strict=True)):
+        yield f"P_{key if keys.count(key) == 1 or p['table'] == 'design' else p['table'] + '_' + key}", k
+    yield from ((f"U_{u['name']}", k) for k, u in enumerate(description["unknowns"]))
+    yield from ((f"O_{o['name']}", o["offset"]) for o in description["outputs"])
 
 
 def _linearised(printer, residual, jacobian):

@@ -60,7 +60,7 @@ def describe(plan, provenance):
         "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
-            "s": [len(plan.state)],
+            "s": [len(plan.state) + len(drive.parameters)],  # the parameters are kept at its end
             "x": [len(drive.unknowns)],
             "R": [len(drive.unknowns)],
             "J": [len(drive.unknowns)] * 2,
