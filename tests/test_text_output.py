@@ -1,6 +1,7 @@
 """What the commands print for a reader: round-off is no figure, and what is missing has its cause and its remedy."""
 
 import json
+from importlib.resources import files
 
 import pytest
 
@@ -45,14 +46,19 @@ def test_a_number_above_round_off_is_kept():
     assert (shown(2.0 * ROUND_OFF), shown(-0.5 * ROUND_OFF), shown(None)) == ("2e-09", "0", "–")
 
 
-def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys):
-    line = _line(_printed(capsys, "ratio", "zk-zn-60"), "no complete window")
+def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys, tmp_path):
+    packaged = (files("meshwright") / "designs" / "zk-zn-60.toml").read_text(encoding="utf-8")
+    design, _, rest = packaged.partition("[blank]")
+    bare = tmp_path / "bare.toml"
+    bare.write_text(design + rest[rest.index("[contact]") :], encoding="utf-8")
+    line = _line(_printed(capsys, "ratio", str(bare)), "no complete window")
     assert "begins or ends" in line and "[blank]: wheel_tip_radius_mm, wheel_throat_radius_mm" in line
 
 
 def test_contact_beyond_a_limit_everywhere_names_the_limit():
     """At a shaft angle of 120° the wheel is larger than the blank that was meant for 90°."""
-    mesh = Mesh.of(Drive.load("plain-zk").with_(design={"shaft_angle_deg": 120.0}))
+    changes = {"design": {"shaft_angle_deg": 120.0}, "blank": {"wheel_tip_radius_mm": 200.0}}
+    mesh = Mesh.of(Drive.load("plain-zk").with_(**changes))
     assert "beyond the throat of the wheel; change [blank]" in why_open(mesh)
 
 

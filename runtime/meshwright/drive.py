@@ -15,7 +15,9 @@ from meshwright.cycle import contact_ratio, edge, windows
 from meshwright.design import design as designs
 from meshwright.design.design import Design
 from meshwright.flank import grids
+from meshwright.flank.region import region
 from meshwright.flank.surface import Flank
+from meshwright.pattern.used import uses
 
 
 def _compiled(design):
@@ -130,7 +132,16 @@ class Drive:
 
     def surface(self, member, shape=(21, 41), region="flank"):
         """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`."""
-        return grids.grid(self, member, shape, region)
+        return grids.grid(self, member, shape, region, self.uses)
+
+    @cached_property
+    def uses(self):
+        """What contact uses of the flanks: see :class:`~meshwright.flank.region.Uses`."""
+        return uses(self)
+
+    def region(self, member, name="flank"):
+        """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`."""
+        return region(self, member, name, self.uses)
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""
