@@ -143,7 +143,7 @@ def factors(tape, i):
             return factors(tape, node.args[0]) + factors(tape, node.args[1])
         case "neg" | "div":
             return factors(tape, node.args[0])
-        case "const":
+        case "const" | "sign":
             return Counter()
     return Counter({i: 1})
 
@@ -281,7 +281,7 @@ def _reached(tape, order, failing):
     """Node → which conditions change its value where they fail, and which make it certainly infinite or not a number.
 
     ``failing`` lists for each condition the operations that are then not defined; condition k is bit k of a number.
-    A quotient by an infinite number and the angle of an infinite point may be finite; all else passes it on.
+    A quotient by an infinite number, the angle of an infinite point and a sign may be finite; all else passes it on.
     """
     changed, infinite, nan = defaultdict(int), defaultdict(int), defaultdict(int)
     for k, operations in enumerate(failing):
@@ -303,6 +303,8 @@ def _reached(tape, order, failing):
                 passed = infinite[a]  # of (1 − a)(1 + a), −∞ for any infinite a
             case "atan2":
                 pass
+            case "sign":
+                passed = 0
             case _:
                 infinite[i] |= infinite[a] | infinite[b]
         nan[i] |= passed

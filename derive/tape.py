@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
+from derive.language.choice import excess, unit_step
 from derive.language.definitions import Definitions
 from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT
 
@@ -38,7 +39,7 @@ class Node(NamedTuple):
 _COMMUTATIVE = {"add", "mul"}
 
 #: Operations by name: how many arguments each takes.
-OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin": 1, "cos": 1, "atan2": 2}
+OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin": 1, "cos": 1, "atan2": 2, "sign": 1}
 
 
 class Tape:
@@ -215,6 +216,14 @@ class Tape:
     def atan2(self, y, x):
         return self._new("atan2", (y, x))
 
+    def sign(self, a):
+        """−1 below 0, else 1."""
+        if (value := self.const_value(a)) is not None:
+            return self.constant(-1 if value < 0 else 1)
+        if (inner := self._negated(a)) is not None:
+            return self.neg(self.sign(inner))
+        return self._new("sign", (a,))
+
     def power(self, a, n):
         """Integer power by repeated squaring; negative powers divide."""
         if n < 0:
@@ -290,6 +299,8 @@ class Tape:
                 return self.mul(self.cos(a), d[0])
             case "cos":
                 return self.neg(self.mul(self.sin(a), d[0]))
+            case "sign":
+                return self.constant(0)
             case "atan2":
                 square = self.add(self.mul(a, a), self.mul(b, b))
                 return self.div(self.sub(self.mul(b, d[0]), self.mul(a, d[1])), square)
@@ -369,6 +380,7 @@ _ALGEBRA = {
     "mul": operator.mul,
     "div": operator.truediv,
     "neg": operator.neg,
+    "sign": lambda a: -1 if a < 0 else 1,
 }
 
 
@@ -493,10 +505,18 @@ class Lowering:
         return self.tape.atan2(self._complement(a), a)
 
     def _abs(self, a):
-        return self.tape.sqrt(self.tape.mul(a, a))
+        """|a| = a·sign(a): exact, and so is its derivative, which √(a²) does not have at 0."""
+        return self.tape.mul(a, self.tape.sign(a))
+
+    def _step(self, a):
+        t = self.tape
+        return t.mul(t.constant(Fraction(1, 2)), t.add(t.constant(1), t.sign(a)))
 
     _FUNCTIONS = {
+        unit_step: _step,
+        excess: lambda self, a: self.tape.mul(a, self._step(a)),
         sp.Abs: _abs,
+        sp.sign: lambda self, a: self.tape.sign(a),
         sp.sin: lambda self, a: self.tape.sin(a),
         sp.cos: lambda self, a: self.tape.cos(a),
         sp.tan: _tan,

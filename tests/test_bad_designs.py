@@ -29,15 +29,22 @@ CASES = [
     ({"design.pitch_line_shift_mm": 10.0}, ("pitch_line_shift_mm", "10", "groove", "change")),
     ({"design.worm_profile": "ZX"}, ("worm_profile", "ZX", "use")),
     ({"design.worm_profile": "ZK"}, ("grinding_wheel_radius_mm", "without it", "add")),
+    ({"design.grinding_wheel_radius_mm": 60.0}, ("grinding_wheel_radius_mm", "60", "not use it", "ZC, ZK", "remove")),
+    ({"design.hob_profile_arc_radius_mm": 40.0}, ("hob_profile_arc_radius_mm", "40", "not use it", "ZC", "remove")),
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
     ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),
-    ({"design.worm_threads": 10**330}, ("worm_threads", "too large", "smaller")),
+    ({"design.worm_threads": 10**330}, ("worm_threads", "greater than 100000", "smaller")),
     ({"contact.elastic_allowance_mm": -1.0}, ("elastic_allowance_mm", "-1", "not be less than 0", "larger")),
     ({"misalignment": 3.0}, ("misalignment", "3.0", "table", "[misalignment]")),
     ({"name": 3}, ("name", "3", "text", "quotes")),
     ({"drive": ["cylindrical-worm"]}, ("drive", "cylindrical-worm", "no such family", "use one of")),
     ({"blank.worm_tip_radius_mm": 18.0, "blank.worm_root_radius_mm": 18.5}, ("blank.worm_tip_radius_mm", "18", "18.5")),
+    ({"misalignment.vertical_deg": 1e308}, ("misalignment.vertical_deg", "1e+308", "not be greater than 360")),
+    ({"misalignment.center_distance_mm": -1e9}, ("center_distance_mm", "not be less than -100000")),
+    ({"design.wheel_teeth": 10**17}, ("wheel_teeth", "not be greater than 100000")),
+    ({"name": "\x1b[31mred"}, ("name", r"\x1b[31mred", "control characters")),
+    ({"name": "a" * 10_000}, ("name", "a...a", "longer than 200")),
     ({"drive": "cylindrical-wurm"}, ("drive", "cylindrical-wurm", "cylindrical-worm")),
 ]  # fmt: skip
 
@@ -149,3 +156,39 @@ def test_the_program_starts_as_a_process():
     )
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
+
+
+FILES = {
+    "digits": (b"drive = 'x'\nvalue = " + b"9" * 5000, "number that cannot be read"),
+    "nested": (b"x = " + b"[" * 5000 + b"]" * 5000, "nested too deeply"),
+    "carriage-returns": (b"drive = 'x'\rname = 'y'\r", "not a TOML file"),
+    "not-utf-8": (b"name = '\xff\xfe'", "save it as UTF-8"),
+    "long": (b"#" * (design.LARGEST_FILE + 1), "longer than 1048576 bytes"),
+}
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_a_file_that_is_no_design_is_refused(tmp_path, kind):
+    content, words = FILES[kind]
+    (tmp_path / "design.toml").write_bytes(content)
+    with pytest.raises(DesignError, match=words) as caught:
+        design.read(tmp_path / "design.toml")
+    assert len(str(caught.value)) < 600 + len(str(tmp_path))
+
+
+def test_an_endless_file_is_refused():
+    with pytest.raises(DesignError, match="longer than"):
+        design.read("/dev/zero")
+
+
+def test_a_byte_order_mark_is_read_over(tmp_path):
+    (tmp_path / "design.toml").write_bytes(b"\xef\xbb\xbf" + (design.PACKAGED / "plain-za.toml").read_bytes())
+    assert design.read(tmp_path / "design.toml") == design.read("plain-za")
+
+
+def test_no_value_is_echoed_whole_and_none_reaches_the_terminal_as_it_is(capsys):
+    assert main(["tca", "plain-za", "--set", "design.worm_profile=" + "Z" * 10_000]) == 2
+    assert main(["tca", "plain-za", "--set", "x" * 10_000 + ".y=1"]) == 2
+    assert main(["tca", "plain-za", "--set", "design.worm_profile=\x1b[31m"]) == 2
+    shown = capsys.readouterr().err
+    assert len(shown) < 2000 and "\x1b" not in shown

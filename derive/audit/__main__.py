@@ -53,7 +53,9 @@ def _html(generated: Path, output: Path) -> int:
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
-    texts = {name: (generated / name).read_text(encoding="utf-8") for name in named}
+    texts = {
+        name: (generated / name).read_text(encoding="utf-8") for name in named if not name.startswith("audit/")
+    }
     for name, text in record.files(record.ledger(), texts).items():
         replace_text(output / Path(name).name, text)
     print(output / "index.html")

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from derive.audit.check import number_of
+from derive.audit import check
 from derive.prove.statement import Statement
 from derive.prove.tree import Tree, parse, parse_formula
 
@@ -107,27 +107,23 @@ class Claim:
 
 @dataclass(frozen=True)
 class Figure:
-    """A printed number and the formula it should come from, evaluated in double precision.
-
-    Or only its sign, ">0" or "<0".
-    """
+    """A printed number and the formula it should come from, or only its sign, ">0" or "<0"."""
 
     formula: str
     printed: str
     unit: str = ""
 
     @cached_property
+    def enclosed(self) -> check.Ball:
+        return check.number_of(parse_formula(self.formula))
+
+    @property
     def value(self) -> float:
-        return number_of(parse_formula(self.formula), {})
+        return float(self.enclosed.middle)
 
     @property
     def decimals(self) -> int:
         return len(self.printed.partition(".")[2])
-
-    @property
-    def half_unit(self) -> str:
-        """Half a unit of the last printed digit."""
-        return f"5/{10 ** (self.decimals + 1)}"
 
     @property
     def is_sign(self) -> bool:
@@ -135,9 +131,8 @@ class Figure:
 
     @property
     def holds(self) -> bool:
-        if self.is_sign:
-            return (self.value > 0) == (self.printed == ">0")
-        return abs(self.value - float(self.printed)) <= 0.5 / 10**self.decimals + 1e-9
+        """Within half a unit of the last printed digit?"""
+        return check.holds(self.enclosed, self.printed)
 
     def amended(self) -> Figure:
         """The same formula with the number it gives."""

@@ -44,6 +44,8 @@ class Reading:
 
     label: str
     parts: tuple[Judged, ...]
+    texts: tuple = ()
+    """The notation of each part; empty for a correction that was searched for."""
 
     @property
     def outcome(self) -> Outcome:
@@ -108,6 +110,8 @@ def _source(document: Document, claim: Claim | FigureClaim) -> dict:
         "locator": claim.where,
         "verbatim": claim.verbatim,
         "ocr_doubt": getattr(claim, "damage", ""),
+        "reading": claim.read() if isinstance(claim, Claim) and not claim.contradiction else {},
+        "figures": [[figure.formula, figure.printed] for figure in getattr(claim, "figures", ())],
     }
 
 
@@ -128,10 +132,8 @@ def _judge(ledger: Ledger, document: Document, claim: Claim, source: str) -> Ver
 
 
 def _reading(ledger: Ledger, claim: Claim, identifier: str, label: str, texts: Sequence[str], source: str) -> Reading:
-    return Reading(
-        label,
-        tuple(_judge_text(ledger, claim, f"{identifier}/{label}/{k}", text, source) for k, text in enumerate(texts, 1)),
-    )
+    parts = (_judge_text(ledger, claim, f"{identifier}/{label}/{k}", text, source) for k, text in enumerate(texts, 1))
+    return Reading(label, tuple(parts), tuple(texts))
 
 
 def _judge_text(ledger: Ledger, claim: Claim, identifier: str, text: str, source: str) -> Judged:
@@ -152,6 +154,7 @@ def _enter(ledger: Ledger, claim: Claim, statement: Statement, kind: str, source
             "jets": {name: list(statement.jets[name]) for name in statement.used_jets},
             "signs": sorted(statement.signs & set(statement.free_symbols)),
             "side_conditions": list(claim.conditions),
+            "unit": "",
             "sources": [source],
         }
     )
@@ -180,9 +183,8 @@ def _correct(
             claim.scope.statement(f"{identifier}/corrected/{k}", text)
             for k, text in enumerate(as_list(claim.corrected), 1)
         ]
-        return Reading(
-            "corrected", tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)
-        ), ""
+        parts = tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)
+        return Reading("corrected", parts, tuple(as_list(claim.corrected))), ""
     changes, parts = [], []
     for number, part in enumerate(reading.parts, 1):
         if part.outcome is Outcome.PROVED:
@@ -202,10 +204,10 @@ def _correct(
 def _judge_figures(ledger: Ledger, document: Document, claim: FigureClaim, source: str) -> Verdict:
     identifier = f"{document.key}/{claim.key}"
     parts = tuple(
-        _judge_figure(ledger, f"{identifier}/{k}", figure, "printed", source)
+        _judge_figure(ledger, f"{identifier}/{AS_PRINTED}/{k}", figure, "printed", source)
         for k, figure in enumerate(claim.figures, 1)
     )
-    reading = Reading(AS_PRINTED, parts)
+    reading = Reading(AS_PRINTED, parts, _texts(claim.figures))
     if reading.outcome is Outcome.PROVED:
         return Verdict(claim, "proved", (reading,))
     if claim.final or any(part.figure.is_sign for part in parts):
@@ -219,8 +221,13 @@ def _judge_figures(ledger: Ledger, document: Document, claim: FigureClaim, sourc
             _judge_figure(ledger, f"{identifier}/corrected/{k}", figure, "corrected", source)
             for k, figure in enumerate(amended, 1)
         ),
+        _texts(amended),
     )
     return Verdict(claim, status_of(["refuted"], [str(corrected.outcome)], [], damaged=False), (reading,), corrected)
+
+
+def _texts(figures: Sequence[Figure]) -> tuple:
+    return tuple([figure.formula, figure.printed] for figure in figures)
 
 
 def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, source: str) -> Judged:
@@ -234,6 +241,9 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
             "rhs": figure.printed,
             "unit": figure.unit,
             "where": {},
+            "jets": {},
+            "signs": [],
+            "side_conditions": [],
             "sources": [source],
         }
     )
@@ -244,7 +254,6 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
             "equation": equation,
             "outcome": str(outcome),
             "value": f"{figure.value:.9g}",
-            "half_unit": figure.half_unit,
         }
     )
     return Judged(outcome, equation, shown, figure=figure)
@@ -270,5 +279,6 @@ def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
 def _reading_body(reading: Reading) -> dict:
     return {
         "label": reading.label,
+        "texts": list(reading.texts),
         "parts": [{"equation": part.equation, "certificate": part.certificate} for part in reading.parts],
     }

@@ -9,7 +9,7 @@ from functools import cache
 from derive.audit import store
 from derive.audit.documents import face_worm, rack_and_pinion, recess_action, spherical, zk_zn
 from derive.audit.guarded import by_family
-from derive.audit.identities import conventions, cylindrical_worm, derivation, helicoids
+from derive.audit.identities import conventions, cylindrical_gears, cylindrical_worm, derivation, helicoids
 from derive.audit.identities import face_worm as face_worm_drives
 from derive.audit.identities import spherical as spherical_gears
 from derive.audit.ledger import Chapter, Ledger, build
@@ -19,7 +19,9 @@ from derive.audit.pages import pages
 def chapters() -> list[Chapter]:
     """Sources in reading order, then our own identities."""
     sources = (recess_action, rack_and_pinion, zk_zn, spherical, face_worm)
-    identities = (conventions, derivation, helicoids, cylindrical_worm, spherical_gears, face_worm_drives)
+    identities = (
+        conventions, derivation, helicoids, cylindrical_worm, spherical_gears, cylindrical_gears, face_worm_drives
+    )  # fmt: skip
     return [module.CHAPTER for module in (*sources, *identities)]
 
 
@@ -30,12 +32,12 @@ def ledger() -> Ledger:
 
 
 def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
-    """Relative path -> text of everything under audit/. `generated` are the files that the seal names."""
+    """Relative path -> text of everything under audit/. `generated` are the other files, sealed as well."""
     functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
     used = {path: table for path, table in functions.items() if table}
     texts = store.record_files(record) | pages(record, chapters(), used, by_family(generated))
-    texts["artifacts.json"] = store.seal(record, generated)
-    return {f"audit/{name}": text for name, text in texts.items()}
+    written = {f"audit/{name}": text for name, text in texts.items()}
+    return {**written, "audit/artifacts.json": store.seal(record, {**generated, **written})}
 
 
 def functions_of(header: str) -> dict[str, list[str]]:

@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from derive.audit.check import equations_named
 from derive.audit.ledger import Ledger
 from derive.prove.tree import canonical
 
@@ -25,18 +26,15 @@ def record_files(ledger: Ledger) -> dict[str, str]:
 
 
 def seal(ledger: Ledger, files: Mapping[str, str]) -> str:
-    """artifacts.json: the root hash, and per generated file its sha256 and the equations it names."""
+    """artifacts.json: the root hash, and per generated file its sha256 and the equations that a header names."""
     entries = {
-        name: {"sha256": hashlib.sha256(text.encode()).hexdigest(), "equations": equations_named(text)}
+        name: {
+            "sha256": hashlib.sha256(text.encode()).hexdigest(),
+            "equations": equations_named(text) if name.endswith(".h") else [],
+        }
         for name, text in sorted(files.items())
     }
     return json.dumps({"root": ledger.root, "files": entries}, indent=1, sort_keys=True) + "\n"
-
-
-def equations_named(text: str) -> list[str]:
-    """The equation ids in the comment at the top of a generated header."""
-    head = text.partition("*/")[0].partition("Equations (")[2]
-    return [line.strip(" *") for line in head.splitlines()[1:] if line.strip(" *")]
 
 
 def _lines(objects: Iterable[Mapping]) -> str:

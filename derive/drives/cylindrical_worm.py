@@ -6,6 +6,7 @@ the mirror image y → −y. Sources: 000_e4dc51872e8570c2.txt (recess action), 
 003_1b02f86c27c1e1b1.txt (ZK worm, ZN hob).
 """
 
+from dataclasses import replace
 from functools import partial
 
 import sympy as sp
@@ -15,10 +16,10 @@ from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Margin, Region, System, body_point
+from derive.language.drive import Body, Drive, Loading, Margin, Region, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit, merge_sum
 from derive.language.rack_and_pinion import Rack
-from derive.language.symbols import Guard, Quantity, Rule, Table, Unknown, parameter
+from derive.language.symbols import Guard, Rule, Table, Unknown, parameter, rotation_angle
 from derive.tools.axial_blade import axial_blade
 from derive.tools.grinding_arc import grinding_arc
 from derive.tools.grinding_disc import grinding_disc
@@ -46,15 +47,9 @@ shaft_angle = parameter("shaft_angle_deg", "Sigma", "shaft angle", domain=(0, sp
 shift = parameter("pitch_line_shift_mm", "dx", "pitch line below the middle of the blade height", default=0)
 hob_radius = parameter("hob_pitch_radius_mm", "r_hob", "reference radius of the hob", domain=POSITIVE)
 hob_threads = parameter("hob_threads", "T_hob", "threads of the hob", domain=POSITIVE, integer=True)
-wheel_radius = parameter("grinding_wheel_radius_mm", "r_c_worm", "grinding wheel radius of the worm", domain=POSITIVE)
-arc_radius = parameter("profile_arc_radius_mm", "rho_c_worm", "profile arc radius of the worm", domain=POSITIVE)
 hob_pressure_angle = parameter(
     "hob_pressure_angle_deg", "alpha_hob", "pressure angle of the hob's profile", domain=(0, sp.pi / 2)
 )
-hob_wheel_radius = parameter(
-    "hob_grinding_wheel_radius_mm", "r_c_hob", "grinding wheel radius of the hob", domain=POSITIVE
-)
-hob_arc_radius = parameter("hob_profile_arc_radius_mm", "rho_c_hob", "profile arc radius of the hob", domain=POSITIVE)
 hob_lead_angle = parameter("hob_lead_angle_deg", "lambda_hob", "lead angle of the hob", domain=(0, sp.pi / 2))
 center_distance = parameter("center_distance_mm", "A", "centre distance", domain=POSITIVE)
 cutting_distance = parameter("cutting_center_distance_mm", "A_gen", "cutting centre distance", domain=POSITIVE)
@@ -116,22 +111,39 @@ allowance = parameter(
     default=0,
 )
 
-PARAMETERS = (
-    flank, normal_module, axial_module, threads, teeth, lead_angle, pitch_radius, pressure_angle, shaft_angle, shift,
-    hob_radius, hob_threads, wheel_radius, arc_radius, hob_pressure_angle, hob_wheel_radius, hob_arc_radius,
-    hob_lead_angle, center_distance, cutting_distance, cutting_angle,
-    error_distance, error_horizontal, error_vertical, error_axial,
-    wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, hob_rounding, preset, separation,
-    allowance,
-)  # fmt: skip
+
+def _parameters(own):
+    """The parameter vector, with the keys of the two tools' own data."""
+    return (
+        flank, normal_module, axial_module, threads, teeth, lead_angle, pitch_radius, pressure_angle, shaft_angle,
+        shift, hob_radius, hob_threads, *own["worm"].values(), hob_pressure_angle, *own["hob"].values(),
+        hob_lead_angle, center_distance, cutting_distance, cutting_angle,
+        error_distance, error_horizontal, error_vertical, error_axial,
+        wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, hob_rounding, preset, separation,
+        allowance,
+    )  # fmt: skip
+
+
+def _own(worm_tool, hob_tool):
+    """The keys of the tools' own data, by body and datum: the hob's begin with ``hob_``.
+
+    The worm's keys are those of either tool, as the hob's data are the worm's unless a design says otherwise.
+    """
+    return {
+        "worm": {d: d.parameter("worm") for d in dict.fromkeys((*worm_tool.data, *hob_tool.data))},
+        "hob": {d: replace(d, default=None, required=False).parameter("hob", "hob_") for d in hob_tool.data},
+    }
+
+
+def _follow(own):
+    """The hob's own data are the worm's."""
+    return tuple(Rule(p.symbol, own["worm"][datum].symbol) for datum, p in own["hob"].items())
+
 
 s, m_n, m_x, T_1, T_2 = (q.symbol for q in (flank, normal_module, axial_module, threads, teeth))
 lam, r_1, alpha, Sigma = (q.symbol for q in (lead_angle, pitch_radius, pressure_angle, shaft_angle))
 r_h, T_h, lam_h, alpha_h = (q.symbol for q in (hob_radius, hob_threads, hob_lead_angle, hob_pressure_angle))
 A, A_gen, Sigma_gen = (q.symbol for q in (center_distance, cutting_distance, cutting_angle))
-
-#: Design keys of the data that only some tools need.
-REQUIRED = {"grinding_wheel_radius": wheel_radius.key, "profile_arc_radius": arc_radius.key}
 
 #: Derived sizes that every formula shares.
 p_1 = r_1 * sp.tan(lam)
@@ -149,8 +161,6 @@ RULES = (
     Rule(T_h, T_1),
     Rule(lam_h, sp.asin(m_n * T_h / (2 * r_h))),
     Rule(alpha_h, alpha),
-    Rule(hob_wheel_radius.symbol, wheel_radius.symbol),
-    Rule(hob_arc_radius.symbol, arc_radius.symbol),
     Rule(A, r_1 + r_2),
     Rule(A_gen, A + r_h - r_1),
     Rule(Sigma_gen, Sigma + lam - lam_h),
@@ -195,10 +205,10 @@ SIZES = (
 )  # fmt: skip
 
 
-def _threaded_body(name, radius, lead, angle, disc, arc):
+def _threaded_body(name, radius, lead, angle, own):
     return WormBody(
         name=name,
-        turn=Quantity(f"psi_{name}", "rad", f"screw angle of the {name} flank", name),
+        turn=rotation_angle(f"psi_{name}", f"screw angle of the {name} flank", name),
         module=m_n,
         pitch_radius=radius,
         lead_angle=lead,
@@ -206,10 +216,9 @@ def _threaded_body(name, radius, lead, angle, disc, arc):
         pressure_angle=angle,
         groove_width=groove_width,
         flank=s,
-        grinding_wheel_radius=disc.symbol,
-        profile_arc_radius=arc.symbol,
         tip_addendum=hob_tip.symbol,
         tip_rounding=hob_rounding.symbol,
+        own={datum: p.symbol for datum, p in own[name].items()},
     )
 
 
@@ -231,12 +240,16 @@ def mounting(phi_2):
 
 def helicoids(worm_profile, hob_profile, definitions):
     """The worm and the hob: flanks of the same kind, each with its own data."""
-    worm = _threaded_body("worm", r_1, lam, alpha, wheel_radius, arc_radius)
-    return TOOLS[worm_profile](worm, definitions), TOOLS[hob_profile](_hob(), definitions)
+    own = _own(TOOLS[worm_profile], TOOLS[hob_profile])
+    return TOOLS[worm_profile](_worm(own), definitions), TOOLS[hob_profile](_hob(own), definitions)
 
 
-def _hob():
-    return _threaded_body("hob", r_h, lam_h, alpha_h, hob_wheel_radius, hob_arc_radius)
+def _worm(own):
+    return _threaded_body("worm", r_1, lam, alpha, own)
+
+
+def _hob(own):
+    return _threaded_body("hob", r_h, lam_h, alpha_h, own)
 
 
 #: Statements of the audit record about the wheel of any hob.
@@ -248,18 +261,20 @@ HOBBED = tuple(
 def cylindrical_worm(worm_profile, hob_profile):
     """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC")."""
     definitions = Definitions()
-    phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
-    error = Quantity("transmission_error", "rad", "wheel angle less ratio times worm angle", "f")
+    phi_1 = rotation_angle("phi_worm", "angle of the worm in mesh", "f")
+    error = rotation_angle("transmission_error", "wheel angle less ratio times worm angle", "f")
     ratio = definitions.let("ratio", T_1 / T_2, "T1/T2")
     phi_2 = ratio * phi_1 + error
 
-    worm, hob = helicoids(worm_profile, hob_profile, definitions)
-    phi_h = Quantity("phi_hob", "rad", "angle of the hob in cutting", "gen")
+    worm_tool, hob_tool = TOOLS[worm_profile], TOOLS[hob_profile]
+    own = _own(worm_tool, hob_tool)
+    worm, hob = worm_tool(_worm(own), definitions), hob_tool(_hob(own), definitions)
+    phi_h = rotation_angle("phi_hob", "angle of the hob in cutting", "gen")
     wheel, psi = _hobbed(hob.flank, phi_h)
     psi_h = hob.flank.parameters[1]
-    phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen")
-    rounding = tip_rounding(hob, _hob(), definitions)
-    fillet, _ = _hobbed(rounding.surface, Quantity("phi_round_hob", "rad", "angle of the hob in cutting", "gen"))
+    phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen", parity=-1)
+    rounding = tip_rounding(hob, _hob(own), definitions)
+    fillet, _ = _hobbed(rounding.surface, rotation_angle("phi_round_hob", "angle of the hob in cutting", "gen"))
 
     t_w, psi_w = worm.flank.parameters
     t_h = hob.parameter
@@ -287,8 +302,8 @@ def cylindrical_worm(worm_profile, hob_profile):
         name=_name(worm_profile, hob_profile),
         family="cylindrical-worm",
         title=f"{worm_profile} worm with a wheel cut by a {hob_profile} hob",
-        parameters=PARAMETERS,
-        rules=RULES,
+        parameters=_parameters(own),
+        rules=(*RULES, *_follow(own), *worm.rules, *hob.rules),
         guards=GUARDS + _profile_guards(worm, hob),
         sizes=SIZES,
         instant=phi_1,
@@ -305,7 +320,7 @@ def cylindrical_worm(worm_profile, hob_profile):
         definitions=definitions,
         start=_start(worm, hob, psi, phi_1, phi_h, error, definitions),
         guess={t_w: worm.pitch_point, t_h: hob.pitch_point},
-        sample=SAMPLE,
+        sample=SAMPLE | worm_tool.sample | hob_tool.sample,
         sample_angle=1.0,
         pinion_teeth=threads.key,
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
@@ -313,7 +328,11 @@ def cylindrical_worm(worm_profile, hob_profile):
         functions=generation_functions(
             worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered
         ),
-        required=tuple(sorted({REQUIRED[word] for word in worm.required + hob.required})),
+        tools=(
+            ToolUse("worm", worm_profile, worm_tool, tuple(own["worm"][d].key for d in worm_tool.data)),
+            ToolUse("hob", hob_profile, hob_tool, tuple(own[b][d].key for d in hob_tool.data for b in ("worm", "hob"))),
+        ),
+        loading=Loading(pairs=5, torque_on="wheel"),
         handed=True,
         exclusive=(
             (normal_module.key, axial_module.key),
@@ -337,7 +356,7 @@ def _fillet_regular(rounding):
 
 
 def _fillet_margins(rounding):
-    return Margin("", "bottom", rounding.turn), Margin("", "junction", rounding.before_flank)
+    return Margin("", "bottom", rounding.turn), Margin("", "junction", rounding.before_flank, joins="flank")
 
 
 def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
@@ -371,7 +390,7 @@ def _worm_margins(point, worm):
     return (
         Margin("off_tip", "tip", worm_tip.symbol - radius),
         Margin("off_root", "root", radius - worm_root.symbol),
-        *_regression(worm),
+        *worm.margins,
     )
 
 
@@ -384,14 +403,10 @@ def _wheel_margins(point, hob, psi, definitions):
         Margin("off_tip", "tip", wheel_tip.symbol - radius),
         Margin("off_tip", "throat", v.radius(height, z) - throat),
         Margin("off_face", "face", face_width.symbol / 2 - sp.Abs(z)),
-        Margin("off_tool", "tool_end", hob.tip_margin),
+        Margin("off_tool", "tool_end", hob.tip_margin, joins="fillet"),
         Margin("spurious_sheet", "spurious_sheet", n_x, relative=True),
-        *_regression(hob),
+        *hob.margins,
     )
-
-
-def _regression(tool):
-    return () if tool.regular is None else (tool.regular,)
 
 
 def _profile_guards(worm, hob):
@@ -420,5 +435,4 @@ def _name(worm_profile, hob_profile):
 SAMPLE = {
     "flank": 1, "normal_module_mm": 2, "worm_threads": 1, "wheel_teeth": 277, "worm_lead_angle_deg": 3,
     "pressure_angle_deg": 10, "pitch_line_shift_mm": 4, "hob_pitch_radius_mm": 20,
-    "grinding_wheel_radius_mm": 60, "profile_arc_radius_mm": 40,
 }  # fmt: skip

@@ -4,7 +4,7 @@ from derive.language import rack_and_pinion as rp
 from derive.language import vectors as v
 from derive.language.functions import Function, Result
 from derive.language.origin import joined
-from derive.language.symbols import Quantity
+from derive.language.symbols import Quantity, rotation_angle
 
 #: The rack's equation of meshing is the one in space.
 MESHING = "rack-and-pinion/rack-form"
@@ -89,7 +89,7 @@ def _section(rack, t):
 
 
 def _worm_point(rack, t):
-    turn = Quantity("psi_given", "rad", "screw angle of a given point of the hob flank", "hob")
+    turn = rotation_angle("psi_given", "screw angle of a given point of the hob flank", "hob")
     return Function(
         "worm_point",
         "the two rack angles at which a given point of the hob flank touches the wheel; right angles only",

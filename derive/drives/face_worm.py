@@ -16,12 +16,23 @@ from derive.language import vectors as v
 from derive.language.chain import Ry, Rz, placement, station, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import PATH, Body, DesignSystem, Drive, Margin, Region, System, body_point
+from derive.language.drive import (
+    PATH,
+    Body,
+    DesignSystem,
+    Drive,
+    Loading,
+    Margin,
+    Region,
+    Role,
+    System,
+    body_point,
+)
 from derive.language.envelope import envelope, nearest_turn
 from derive.language.origin import Origin
 from derive.language.replace import replaced
 from derive.language.surface import Surface
-from derive.language.symbols import Guard, Quantity, Rule, Unknown
+from derive.language.symbols import Guard, Quantity, Rule, Unknown, rotation_angle
 from derive.tools.conical_hob import conical_hob
 from derive.tools.head_cutter import HeadCutter
 
@@ -67,8 +78,8 @@ class HobCut:
 def hob_cut(definitions):
     """The hob turns by ψ about its axis at (L, E_m, 0), the blank by ψ·N1/N2 about z."""
     u = Quantity("u_hob", "mm", "along the hob's profile from the pitch cone", "hob")
-    theta = Quantity("theta_hob", "rad", "screw angle of the hob flank", "hob")
-    psi = Quantity("psi_hob", "rad", "angle of the hob in cutting", "gen")
+    theta = rotation_angle("theta_hob", "screw angle of the hob flank", "hob")
+    psi = rotation_angle("psi_hob", "angle of the hob in cutting", "gen")
     hob = conical_hob(
         definitions, along=u, sweep=theta, phase=k.hob_phase.symbol, pitch_radius=r_p, screw_parameter=p_1,
         cone_angle=cone, profile_angle=alpha, flank=s,
@@ -210,19 +221,19 @@ def face_worm():
     x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
     installed = placement(x_g, y_g, z_g, k.symbols(k.origin))
 
-    phi_1 = Quantity("phi_worm", "rad", "angle of the worm in mesh", "f")
-    error = Quantity("transmission_error", "rad", "gear angle less ratio times worm angle", "f")
+    phi_1 = rotation_angle("phi_worm", "angle of the worm in mesh", "f")
+    error = rotation_angle("transmission_error", "gear angle less ratio times worm angle", "f")
     phi_2 = ratio * phi_1 + error
 
     # The gear is the copy of the head-cutter.
     u_g = Quantity("u_gear", "mm", "along the blade, to the tip of the gear tooth", "tool")
-    theta_g = Quantity("theta_gear", "rad", "around the head-cutter's axis", "tool")
+    theta_g = rotation_angle("theta_gear", "around the head-cutter's axis", "tool")
     gear = cutter.edge(u_g, theta_g).placed(installed)
 
     # The worm is enveloped by the same tool on a cradle, with a parabolic blade and a parabolic plunge.
     u_w = Quantity("u_worm", "mm", "along the worm's blade", "tool")
-    theta_w = Quantity("theta_worm", "rad", "around the axis of the worm's head-cutter", "tool")
-    psi = Quantity("psi_worm", "rad", "angle of the worm in cutting", "gen")
+    theta_w = rotation_angle("theta_worm", "around the axis of the worm's head-cutter", "tool")
+    psi = rotation_angle("psi_worm", "angle of the worm in cutting", "gen")
     blade = cutter.edge(u_w, theta_w, parabola=k.blade_parabola.symbol).placed(installed)
     worm = envelope(blade, _cradle(psi), psi).on("face-worm/eq-10")
 
@@ -287,6 +298,8 @@ def face_worm():
         sample=k.SAMPLE,
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
+        together=tuple(tuple(f"{p.table.value}.{p.key}" for p in group) for group in k.TOGETHER),
+        loading=Loading(pairs=5, torque_on="wheel"),
         ascending_path=True,
         flanks_apart=True,
         absorbs_errors=True,
@@ -322,12 +335,12 @@ def _wheel_margins(point, u_g, cutter):
     return (
         Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in)),
         Margin("off_tip", "tip", k.addendum.symbol - u_g * sp.cos(alpha_g)),
-        Margin("off_root", "root", u_g - cutter.junction),
+        Margin("off_root", "root", u_g - cutter.junction, Role.JUNCTION, joins="fillet"),
     )
 
 
 def _fillet_margins(lam, cutter):
-    return Margin("", "bottom", lam), Margin("", "junction", cutter.fillet_end - lam)
+    return Margin("", "bottom", lam), Margin("", "junction", cutter.fillet_end - lam, joins="flank")
 
 
 def _start(worm, phi_1, u_g, theta_g, error, definitions):

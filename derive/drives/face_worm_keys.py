@@ -110,6 +110,9 @@ PARAMETERS = (
     error_offset, error_axial, error_angle, addendum, separation,
 )  # fmt: skip
 
+#: Keys of which a design gives all or none: the axes of the head-cutter are a frame only together.
+TOGETHER = ((*axis_x, *axis_y, *axis_z),)
+
 #: A standard design: 0.4 mm rounding at an axial module of 1.334 mm, depth 1.25 modules, addendum 1 module.
 RULES = (
     Rule(addendum.symbol, axial_module.symbol),

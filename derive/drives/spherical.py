@@ -17,12 +17,12 @@ from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Margin, Region, System, body_point
+from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit
 from derive.language.replace import replaced
 from derive.language.surface import Surface
-from derive.language.symbols import Guard, Quantity, Unknown
-from derive.tools.rack_section import SWEEPS, RackBody, RackTool
+from derive.language.symbols import Guard, Unknown, rotation_angle
+from derive.tools.rack_section import SPHERE_RADIUS, SWEEPS, RackBody, RackTool
 
 s, m, alpha = k.flank.symbol, k.module.symbol, k.pressure_angle.symbol
 dC, dh, dv = k.error_distance.symbol, k.error_horizontal.symbol, k.error_vertical.symbol
@@ -50,7 +50,7 @@ def _tooth(gear, form, definitions):
             half_space=gear.half_space.symbol,
             tip_radius=gear.cutter_tip_radius.symbol,
             flank=s,
-            sphere_radius=gear.sphere_radius.symbol,
+            own={datum: p.symbol for datum, p in gear.own(SWEEPS[form]).items()},
         ),
         definitions,
     )
@@ -61,7 +61,7 @@ def _tooth(gear, form, definitions):
 
 def _rolled(cutter, gear, angle):
     """The envelope of a cutter's surface on the gear that rolls on it, and the turn of the gear in generation."""
-    phi = Quantity(angle, "rad", f"turn of the {gear.name} in generation", "gen")
+    phi = rotation_angle(angle, f"turn of the {gear.name} in generation", "gen")
     rolling = Rz(phi) @ translation(x=gear.pitch_radius, y=-gear.pitch_radius * phi)
     surface, solved = explicit(envelope(cutter, rolling, phi))
     proved = (f"spherical_gears/{key}" for key in ("meshing", "explicit", "tangent", "undercut"))
@@ -71,8 +71,8 @@ def _rolled(cutter, gear, angle):
 def spherical(pinion_form, wheel_form):
     """The pair of gears of these forms ("convex", "concave", "spur")."""
     definitions = Definitions()
-    phi_1 = Quantity("phi_pinion", "rad", "angle of the pinion in mesh", "f")
-    error = Quantity("transmission_error", "rad", "wheel angle less ratio times pinion angle", "f")
+    phi_1 = rotation_angle("phi_pinion", "angle of the pinion in mesh", "f")
+    error = rotation_angle("transmission_error", "wheel angle less ratio times pinion angle", "f")
     ratio = definitions.let("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "T1/T2")
     phi_2 = ratio * phi_1 + error
 
@@ -89,7 +89,7 @@ def spherical(pinion_form, wheel_form):
         name=_name(pinion_form, wheel_form),
         family="spherical",
         title=f"{pinion_form} pinion with a {wheel_form} wheel",
-        parameters=k.PARAMETERS,
+        parameters=k.parameters(SWEEPS[pinion_form], SWEEPS[wheel_form]),
         rules=k.RULES,
         guards=_guards(pinion_tooth) + _guards(wheel_tooth),
         sizes=_sizes(definitions, pinion_tooth, wheel_tooth),
@@ -109,8 +109,11 @@ def spherical(pinion_form, wheel_form):
         sample_angle=0.03,
         pinion_teeth=PINION.teeth.key,
         variant={"pinion_form": pinion_form, "wheel_form": wheel_form},
-        required=tuple(t.gear.sphere_radius.key for t in teeth if t.tool.arc_radius is not None),
-        excluded=tuple(t.gear.sphere_radius.key for t in teeth if t.tool.arc_radius is None),
+        tools=tuple(
+            ToolUse(gear.name, form, SWEEPS[form], tuple(p.key for p in gear.own(SWEEPS[form]).values()))
+            for gear, form in ((PINION, pinion_form), (WHEEL, wheel_form))
+        ),
+        loading=Loading(pairs=3, torque_on="pinion"),
     )
 
 
@@ -164,13 +167,13 @@ def _margins(tooth):
         Margin("off_tip", "tip", tip_radius - v.radius(x, y)),
         Margin("off_face", "face", gear.face_width.symbol / 2 - sp.Abs(z)),
         Margin("off_tool", "tool_end", tool.edge_length - tool.along),
-        Margin("off_tool", "root", tool.along),
+        Margin("off_tool", "root", tool.along, Role.JUNCTION, joins="fillet"),
     )
 
 
 def _fillet_margins(tooth):
     turn = tooth.fillet.parameters[0]
-    return Margin("", "junction", turn), Margin("", "bottom", sp.pi / 2 - alpha - turn)
+    return Margin("", "junction", turn, joins="flank"), Margin("", "bottom", sp.pi / 2 - alpha - turn)
 
 
 def _guards(tooth):
@@ -201,7 +204,7 @@ def _guards(tooth):
             radius - a - face / 2,
             f"the arc of the {gear.name} does not reach the face: half the face width plus the edge offset must be "
             "below the sphere radius",
-            (gear.sphere_radius.key, gear.face_width.key, gear.edge_offset.key),
+            (f"{gear.name}_{SPHERE_RADIUS.key}", gear.face_width.key, gear.edge_offset.key),
         ),
     )
 

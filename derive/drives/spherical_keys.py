@@ -54,7 +54,6 @@ class Gear:
 
     name: str
     teeth: Parameter
-    sphere_radius: Parameter
     face_width: Parameter
     edge_offset: Parameter
     half_space: Parameter
@@ -71,7 +70,6 @@ class Gear:
             name,
             parameter(f"{name}_teeth", f"T_{number}", f"teeth of the {name}", domain=POSITIVE, integer=True,
                       required=True),
-            length("sphere_radius_mm", "R", "radius of the cutter's arc (convex or concave)"),
             length("face_width_mm", "F", "face width"),
             length("edge_offset_mm", "a", "edge offset"),
             length("half_space_mm", "b", "half width of the rack's space"),
@@ -79,9 +77,13 @@ class Gear:
             length("tip_addendum_mm", "h", "tip of the blank beyond the pitch circle at mid face", Table.BLANK),
         )  # fmt: skip
 
-    @property
-    def parameters(self):
-        return (self.teeth, self.sphere_radius, self.face_width, self.edge_offset, self.half_space,
+    def own(self, tool):
+        """The keys of the data that the gear's tool has of its own, by datum."""
+        return {datum: datum.parameter(self.name, f"{self.name}_") for datum in tool.data}
+
+    def parameters(self, tool):
+        """The gear's share of the parameter vector, cut by this tool."""
+        return (self.teeth, *self.own(tool).values(), self.face_width, self.edge_offset, self.half_space,
                 self.cutter_tip_radius, self.tip_addendum)  # fmt: skip
 
     @property
@@ -111,10 +113,15 @@ class Gear:
 
 PINION, WHEEL = Gear.of("pinion", 1), Gear.of("wheel", 2)
 
-PARAMETERS = (
-    flank, module, pressure_angle, face_width, edge_offset, half_space, *PINION.parameters, *WHEEL.parameters,
-    error_distance, error_horizontal, error_vertical, separation, limit,
-)  # fmt: skip
+
+def parameters(pinion_tool, wheel_tool):
+    """The parameter vector of a pair cut by these tools."""
+    return (
+        flank, module, pressure_angle, face_width, edge_offset, half_space,
+        *PINION.parameters(pinion_tool), *WHEEL.parameters(wheel_tool),
+        error_distance, error_horizontal, error_vertical, separation, limit,
+    )  # fmt: skip
+
 
 RULES = (
     Rule(edge_offset.symbol, module.symbol),

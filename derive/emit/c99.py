@@ -122,6 +122,8 @@ class Printer:
                 value = f"-{args[0]}"
             case "sqrt":
                 value = f"sqrt({args[0]})"
+            case "sign":
+                value = f"MW_SIGN({args[0]})"
             case "atan2":
                 value = f"{self.prefix}_atan2({args[0]}, {args[1]})"
             case op:

@@ -21,6 +21,10 @@ class _Symbolic:
         partial(casadi.SX.unary, code) for code in (casadi.OP_NEG, casadi.OP_SQRT, casadi.OP_SIN, casadi.OP_COS)
     )
 
+    @staticmethod
+    def sign(a):
+        return 1 - 2 * (a < 0)
+
 
 def function(plan):
     """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards, rules.

@@ -35,11 +35,16 @@ def describe(plan, provenance):
         **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
         "unknowns": [_name(u.symbol) for u in drive.unknowns],
-        "parameters": [_parameter(p) for p in drive.parameters],
+        "parameters": [_parameter(drive, p) for p in drive.parameters],
+        "quantities": _quantities(drive),
+        "tools": [
+            {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
+            for use in drive.tools
+        ],
+        "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
-        "required": list(drive.required),
-        "excluded": list(drive.excluded),
+        "together": [list(group) for group in drive.together],
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,
         "absorbs_errors": drive.absorbs_errors,
@@ -147,7 +152,22 @@ def _float(expression):
     return float(mpmath.mpf(expression.evalf(30)))
 
 
-def _parameter(p):
+def _quantities(drive):
+    """What is known of every number of a surface, a contact or a function, by name: unit, frame, meaning, parity."""
+    symbols = [drive.instant, *(u.symbol for u in drive.unknowns)]
+    symbols += [q for body in drive.bodies for q in body.recovered]
+    symbols += [q for region in drive.regions for q in region.surface.parameters]
+    symbols += [q for function in drive.functions for q in function.arguments]
+    return {
+        q.name: {"unit": q.unit, "frame": q.frame, "meaning": q.meaning, "parity": q.parity} for q in symbols
+    }
+
+
+def _margins(margins):
+    return [{"flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins} for m in margins]
+
+
+def _parameter(drive, p):
     return {
         "name": p.symbol.name,
         "unit": p.symbol.unit,
@@ -163,6 +183,7 @@ def _parameter(p):
         "integer": p.integer,
         "required": p.required,
         "choices": {word: value for word, value in p.choices},
+        "tools": [use.word for use in drive.tools if p.key in use.keys],
     }
 
 
@@ -195,7 +216,7 @@ def _region(scheduled, region):
         "region": region.name,
         "parameters": [p.name for p in scheduled.parameters],
         "conditions": sum(o.name.endswith("_slopes") for o in scheduled.outputs),
-        "margins": [{"flag": m.flag, "event": m.event} for m in region.margins],
+        "margins": _margins(region.margins),
         "lengthwise": region.lengthwise,
         "outputs": sum(len(o.nodes) for o in scheduled.outputs),
     }
@@ -238,7 +259,7 @@ def _body(plan, body, offsets):
         "at": places.at,
         "regular": places.singular,
         "margin": places.singular + 1,
-        "margins": [{"flag": m.flag, "event": m.event} for m in body.margins],
+        "margins": _margins(body.margins),
         "lengthwise": body.lengthwise,
         "recovered": [s.name for s in body.recovered],
         "outputs": sum(len(o.nodes) for o in flank.outputs),

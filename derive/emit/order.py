@@ -10,10 +10,12 @@ from collections import Counter
 from dataclasses import dataclass
 
 #: Cycles until a result can be used, on a current desktop or server processor; only the proportions matter.
-_LATENCY = {"add": 4, "sub": 4, "mul": 4, "div": 24, "sqrt": 30, "neg": 1, "sin": 56, "cos": 56, "atan2": 120}
+_LATENCY = {
+    "add": 4, "sub": 4, "mul": 4, "div": 24, "sqrt": 30, "neg": 1, "sign": 4, "sin": 56, "cos": 56, "atan2": 120,
+}  # fmt: skip
 
 #: Operations behind one node, where it is more than one; sine and cosine of one argument come together.
-_OPERATIONS = {"div": 3, "sqrt": 3, "sin": 44, "cos": 44, "atan2": 40}
+_OPERATIONS = {"div": 3, "sqrt": 3, "sign": 2, "sin": 44, "cos": 44, "atan2": 40}
 
 #: Operations started in one cycle.
 _WIDTH = 2

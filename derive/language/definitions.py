@@ -32,15 +32,16 @@ class Definitions:
         """The :class:`~derive.language.origin.Origin` given with a name, or None."""
         return self._origins.get(symbol)
 
-    def let(self, name, value, meaning="", unit="", frame="", origin=None):
+    def let(self, name, value, meaning="", unit="", frame="", origin=None, parity=1):
         """Name a value; numbers and single symbols need no name and are returned as they are.
 
-        ``origin`` says which statement of the record tells where the value exists.
+        ``origin`` says which statement of the record tells where the value exists, ``parity`` what a mirror image does
+        to the value (see :class:`~derive.language.symbols.Quantity`).
         """
         value = sp.sympify(value)
         if value.is_Number or value.is_Symbol:
             return value
-        symbol = Quantity(name, unit, meaning, frame)
+        symbol = Quantity(name, unit, meaning, frame, parity=parity)
         known = self._values.setdefault(symbol, value)
         if known != value:
             raise ValueError(f"the name {name!r} is already used for another expression")

@@ -1,6 +1,7 @@
 """What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
 
 from dataclasses import dataclass, field
+from enum import Enum
 
 import sympy as sp
 
@@ -9,6 +10,26 @@ from derive.language.definitions import Definitions
 from derive.language.functions import Function
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
+from derive.language.tool import Tool
+
+
+class Role(Enum):
+    """What part of a tooth, or of its generation, ends a surface at a margin.
+
+    The blank ends it at tip, throat, face and root; the tool where its edge ends, where the next region joins it, or at
+    the bottom of the space; the generation by an undercut, an edge of regression or another sheet of the surface.
+    """
+
+    TIP = "tip"
+    THROAT = "throat"
+    FACE = "face"
+    ROOT = "root"
+    TOOL_END = "tool_end"
+    JUNCTION = "junction"
+    BOTTOM = "bottom"
+    UNDERCUT = "undercut"
+    REGRESSION = "regression"
+    SPURIOUS_SHEET = "spurious_sheet"
 
 
 @dataclass(frozen=True)
@@ -19,14 +40,21 @@ class Margin:
     key is not given is "not a number" and never raises its flag. ``event`` is the word by which a contact window
     that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
     reference point, for functions whose sign has no meaning of its own. With ``along``, a surface parameter, the
-    limit is where ``positive`` stops growing along it.
+    limit is where ``positive`` stops growing along it. ``role`` is what ends the surface here, by default what the
+    event says; ``joins`` names the region of the same member that goes on beyond the limit.
     """
 
     flag: str
     event: str
     positive: sp.Expr
+    role: Role | None = None
     relative: bool = False
     along: Quantity | None = None
+    joins: str = ""
+
+    def __post_init__(self):
+        if self.role is None:
+            object.__setattr__(self, "role", Role(self.event))
 
 
 @dataclass(frozen=True)
@@ -119,14 +147,45 @@ class Region:
 
 
 @dataclass(frozen=True)
+class Source:
+    """What a drive's page follows: author, title, year, and where in it."""
+
+    author: str
+    title: str
+    year: int
+    where: str = ""
+
+
+@dataclass(frozen=True)
+class ToolUse:
+    """A tool as a drive uses it: for which body, under which word of the design file, with which design keys."""
+
+    body: str
+    word: str
+    tool: Tool
+    keys: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Loading:
+    """How the drive is loaded: how many tooth pairs can share the load, and the member whose torque is stated."""
+
+    pairs: int
+    torque_on: str
+
+
+@dataclass(frozen=True)
 class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
     ``variant`` are the words of the design file that choose this drive within its family; a key in
     ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
     mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
-    ``exclusive`` a design gives exactly one key; ``required`` are keys without which this variant cannot be made,
-    ``excluded`` keys that mean nothing for it.
+    ``exclusive`` a design gives exactly one key; of each group in ``together`` ("table.key") all or none. ``tools`` are
+    the generating tools with the keys of their own.
+    ``reference_angle`` (rad, of the design) is the input angle at which the relative transmission error is zero.
+    ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
+    contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     ``absorbs_errors``: its transmission error is designed as a parabola, whose extreme at an end of contact means that
@@ -158,14 +217,18 @@ class Drive:
     variant_defaults: dict = field(default_factory=dict)
     handed: bool = False
     exclusive: tuple[tuple[str, ...], ...] = ()
-    required: tuple[str, ...] = ()
-    excluded: tuple[str, ...] = ()
+    together: tuple[tuple[str, ...], ...] = ()
     systems: tuple[DesignSystem, ...] = ()
     regions: tuple[Region, ...] = ()
     ascending_path: bool = False
     flanks_apart: bool = False
     absorbs_errors: bool = False
     functions: tuple[Function, ...] = ()
+    tools: tuple[ToolUse, ...] = ()
+    reference_angle: sp.Expr = sp.S.Zero
+    proportions: tuple[Rule, ...] = ()
+    loading: Loading | None = None
+    sources: tuple[Source, ...] = ()
 
     @property
     def bodies(self):

@@ -47,7 +47,7 @@ def merge_sum(surface, kept, removed, name, meaning):
 
     Legal for any surface; worth doing where a rotation angle is that sum.
     """
-    total = Quantity(name, removed.unit, meaning, removed.frame)
+    total = Quantity(name, removed.unit, meaning, removed.frame, parity=removed.parity)
     value = total - kept
     parameters = tuple(total if p == removed else p for p in surface.parameters)
     return substitute(replace(surface, parameters=parameters), {removed: value}).on("derivation/merge-sum"), total
@@ -83,7 +83,9 @@ def explicit(surface):
             continue
         solution = -replaced(condition, {parameter: sp.Integer(0)}) / slope
         origin = Origin(EXPLICIT, f"slope of the equation of meshing in {parameter}")
-        named = surface.definitions.let(parameter.name, solution, parameter.meaning, parameter.unit, origin=origin)
+        named = surface.definitions.let(
+            parameter.name, solution, parameter.meaning, parameter.unit, origin=origin, parity=parameter.parity
+        )
         remaining = tuple(p for p in surface.parameters if p != parameter)
         done = replace(surface, parameters=remaining, conditions=tuple(others))
         return substitute(done, {parameter: named}).on(EXPLICIT), Solved(named, solution, slope)
@@ -99,7 +101,9 @@ def explicit_angle(surface, angle, sign):
     a, b = _direction(condition, angle)
     origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
     turn = v.arc(-sign * a, sign * b)
-    named = surface.definitions.let(angle.name, turn, angle.meaning, angle.unit, origin=origin)
+    named = surface.definitions.let(
+        angle.name, turn, angle.meaning, angle.unit, origin=origin, parity=angle.parity
+    )
     remaining = tuple(p for p in surface.parameters if p != angle)
     return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
         "derivation/explicit-angle"

@@ -16,7 +16,7 @@ from derive.language.envelope import envelope, in_turn, merge_sum
 from derive.language.functions import both_turns
 from derive.language.replace import replaced
 from derive.language.surface import Surface
-from derive.language.symbols import Quantity
+from derive.language.symbols import rotation_angle
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def meshing(rack, psi, turn):
     Derived from the chain: hob turns by φ, blank by I φ about minus its axis.
     """
     turn_of_flank = rack.flank.parameters[1]
-    phi = Quantity("phi_rack", "rad", "angle of the worm or hob")
+    phi = rotation_angle("phi_rack", "angle of the worm or hob")
     chain = (
         Rz(rack.ratio * phi) @ Rx(rack.shaft_angle) @ translation(x=-rack.center_distance) @ Rz(phi)
     )
@@ -65,7 +65,7 @@ def contacts_of_worm_point(rack, turn):
 
     a cos ψ + b sin ψ = c: two contacts a revolution, one at a limit point of the second type, none beyond.
     """
-    psi = Quantity("psi_rack", "rad", "rack angle")
+    psi = rotation_angle("psi_rack", "rack angle")
     right_angle = replace(rack, shaft_angle=sp.pi / 2)
     return both_turns(*in_turn(meshing(right_angle, psi, turn), psi))
 
@@ -76,7 +76,7 @@ def second_type_angles(rack):
     There the two contacts of a worm point fall together (∂f/∂φ = 0 at fixed (t, λ)): the boundary of the region of
     worm points that ever touch. Moment of the normal about the parallel to the worm axis through that point.
     """
-    psi = Quantity("psi_rack", "rad", "rack angle")
+    psi = rotation_angle("psi_rack", "rack angle")
     section, normal = rack.flank.point, rack.flank.normal
     about_worm_axis = v.dot(normal, v.cross(v.K, section))
     transverse = Rz(psi).direction(normal)[1]

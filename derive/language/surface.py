@@ -64,16 +64,14 @@ class Surface:
 
 
 def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
-    """The surface of a curve ``section(along)`` carried by ``motion(sweep)``.
+    """The surface of a curve ``section(along)``, which may change with ``sweep``, carried by ``motion(sweep)``.
 
     The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep)/``arm``; ``outward`` (±1, or the flank
     sign) makes it point out of the body. ``arm`` > 0 is the length of ∂r/∂sweep where that is large: dividing it
     out keeps tangent and normal of order one.
     """
-    tangents = (
-        definitions.derivative_vector(section, along),
-        v.scale(1 / sp.sympify(arm), motion.local_velocity(sweep, section)),
-    )
+    lengthwise = v.add(motion.local_velocity(sweep, section), definitions.derivative_vector(section, sweep))
+    tangents = definitions.derivative_vector(section, along), v.scale(1 / sp.sympify(arm), lengthwise)
     normal = v.scale(outward, v.cross(*tangents))
     return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",))
 

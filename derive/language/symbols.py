@@ -7,16 +7,18 @@ import sympy as sp
 
 
 class Quantity(sp.Symbol):
-    """A real SymPy symbol with unit, frame, meaning and open domain.
+    """A real SymPy symbol with unit, frame, meaning, open domain and parity.
 
-    Two quantities with one name are equal to SymPy; a drive therefore uses each name once.
+    Two quantities with one name are equal to SymPy; a drive therefore uses each name once. ``parity`` is −1 where the
+    mirror image of the drive (y → −y in every frame) has the negative number: an angle of rotation about an axis in
+    the mirror's plane. Design keys describe the drive before it is mirrored and keep their numbers.
     """
 
-    __slots__ = ("unit", "meaning", "frame", "domain")
+    __slots__ = ("unit", "meaning", "frame", "domain", "parity")
 
-    def __new__(cls, name, unit="", meaning="", frame="", domain=(-sp.oo, sp.oo)):
+    def __new__(cls, name, unit="", meaning="", frame="", domain=(-sp.oo, sp.oo), parity=1):
         self = sp.Symbol.__xnew__(cls, name, real=True)
-        self.unit, self.meaning, self.frame = unit, meaning, frame
+        self.unit, self.meaning, self.frame, self.parity = unit, meaning, frame, parity
         self.domain = tuple(map(sp.sympify, domain))
         return self
 
@@ -24,7 +26,12 @@ class Quantity(sp.Symbol):
         return self.name
 
     def __getnewargs_ex__(self):
-        return (self.name, self.unit, self.meaning, self.frame, self.domain), {}
+        return (self.name, self.unit, self.meaning, self.frame, self.domain, self.parity), {}
+
+
+def rotation_angle(name, meaning, frame="", domain=(-sp.oo, sp.oo)):
+    """An angle of rotation about an axis in the plane of the mirror: the mirror image has the opposite angle."""
+    return Quantity(name, "rad", meaning, frame, domain, parity=-1)
 
 
 class Table(Enum):
@@ -41,6 +48,7 @@ class Table(Enum):
 #: Interface unit (key suffix) → the unit used inside and the exact factor to it.
 _INTERFACE_UNITS = {
     "mm": ("mm", sp.S.One),
+    "um": ("mm", sp.Rational(1, 1000)),
     "deg": ("rad", sp.rad(1)),
     "per_mm": ("1/mm", sp.S.One),
     "mm_per_rad2": ("mm/rad^2", sp.S.One),

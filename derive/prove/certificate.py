@@ -17,14 +17,14 @@ def certificate(decision: Decision) -> dict:
         "outcome": str(decision.outcome),
         "angles": [{"symbol": angle.symbol, "divisor": angle.divisor} for angle in decision.statement.angles],
         "arcs": [{"tree": tree, "generator": name} for tree, name in decision.arcs.items()],
-        **instance_body(decision.instance),
     }
+    instance = instance_body(decision.instance)
     match decision.outcome:
         case Outcome.PROVED:
-            return {"kind": "ring_nf", **body, **_proof(decision)}
+            return {"kind": "ring_nf", **body, **instance, **_proof(decision)}
         case Outcome.REFUTED:
             roots = [{"radicand": radicand} for radicand, _, _ in decision.roots]
-            return {"kind": "exact_point", **body, "roots": roots, "differs": _differing(decision)}
+            return {"kind": "exact_point", **body, **instance, "roots": roots, "differs": _differing(decision)}
         case Outcome.UNDECIDED:
             return {"kind": "undecided", **body}
 

@@ -4,9 +4,11 @@ import sympy as sp
 
 from derive.language.surface import helicoid
 from derive.language.symbols import Quantity
+from derive.language.tool import tool
 from derive.tools.worm_body import WormTool, reach
 
 
+@tool()
 def axial_blade(body, definitions):
     """Groove flank of a ZA worm or hob in its body frame; parameters (t, ψ), t the radius."""
     r, s, lead = body.pitch_radius, body.flank, body.lead_angle

@@ -10,7 +10,12 @@ from derive.language.envelope import envelope
 from derive.language.origin import joined
 from derive.language.surface import Surface
 from derive.language.symbols import Quantity
+from derive.language.tool import Datum
 from derive.tools.worm_body import WormTool, reach, regression
+
+WHEEL_RADIUS = Datum(
+    "grinding_wheel_radius_mm", "r_c", "grinding wheel radius", domain=(0, sp.oo), required=True, sample=60
+)
 
 
 def grinding_wheel(body, definitions, point, tangent, profile, parameter, outward, pole=None):
@@ -20,7 +25,7 @@ def grinding_wheel(body, definitions, point, tangent, profile, parameter, outwar
     the wheel.
     """
     theta = Quantity(f"t_{body.name}", "rad", "angle of the contact point on the grinding wheel", body.name)
-    centre = (body.pitch_radius + body.grinding_wheel_radius, 0, 0)
+    centre = (body.pitch_radius + body[WHEEL_RADIUS], 0, 0)
     motion = Rx(body.lead_angle) @ swing("z", -theta, centre) @ profile
     normal = v.scale(outward, v.cross(tangent, v.J))
     return Surface(
@@ -48,7 +53,7 @@ def ground_flank(wheel, body, solve):
     )
 
 
-def ground_tool(body, flank, required=(), radicands=()):
+def ground_tool(body, flank, radicands=()):
     """A ground flank with its limits: the rim of the wheel, and the edge where the profile turns back.
 
     Along the profile the radius grows towards +t on the flank s = +1; where it no longer does, the flank ends.
@@ -58,9 +63,8 @@ def ground_tool(body, flank, required=(), radicands=()):
         flank,
         pitch_point=sp.Integer(0),
         tip_margin=reach(body, v.radius(x, y)),
-        scale=body.module / body.grinding_wheel_radius,
+        scale=body.module / body[WHEEL_RADIUS],
         screw_parameter=body.screw_parameter,
-        regular=regression(body.flank * (x**2 + y**2), along=flank.parameters[0]),
-        required=("grinding_wheel_radius", *required),
+        margins=(regression(body.flank * (x**2 + y**2), along=flank.parameters[0]),),
         radicands=radicands,
     )

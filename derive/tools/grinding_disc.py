@@ -5,9 +5,11 @@ import sympy as sp
 from derive.language.chain import Motion
 from derive.language.envelope import explicit
 from derive.language.symbols import Quantity
-from derive.tools.grinding import grinding_wheel, ground_flank, ground_tool
+from derive.language.tool import tool
+from derive.tools.grinding import WHEEL_RADIUS, grinding_wheel, ground_flank, ground_tool
 
 
+@tool(WHEEL_RADIUS)
 def grinding_disc(body, definitions):
     """Groove flank of a ZK worm or hob in its body frame; parameters (t, ψ), t the angle on the grinding wheel."""
     alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank

@@ -6,9 +6,11 @@ from derive.language import vectors as v
 from derive.language.origin import Origin
 from derive.language.surface import helicoid
 from derive.language.symbols import Quantity
+from derive.language.tool import tool
 from derive.tools.worm_body import WormTool, reach, regression
 
 
+@tool()
 def involute(body, definitions):
     """Groove flank of a ZI worm or hob in its body frame; parameters (t, ψ), t ≥ base radius the radius."""
     r, s, lead, name = body.pitch_radius, body.flank, body.lead_angle, body.name
@@ -43,7 +45,7 @@ def involute(body, definitions):
         scale=body.module,
         screw_parameter=body.screw_parameter,
         lower_end=base,
-        regular=regression(t - base),
+        margins=(regression(t - base),),
     )
 
 

@@ -5,7 +5,7 @@ the gear axis. The edge bounds a space of the rack and envelops a tooth of the g
 Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, (2.1) to (2.5).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,6 +14,11 @@ import sympy as sp
 from derive.language.chain import swing, translation
 from derive.language.surface import Surface, swept
 from derive.language.symbols import Quantity
+from derive.language.tool import Datum, Tool
+
+SPHERE_RADIUS = Datum(
+    "sphere_radius_mm", "R", "radius of the cutter's arc (convex or concave)", domain=(0, sp.oo), required=True
+)
 
 
 @dataclass(frozen=True)
@@ -21,8 +26,8 @@ class RackBody:
     """What a rack section needs to know of one gear. Angles in rad, lengths in mm.
 
     ``edge_offset`` is half the depth of the straight edge, ``half_space`` half the width of the rack's space at the
-    pitch line, ``tip_radius`` the rounding between the edge and the tip of the cutter, ``sphere_radius`` the radius
-    of the arc (not used by a spur gear).
+    pitch line, ``tip_radius`` the rounding between the edge and the tip of the cutter. ``body[datum]`` is the symbol of
+    a tool's own datum.
     """
 
     name: str
@@ -31,7 +36,10 @@ class RackBody:
     half_space: sp.Expr
     tip_radius: sp.Expr
     flank: sp.Expr
-    sphere_radius: sp.Expr
+    own: Mapping[Datum, sp.Expr]
+
+    def __getitem__(self, datum):
+        return self.own[datum]
 
 
 @dataclass(frozen=True)
@@ -99,7 +107,7 @@ def _tool(body, definitions, sweep, motion, arm, tip_drop, arc_radius=None):
 
 def on_arc(sense, body, definitions):
     """The section turns about a far axis parallel to y: on the gear's side (``sense`` +1, convex) or beyond (−1)."""
-    radius = body.sphere_radius
+    radius = body[SPHERE_RADIUS]
     theta = Quantity(
         f"theta_{body.name}", "rad", f"angle of the arc across the face of the {body.name}", body.name,
         (-sp.pi / 2, sp.pi / 2),
@@ -134,4 +142,8 @@ def on_line(body, definitions):
 
 
 #: Forms of a gear and the sweep of the rack section that cuts them.
-SWEEPS = {"convex": partial(on_arc, 1), "concave": partial(on_arc, -1), "spur": on_line}
+SWEEPS = {
+    "convex": Tool(partial(on_arc, 1), (SPHERE_RADIUS,)),
+    "concave": Tool(partial(on_arc, -1), (SPHERE_RADIUS,)),
+    "spur": Tool(on_line),
+}

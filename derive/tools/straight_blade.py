@@ -7,9 +7,11 @@ from derive.language.chain import Rx
 from derive.language.origin import Origin
 from derive.language.surface import helicoid
 from derive.language.symbols import Quantity
+from derive.language.tool import tool
 from derive.tools.worm_body import WormTool
 
 
+@tool()
 def straight_blade(body, definitions):
     """Groove flank of a ZN worm or hob in its body frame; parameters (t, ψ), t along the edge from its apex."""
     alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank

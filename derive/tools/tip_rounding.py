@@ -11,7 +11,7 @@ import sympy as sp
 from derive.language import vectors as v
 from derive.language.chain import placement, screw, translation
 from derive.language.surface import Surface
-from derive.language.symbols import Quantity
+from derive.language.symbols import Quantity, rotation_angle
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def tip_rounding(tool, body, definitions):
     distance = definitions.let(
         f"R_round_{name}", v.radius(centre[0], centre[1]), "distance of the centre from the axis", "mm"
     )
-    turn = Quantity(f"psi_round_{name}", "rad", f"screw angle of the rounding of the {name}", name)
+    turn = rotation_angle(f"psi_round_{name}", f"screw angle of the rounding of the {name}", name)
     advance = screw(turn, body.screw_parameter)
     radial = (centre[0] / distance, centre[1] / distance, sp.Integer(0))
     along = v.unit(advance.local_velocity(turn, centre))

@@ -1,17 +1,22 @@
 """The data of a worm or hob body from which every generating tool makes a flank, and what a tool gives back."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 
-from derive.language.drive import Margin
+from derive.language.drive import Margin, Role
 from derive.language.surface import Surface
-from derive.language.symbols import Quantity
+from derive.language.symbols import Quantity, Rule
+from derive.language.tool import Datum
 
 
 @dataclass(frozen=True)
 class WormBody:
-    """A threaded body, right hand. Angles in rad, lengths in mm; see the drive for the meaning of each."""
+    """A threaded body, right hand. Angles in rad, lengths in mm; see the drive for the meaning of each.
+
+    ``body[datum]`` is the symbol of a tool's own datum.
+    """
 
     name: str
     turn: Quantity
@@ -22,10 +27,12 @@ class WormBody:
     pressure_angle: sp.Expr
     groove_width: sp.Expr
     flank: sp.Expr
-    grinding_wheel_radius: sp.Expr
-    profile_arc_radius: sp.Expr
     tip_addendum: sp.Expr
     tip_rounding: sp.Expr
+    own: Mapping[Datum, sp.Expr]
+
+    def __getitem__(self, datum):
+        return self.own[datum]
 
 
 @dataclass(frozen=True)
@@ -33,9 +40,9 @@ class WormTool:
     """A flank with the profile parameter at (or near) its pitch point, its limits, and what it needs to exist.
 
     ``tip_margin`` > 0 on the part of the profile that the tool's blade reaches; ``scale`` is the natural size of the
-    profile parameter, ``lower_end`` its least value where the profile has an end of its own; ``regular`` is the edge
-    of regression beyond which no flank exists; ``required`` are the data of the body that only this tool needs;
-    ``radicands`` are (reason, expression > 0).
+    profile parameter, ``lower_end`` its least value where the profile has an end of its own; ``margins`` are limits of
+    the flank that this tool alone has, such as the edge of regression beyond which there is none; ``rules`` complete
+    its data; ``radicands`` are (reason, expression > 0).
     """
 
     flank: Surface
@@ -44,8 +51,8 @@ class WormTool:
     scale: sp.Expr
     screw_parameter: sp.Expr
     lower_end: sp.Expr | None = None
-    regular: Margin | None = None
-    required: tuple[str, ...] = ()
+    margins: tuple[Margin, ...] = ()
+    rules: tuple[Rule, ...] = ()
     radicands: tuple = ()
 
     @property
@@ -61,4 +68,4 @@ def reach(body, radius):
 
 def regression(positive, along=None):
     """The margin of an edge of regression: ``positive`` > 0, or growing along a parameter, where the flank exists."""
-    return Margin("beyond_regression", "regression", positive, along=along)
+    return Margin("beyond_regression", "regression", positive, Role.REGRESSION, along=along)

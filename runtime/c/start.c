@@ -82,6 +82,7 @@ static int raise_misalignments(const mw_model *m, const double *p, double phi, d
         }
     }
     if (share < 1.0 && ended_well(info->status)) info->status = MW_DIVERGED; /* no attempts left */
+    if (share < 1.0 && info->status == MW_SINGULAR) info->status = MW_NO_CONTACT;
     if (share < 1.0 && info->status == MW_DIVERGED) {
         setup_share(m, p, share, phi, s, work);
         if (pivot_gap(m, s, good) <= SINGULAR_SHARE * regular) info->status = MW_NO_CONTACT;

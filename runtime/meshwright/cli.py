@@ -51,6 +51,9 @@ def main(arguments=None):
     except (DesignError, UsageError, LibraryError) as error:
         print(f"meshwright: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("meshwright: interrupted", file=sys.stderr)
+        return 130
     except BrokenPipeError:
         sys.stderr.close()
         return 1

@@ -64,8 +64,7 @@ class Drive:
                 changes |= {f"{table}.{key}": value for key, value in entries.items()}
             else:
                 changes[table] = entries
-        given = _without_gaps(self.design.tables)
-        return Drive.from_tables(designs.changed(given, changes), self.backend)
+        return Drive.from_tables(designs.changed(self.design.given(), changes), self.backend)
 
     def __repr__(self):
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
@@ -147,11 +146,3 @@ class Drive:
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""
         x, records = analysis.trace(self, analysis.checked_angles(angles))
         return x, [text(library().mw_status_word(code)) for code in records["status"]]
-
-
-def _without_gaps(tables):
-    """Checked tables without the keys that were left open."""
-    return {
-        name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
-        for name, entry in tables.items()
-    }

@@ -48,16 +48,16 @@ def sensitivity(drive, angles):
     columns = [k for k, p in enumerate(description["parameters"]) if _counts(p, k, checked)]
     design = np.stack([_of_design(checked, column) for column in columns], axis=1)
     changes, points = _of_contact(drive, angles, design)
-    mirror = -1.0 if checked.mirrored else 1.0
+    mirror = checked.mirror
     names = [u["name"] for u in description["unknowns"]]
-    turning = [mirror if k == description["error"] or analysis.turns(name) else 1.0 for k, name in enumerate(names)]
+    turning = [mirror.factor(name) for name in names]
     parameters = description["parameters"]
     return Sensitivity(
         angles=angles,
         keys=tuple(f"{parameters[k]['table']}.{parameters[k]['key']}" for k in columns),
         unknowns={name: turning[k] * changes[..., k] for k, name in enumerate(names)},
-        error=mirror * changes[..., description["error"]],
-        points=points * [1.0, mirror, 1.0],
+        error=mirror.sign * changes[..., description["error"]],
+        points=points * mirror.flip,
         design=design,
     )
 
@@ -88,7 +88,7 @@ def _of_contact(drive, angles, design):
     points, s = np.full((*changes.shape[:2], 3), np.nan), np.empty(m.ns)
     m.setup(pointer(p), pointer(s))
     for i in np.flatnonzero([status == "converged" for status in solved.status]):
-        phi = -angles[i] if drive.design.mirrored else angles[i]
+        phi = drive.design.mirror.sign * angles[i]
         m.set_phi(pointer(s), phi)
         x = np.ascontiguousarray(solved.solutions[i])
         for j, direction in enumerate(design.T):

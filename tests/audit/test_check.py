@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -84,6 +85,27 @@ def proof(objects):
     )
     equation = objects[certificate["equation"]]
     return certificate, equation, check.definitions_of(equation, objects)
+
+
+def bare(angles=(), roots=(), symbols=None, tangents=None, sides=("0", "0")):
+    """A certificate of one component with an empty numerator: the trees alone must agree."""
+    return {
+        "kind": "ring_nf",
+        "angles": [{"symbol": name, "divisor": 1} for name in angles],
+        "roots": list(roots),
+        "arcs": [],
+        "generators": [],
+        "relations": [],
+        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
+        "degree": 0,
+        "point": {"symbols": symbols or {}, "half_tangents": tangents or {}},
+        "lhs": [sides[0]],
+        "rhs": [sides[1]],
+    }
+
+
+def equation_of(lhs, rhs, signs=(), jets=None):
+    return {"lhs": lhs, "rhs": rhs, "signs": list(signs), "jets": jets or {}}
 
 
 def rejected(proof, match):
@@ -169,18 +191,19 @@ def test_zero_denominator(proof):
 
 def test_vacuous_statement_is_rejected():
     """1/(cos^2 + sin^2 - 1) never exists on the circle."""
-    certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}],
-        "roots": [],
-        "arcs": [],
-        "generators": [],
-        "relations": [],
-        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
-    }
     zero = ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2], -1]
-    equation = {"lhs": ["/", "x", zero], "rhs": ["/", "x", zero], "signs": [], "jets": {}}
+    same = ["/", "x", zero]
     with pytest.raises(check.Rejected, match="denominator vanishes"):
-        check.check_proof(certificate, equation, {})
+        check.check_proof(bare(["a"], symbols={"x": "1"}, tangents={"a": "1/3"}), equation_of(same, same), {})
+
+
+def test_a_root_without_a_real_point_proves_nothing():
+    """sqrt(-1 - x^2) exists modulo a prime and nowhere else."""
+    radicand = ["+", -1, ["-", ["^", "x", 2]]]
+    root = {"radicand": radicand, "generator": "sqrt0", "divisor": "1"}
+    certificate = bare(roots=[root], symbols={"x": "1"})
+    with pytest.raises(check.Rejected, match="root of a negative number"):
+        check.check_proof(certificate, equation_of(["*", 2, ["sqrt", radicand]], ["*", ["sqrt", radicand], 2]), {})
 
 
 def test_refutation_needs_sides_that_differ(objects):
@@ -188,47 +211,64 @@ def test_refutation_needs_sides_that_differ(objects):
         item for item in objects.values() if item["object"] == "certificate" and item["kind"] == "exact_point"
     )
     equation = objects[certificate["equation"]]
-    equation["rhs"] = equation["lhs"]
+    equation["rhs"], certificate["rhs"] = equation["lhs"], certificate["lhs"]
     with pytest.raises(check.Rejected, match="agree"):
         check.check_refutation(certificate, equation, check.definitions_of(equation, objects))
 
 
-def test_wrong_derivative_is_caught_by_dual_numbers(objects):
+def test_wrong_derivative_is_caught_by_dual_numbers():
     """d(sin)/da = -cos passed off as true."""
-    certificate = {
-        "angles": [{"symbol": "a", "divisor": 1}],
-        "roots": [],
-        "arcs": [],
-        "generators": [],
-        "relations": [],
-        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
-    }
-    equation = {"lhs": ["d", ["sin", "a"], ["a", 1]], "rhs": ["-", ["cos", "a"]], "signs": [], "jets": {}}
+    certificate = bare(["a"], tangents={"a": "1/3"}, sides=("0.8", "0.8"))
+    wrong = equation_of(["d", ["sin", "a"], ["a", 1]], ["-", ["cos", "a"]])
     with pytest.raises(check.Rejected, match="trees differ"):
-        check.check_proof(certificate, equation, {})
-    check.check_proof(certificate, {**equation, "rhs": ["cos", "a"]}, {})
+        check.check_proof(certificate, wrong, {})
+    check.check_proof(certificate, {**wrong, "rhs": ["cos", "a"]}, {})
 
 
-def test_second_derivatives_of_jets_and_roots():
+@pytest.mark.parametrize("budget", [check.EXPANSION, 0], ids=["expanded", "at random points"])
+def test_second_derivatives_of_jets_and_roots(monkeypatch, budget):
     """xi(u)^2 twice, and sqrt(u^2 + 1) once, by nested dual numbers."""
-    certificate = {
-        "angles": [],
-        "roots": [{"radicand": ["+", ["^", "u", 2], 1], "generator": "sqrt0", "divisor": "1"}],
-        "arcs": [],
-        "generators": [],
-        "relations": [],
-        "components": [{"numerator": "", "denominators": [], "cofactors": []}],
-    }
+    monkeypatch.setattr(check, "EXPANSION", budget)
 
     def xi(order):
         return ["jet", "xi", order]
 
-    twice = {
-        "lhs": ["d", ["d", ["^", xi(0), 2], ["u", 1]], ["u", 1]],
-        "rhs": ["+", ["*", 2, ["^", xi(1), 2]], ["*", 2, xi(0), xi(2)]],
-        "signs": [],
-        "jets": {"xi": ["u"]},
-    }
-    check.check_proof(certificate, twice, {})
-    root = ["sqrt", ["+", ["^", "u", 2], 1]]
-    check.check_proof(certificate, {"lhs": ["d", root, ["u", 1]], "rhs": ["/", "u", root], "signs": [], "jets": {}}, {})
+    twice = equation_of(
+        ["d", ["d", ["^", xi(0), 2], ["u", 1]], ["u", 1]],
+        ["+", ["*", 2, ["^", xi(1), 2]], ["*", 2, xi(0), xi(2)]],
+        jets={"xi": ["u"]},
+    )
+    point = {"u": "1", "xi[0]": "2", "xi[1]": "3", "xi[2]": "5"}
+    decided = check.check_proof(bare(symbols=point, sides=("38", "38")), twice, {})
+    assert decided["expanded"] == bool(budget)
+    squared = ["+", ["^", "u", 2], 1]
+    root = ["sqrt", squared]
+    named = {"radicand": squared, "generator": "sqrt0", "divisor": "1"}
+    certificate = bare(roots=[named], symbols={"u": "3/4"}, sides=("0.6", "0.6"))
+    check.check_proof(certificate, equation_of(["d", root, ["u", 1]], ["/", "u", root]), {})
+
+
+def test_the_two_arithmetics_of_the_checker_agree(monkeypatch, objects):
+    """What is expanded in exact integers holds at random points as well."""
+    monkeypatch.setattr(check, "EXPANSION", 0)
+    proofs = [item for item in objects.values() if item.get("kind") == "ring_nf"]
+    assert len(proofs) >= 15
+    for certificate in proofs:
+        assert check.check_certificate(certificate, objects)["expanded"] == 0
+
+
+@pytest.mark.parametrize(
+    ("formula", "value"),
+    [
+        ("sin(1)", "0.8414709848078965066525023216302989996225630607983711"),
+        ("tan(radians(20))", "0.3639702342662023613510478827768340438904717837537381"),
+        ("asin(0.3) + acos(0.3)", "1.570796326794896619231321691639751442098584699687553"),
+        ("degrees(atan(0.05))", "2.862405226111747532693344728483833352331412905512701"),
+        ("sqrt(2)**3/pi", "0.9003163161571060695551991910067405826645741499552206"),
+    ],
+)
+def test_enclosures_hold_the_value_to_forty_digits(formula, value):
+    """Values from mpmath at 50 digits."""
+    ball = check.number_of(check.read_formula(formula))
+    assert abs(ball.middle - Fraction(value)) <= ball.radius + Fraction(1, 10**50)
+    assert ball.radius < Fraction(1, 10**40)

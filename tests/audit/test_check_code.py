@@ -4,12 +4,14 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from derive.audit import check_code
 
+ALL_ATTEMPTS = check_code.ATTEMPTS
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 
 
@@ -83,6 +85,17 @@ def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path):
     with capsys.disabled():
         print(f"\n{caught} of {total} changed signs in generated C caught")
     assert caught == total >= 30
+
+
+def test_a_wrong_header_is_refused_within_seconds(tmp_path, monkeypatch):
+    """A wrong normal, with as many inputs as the shipped checker may draw."""
+    monkeypatch.setattr(check_code, "ATTEMPTS", ALL_ATTEMPTS)
+    source = header("face_worm")
+    body = source[source.index("_flank_wheel(const") :]
+    wrong = re.sub(r"o\[4\] = (\w+);", r"o[4] = -\1;", body, count=1)
+    started = time.process_time()
+    rejected(tmp_path, source.replace(body, wrong), "perpendicular|not the derivative|slopes")
+    assert time.process_time() - started < 10
 
 
 def test_a_folder_without_the_programs_is_rejected(tmp_path):

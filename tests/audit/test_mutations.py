@@ -3,14 +3,23 @@
 from dataclasses import replace
 
 from derive.audit.documents import rack_and_pinion, recess_action
-from derive.audit.identities import conventions, cylindrical_worm, derivation, face_worm, helicoids, spherical
+from derive.audit.identities import (
+    conventions,
+    cylindrical_gears,
+    cylindrical_worm,
+    derivation,
+    face_worm,
+    helicoids,
+    spherical,
+)
 from derive.prove import Outcome, decide
 from derive.prove.edits import mutations
 
 #: What a change that makes a scalar of a vector, or divides by zero, ends in: no equation any more.
 MALFORMED = (ValueError, TypeError, ZeroDivisionError, IndexError)
 CHAPTERS = (
-    recess_action, rack_and_pinion, conventions, derivation, helicoids, cylindrical_worm, spherical, face_worm
+    recess_action, rack_and_pinion, conventions, derivation, helicoids, cylindrical_worm, spherical, cylindrical_gears,
+    face_worm,
 )  # fmt: skip
 
 

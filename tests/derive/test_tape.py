@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 from derive.emit import c99
+from derive.language.choice import excess
 from derive.language.definitions import Definitions
 from derive.tape import Lowering, Stage, Tape
 
@@ -93,3 +94,13 @@ def test_any_arithmetic_will_do():
 @pytest.mark.parametrize("value", [0.1, 1 / 3, 1e-300, 123456789.123456789, 2.0, math.pi])
 def test_printed_numbers_read_back_exactly(value):
     assert float(c99.number(value)) == value
+
+
+def test_absolute_values_and_excesses_have_derivatives_where_they_bend():
+    tape = Tape()
+    lower = Lowering(tape, {x: Stage.ITERATE})
+    size, above = lower(sp.Abs(x)), lower(excess(x) ** 3)
+    outputs = [size, above, tape.derivative(size, lower(x)), tape.derivative(above, lower(x))]
+    for value in (-2.0, 0.0, 3.0):
+        found = tape.evaluate(outputs, {x: value})
+        assert found == [abs(value), max(value, 0) ** 3, -1 if value < 0 else 1, 3 * max(value, 0) ** 2]

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from meshwright import DesignError, Drive
+from meshwright.design import design
 from tests.face_worm.designs import NAMES, changed, independent
 
 
@@ -147,3 +148,25 @@ def test_designs_that_cannot_be_made_are_refused(name, change, keys):
         changed(name, change)
     for key in keys:
         assert key in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"placement.tool_axis_x_y": 0.1},
+        {"placement.tool_axis_z_x": 0.0, "placement.tool_axis_z_y": 0.0, "placement.tool_axis_z_z": 1.0},
+    ],
+)
+def test_a_part_of_a_frame_is_refused(given):
+    """One component of an axis would be combined with the derived others into a frame that is none."""
+    with pytest.raises(DesignError, match=r"given without placement\.\w+.*give all of them or none"):
+        Drive.from_tables(design.changed(design.read(NAMES[0]), given))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_whole_frame_may_be_given_and_is_taken(name):
+    found = Drive.load(name)
+    keys = [f"tool_axis_{axis}_{q}" for axis in "xyz" for q in "xyz"]
+    axes = {f"placement.{key}": found.design.value(key, "placement") for key in keys}
+    again = Drive.from_tables(design.changed(design.read(name), axes))
+    assert again.tca([0.0]).error == pytest.approx(found.tca([0.0]).error, abs=1e-15)

@@ -11,6 +11,7 @@ import numpy as np
 from mpmath import mpf
 
 from tests.independent import spherical
+from tests.independent.cylindrical_gears import pair_of
 from tests.independent.face_worm import FaceWorm
 from tests.independent.worm import WormDrive, rotate
 
@@ -81,7 +82,8 @@ def _tables(drive, values):
     }
     for place, value in values.items():
         table, key = place.split(".")
-        tables.setdefault(table, {})[key] = value * 180 / mpmath.pi if key.endswith("_deg") else value
+        unit = 180 / mpmath.pi if key.endswith("_deg") else 1000 if key.endswith("_um") else 1
+        tables.setdefault(table, {})[key] = value * unit
     return tables
 
 
@@ -123,6 +125,18 @@ def _spherical(drive, solution, wheel_angle):
         names=names,
         residual=lambda pair, unknowns, phi: pair.residual(phi, *unknowns),
         seen=lambda pair, unknowns, phi: [*unknowns, *pair.pinion_in_mesh(phi, *unknowns[:2])[0]],
+        start=(*(solution[name] for name in names[:4]), solution["transmission_error"]),
+    )
+
+
+def _cylindrical_gears(drive, solution, wheel_angle):
+    parallel = drive.design.value("shaft_angle_deg") == 0.0
+    names = tuple(u["name"] for u in drive.design.description["unknowns"])
+    return Twin(
+        of=lambda values: pair_of(_tables(drive, values), parallel),
+        names=names,
+        residual=lambda pair, unknowns, phi: pair.residual(phi, unknowns),
+        seen=lambda pair, unknowns, phi: [*unknowns, *pair.placed(phi, unknowns)[0]],
         start=(*(solution[name] for name in names[:4]), solution["transmission_error"]),
     )
 
@@ -169,4 +183,5 @@ def _face_worm(drive, solution, wheel_angle):
     )
 
 
-_FAMILIES = {"cylindrical-worm": _worm, "spherical": _spherical, "face-worm": _face_worm}
+_FAMILIES = {"cylindrical-worm": _worm, "spherical": _spherical, "face-worm": _face_worm,
+             "cylindrical-gears": _cylindrical_gears}  # fmt: skip

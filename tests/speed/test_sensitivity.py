@@ -24,14 +24,16 @@ GIVEN = {
     "spherical-table-4-4-convex": ({"wheel_half_space_mm": 3.1}, {"edge_offset_mm": 4.2}),
 }
 
-#: Equal spheres touch along a line, and misaligned not in a point of their own: there is nothing to differentiate.
-LINES = ("spherical-table-2-1",)
+#: Equal spheres and unmodified spur gears touch along a line, and misaligned not in a point of their own: there is
+#: nothing to differentiate.
+LINES = ("spherical-table-2-1", "spur-profile-shift")
 
 #: Misalignments of each family, so that nothing vanishes by symmetry.
 ERRORS = {
     "cylindrical-worm": {"center_distance_mm": 0.01, "vertical_deg": 0.01},
     "spherical": {"center_distance_mm": 0.1, "horizontal_deg": 0.02, "vertical_deg": 0.01},
     "face-worm": {"offset_mm": 0.05, "shaft_angle_deg": 0.02},
+    "cylindrical-gears": {"center_distance_mm": 0.05, "horizontal_deg": 0.02, "vertical_deg": 0.01, "axial_mm": 0.3},
 }
 
 

@@ -36,7 +36,7 @@ def _plan(samples=50, levels=0, design="recess-action-full"):
 
 def _rows(folder, form="parquet"):
     names = ["sample", "pinion_angle_deg", "transmission_error_arcsec", "contact_x_mm", "contact_y_mm", "contact_z_mm"]
-    return np.concatenate([slices.read(path, names) for path in sorted(folder.glob(f"slice-*.{form}"))], axis=1)
+    return np.concatenate([slices.columns(path, names) for path in sorted(folder.glob(f"slice-*.{form}"))], axis=1)
 
 
 def test_a_sample_of_a_sweep_is_the_tooth_contact_analysis_of_its_design():
@@ -166,7 +166,7 @@ def test_points_that_bodies_cannot_make_are_not_good(tmp_path, capsys):
     assert (summary["points"], summary["points_converged"], summary["points_impossible"]) == (2, 0, 2)
     assert summary["peak_to_peak_arcsec"] is None
     claim = json.loads((tmp_path / "s" / "sweep.json").read_text(encoding="utf-8"))
-    columns = slices.read(tmp_path / "s" / "slice-000000.parquet", ["status", "flags"])
+    columns = slices.columns(tmp_path / "s" / "slice-000000.parquet", ["status", "flags"])
     assert {claim["statuses"][str(status)] for status in columns[0]} == {"converged"}
     assert all(flags >> claim["flags"].index("interference") & 1 for flags in columns[1].tolist())
 
@@ -262,12 +262,12 @@ def test_a_killed_process_leaves_no_part_of_a_slice(tmp_path):
     process.kill()
     process.wait()
     for path in tmp_path.glob("s/slice-*.parquet"):
-        assert len(slices.read(path, ["sample"])[0]) % 41 == 0
+        assert len(slices.columns(path, ["sample"])[0]) % 41 == 0
     again = subprocess.run(command, capture_output=True, text=True, check=True)
     assert json.loads(again.stdout)["points"] == 60000 * 41
-    assert not list(tmp_path.glob("s/.*"))
+    assert [path.name for path in tmp_path.glob("s/.*")] == [".lock"]
     assert again.stderr == ""  # no progress bar outside a terminal
-    samples = np.concatenate([slices.read(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    samples = np.concatenate([slices.columns(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
     assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, 41))
 
 
@@ -290,7 +290,7 @@ def test_quantiles_are_those_of_the_samples(tmp_path):
 def test_slices_are_begun_as_others_end(tmp_path, monkeypatch):
     """A sweep of many slices begins at once and can be stopped: it holds none of them ready."""
     monkeypatch.setattr(sweep, "SLICE_POINTS", 11)
-    monkeypatch.setattr(sweep, "write_slice", lambda plan, folder, number, form: begun.append(number))
+    monkeypatch.setattr(sweep, "write_slice", lambda plan, identity, folder, number, form: begun.append(number))
     begun = []
 
     def stop():
@@ -373,5 +373,99 @@ def test_a_killed_dask_worker_loses_nothing(tmp_path):
         summary = sweep.run(plan, tmp_path / "s", scheduler=cluster.scheduler_address, advance=kill)
     assert len(killed) == 2
     assert summary["points"] == 60000 * len(ANGLES)
-    samples = np.concatenate([slices.read(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
+    samples = np.concatenate([slices.columns(path, ["sample"])[0] for path in tmp_path.glob("s/slice-*.parquet")])
     assert np.array_equal(np.bincount(samples.astype(int)), np.full(60000, len(ANGLES)))
+
+
+SEALED = {
+    "truncated": lambda a, b: a.write_bytes(a.read_bytes()[:-100]),
+    "empty": lambda a, b: a.write_bytes(b""),
+    "missing": lambda a, b: a.unlink(),
+    "of another slice": lambda a, b: a.write_bytes(b.read_bytes()),
+}
+
+
+@pytest.mark.parametrize("damage", SEALED)
+@pytest.mark.parametrize("form", ["parquet", "csv"])
+def test_a_damaged_slice_is_named_or_made_anew(tmp_path, monkeypatch, damage, form):
+    monkeypatch.setattr(sweep, "SLICE_POINTS", 110)
+    plan = _plan(30)
+    want = sweep.run(plan, tmp_path, form)
+    first, second = (tmp_path / f"slice-00000{k}.{form}" for k in (0, 1))
+    good = first.read_bytes()
+    SEALED[damage](first, second)
+    if damage == "missing":
+        assert sweep.run(plan, tmp_path, form) == want
+        assert first.read_bytes() == good
+        return
+    with pytest.raises(UsageError, match=rf"slice-000000\.{form}.*remove it and run the sweep again"):
+        sweep.run(plan, tmp_path, form)
+    first.unlink()
+    assert sweep.run(plan, tmp_path, form) == want
+
+
+def test_a_slice_with_the_seal_of_another_is_made_anew(tmp_path, monkeypatch):
+    monkeypatch.setattr(sweep, "SLICE_POINTS", 110)
+    plan = _plan(30)
+    want = sweep.run(plan, tmp_path, "csv")
+    for ending in ("", ".seal"):
+        (tmp_path / f"slice-000000.csv{ending}").write_bytes((tmp_path / f"slice-000001.csv{ending}").read_bytes())
+    assert sweep.run(plan, tmp_path, "csv") == want
+
+
+def test_a_folder_has_one_sweep_at_a_time(tmp_path):
+    from meshwright.base.files import locked
+
+    with locked(tmp_path, "sweep"), pytest.raises(UsageError, match="another sweep is at work here"):
+        sweep.run(_plan(), tmp_path)
+    assert sweep.run(_plan(), tmp_path)["samples"] == 50
+
+
+def test_a_full_disk_is_called_that(tmp_path, monkeypatch):
+    import errno
+
+    def full(handle):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(UsageError, match="No space left on device.*make room"):
+        sweep.run(_plan(), tmp_path)
+
+
+#: Ends the process at a given call of the functions by which files take their place.
+KILLED = """
+import os, signal, sys
+at, calls, real = int(sys.argv.pop(1)), 0, os.replace
+def replace(*places):
+    global calls
+    calls += 1
+    if calls == at: os.kill(os.getpid(), signal.SIGKILL)
+    real(*places)
+os.replace = replace
+from meshwright.sweep import run
+run.SLICE_POINTS = 110
+from meshwright.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def _kill_everywhere(folder, places):
+    """A sweep killed at these file replacements, one after another; then run to its end: the bytes of its files."""
+    command = ["sweep", "plain-za", "--samples", "40", "--vary", "misalignment.vertical_deg=-0.01:0.01", "--phi-deg",
+               "-10:10:2", "--out", str(folder), "--threads", "1", "--format", "csv", "--json", "-"]  # fmt: skip
+    for place in places:
+        ended = subprocess.run([sys.executable, "-c", KILLED, str(place), *command], capture_output=True)
+        assert ended.returncode in (-signal.SIGKILL, 0)
+    ended = subprocess.run([sys.executable, "-c", KILLED, "-1", *command], capture_output=True, check=True)
+    return {path.name: path.read_bytes() for path in folder.iterdir()}, ended.stdout
+
+
+def test_a_sweep_killed_at_a_write_ends_with_the_same_bytes(tmp_path):
+    assert _kill_everywhere(tmp_path / "a", [1, 2, 3, 4]) == _kill_everywhere(tmp_path / "b", [])
+
+
+@pytest.mark.validate
+def test_a_sweep_killed_a_hundred_times_ends_with_the_same_bytes(tmp_path):
+    want = _kill_everywhere(tmp_path / "whole", [])
+    for round_ in range(10):
+        assert _kill_everywhere(tmp_path / f"killed-{round_}", [1 + (k + round_) % 7 for k in range(10)]) == want

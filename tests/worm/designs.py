@@ -4,6 +4,12 @@ from meshwright.design.design import changed, read
 
 PROFILES = ("ZA", "ZI", "ZN", "ZK", "ZC")
 
+#: What only ground flanks need to know.
+GROUND = {
+    "ZK": {"grinding_wheel_radius_mm": 200.0},
+    "ZC": {"grinding_wheel_radius_mm": 200.0, "profile_arc_radius_mm": 40.0},
+}
+
 
 def plain(worm, hob=None, **changes):
     """Tables of a plain two-thread drive with these flank forms; keyword arguments change or add design keys."""
@@ -18,8 +24,8 @@ def plain(worm, hob=None, **changes):
             "pressure_angle_deg": 20.0,
             "worm_profile": worm,
             "hob_profile": hob or worm,
-            "grinding_wheel_radius_mm": 200.0,
-            "profile_arc_radius_mm": 40.0,
+            **GROUND.get(worm, {}),
+            **GROUND.get(hob, {}),
         },
     }
     return changed(tables, {key if key == "flank" else f"design.{key}": value for key, value in changes.items()})

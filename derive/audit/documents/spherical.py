@@ -69,6 +69,20 @@ def reserve(teeth: int, degrees: str, width: int) -> str:
     return f"{r}*sin(radians({degrees}))**2 + ({rho}*{cosine} - {r})*{bracket}"
 
 
+TABLE_4_3 = """表 4. 3 不同軸孔半徑下球形齒輪組之接觸應力、彎曲應力及應力變化率 
+凸狀小齒輪 
+軸孔半徑 rshaft,1 (mm) 12.5 15 17.5 20 22.5 25 
+接觸應力(MPa) 930.2 930.2 930.1 930.1 930.1 930 
+接觸應力變化率(%) - 0.00 -0.01 -0.01 -0.01 -0.02 
+彎曲應力(MPa) 58.12 58.18 58.24 58.31 58.39 58.47 
+彎曲應力變化率(%) - 0.1 0.21 0.33 0.46 0.6 
+凹狀大齒輪 
+軸孔半徑 rshaft,2 (mm) 15 17.5 20 22.5 25 27.5 
+接觸應力(MPa) 631.8 631.8 631.8 631.7 631.7 631.7 
+接觸應力變化率(%) - 0.00 0.00 -0.02 -0.02 -0.02 
+彎曲應力(MPa) 62.74 62.91 63.08 63.24 63.4 63.56 
+彎曲應力變化率(%) - 0.27 0.54 0.8 1.05 1.31"""
+
 CLAIMS = (
     Claim(
         "eq-2.1",
@@ -264,9 +278,9 @@ CLAIMS = (
         "node-pinion",
         "§4.4",
         "X1 = 62.771 mm, Y1 = 4.962 mm",
-        "The start of the edge (l = 0, Z = 0) of the 33-tooth gear has this distance from its axis: √((r-a)² + (a "
-        "cot αn)²), to the print's half unit.",
-        [Figure("sqrt((33*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt(62.771**2 + 4.962**2)", "0.000", "mm")],
+        "The start of the edge (l = 0, Z = 0) of the 33-tooth gear lies √((r-a)² + (a cot αn)²) from its axis; with "
+        "the printed Y1 this is the printed X1.",
+        [Figure("sqrt((33*4/2 - 4)**2 + (4/tan(radians(20)))**2 - 4.962**2)", "62.771", "mm")],
     ),
     FigureClaim(
         "node-wheel",
@@ -275,17 +289,13 @@ CLAIMS = (
         "From the wheel's own axis these coordinates are 21 mm too small. Centred on the pinion, C = 160 mm away, "
         "they are the start of the edge of the 47-tooth "
         "gear. The text also calls the concave 47-tooth wheel the small gear.",
-        [Figure("sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt(69.485**2 + 5.272**2)", "0.000", "mm")],
-        corrected=[
-            Figure(
-                "sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2) - sqrt((160 - 69.485)**2 + 5.272**2)", "0.000", "mm"
-            )
-        ],
+        [Figure("sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2 - 5.272**2)", "69.485", "mm")],
+        corrected=[Figure("160 - sqrt((47*4/2 - 4)**2 + (4/tan(radians(20)))**2 - 5.272**2)", "69.485", "mm")],
     ),
     FigureClaim(
         "table-4.3",
         "Table 4.3",
-        "relative changes of the contact and bending stresses in %",
+        TABLE_4_3,
         "All percentages follow from the printed stresses.",
         [
             Figure(f"100*({value} - {first})/{first}", printed, "%")

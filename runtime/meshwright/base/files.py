@@ -1,6 +1,7 @@
 """Results to files or to standard output; files are replaced atomically, devices and pipes are written to."""
 
 import csv
+import errno
 import io
 import json
 import os
@@ -38,12 +39,22 @@ def write_bytes(place, content):
             with replaced(path.resolve()) as temporary:
                 temporary.write_bytes(content)
     except OSError as error:
-        raise UsageError(f"{place}: cannot be written ({error.strerror}); name a file in an existing folder") from error
+        raise UsageError(f"{place}: cannot be written ({error.strerror}); {remedy(error)}") from error
+
+
+def remedy(error):
+    """What helps against an :class:`OSError` in writing."""
+    if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        return "make room, or name a file elsewhere"
+    return "name a file in an existing folder"
 
 
 @contextmanager
 def replaced(path):
-    """An empty file beside ``path`` that takes its place and mode at the end; after an error it is removed."""
+    """An empty file beside ``path`` that takes its place and mode at the end; after an error it is removed.
+
+    Its content is on the disk before it takes the place, so that a power cut leaves the old file or the new one.
+    """
     temporary = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
     mode = path.stat().st_mode & 0o7777 if path.exists() else None
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if mode is None else 0o600))
@@ -51,10 +62,47 @@ def replaced(path):
         yield temporary
         if mode is not None:
             os.chmod(temporary, mode)
+        _to_disk(temporary)
         os.replace(temporary, path)
     except BaseException:
-        os.unlink(temporary)
+        temporary.unlink(missing_ok=True)
         raise
+
+
+def _to_disk(path):
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+@contextmanager
+def locked(folder, what):
+    """Keep other processes from working in ``folder`` meanwhile; raises :class:`UsageError` if one does already.
+
+    The lock is the operating system's and ends with the process, however that ends.
+    """
+    with open(folder / ".lock", "ab") as stream:
+        try:
+            _lock(stream)
+        except OSError as error:
+            remedy = "wait for it to end, or name another folder"
+            raise UsageError(f"{folder}: another {what} is at work here; {remedy}") from error
+        yield
+
+
+def _lock(stream):
+    """Lock an open file at once, or raise :class:`OSError`."""
+    if os.name == "nt":
+        import msvcrt
+
+        stream.seek(0)
+        msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def write_json(place, data):

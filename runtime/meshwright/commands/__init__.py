@@ -1,5 +1,5 @@
 """Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``."""
 
-from meshwright.commands import drives, fe, limits, loaded, ratio, report, schema, surface, sweep, tca
+from meshwright.commands import drives, explain, fe, limits, loaded, ratio, report, schema, show, surface, sweep, tca
 
-ALL = (drives, tca, surface, ratio, limits, loaded, fe, sweep, report, schema)
+ALL = (drives, show, explain, tca, surface, ratio, limits, loaded, fe, sweep, report, schema)

@@ -34,7 +34,7 @@ def setting(text):
         raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")
     try:
         return place.strip(), tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # text without quotes, or what no number or table can be
         return place.strip(), value.strip()
 
 

@@ -9,7 +9,7 @@ import re
 import sys
 
 from meshwright.base.errors import UsageError
-from meshwright.base.files import write_json
+from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.design import design as designs
 from meshwright.sweep import run as sweep
@@ -36,15 +36,33 @@ def add_arguments(parser):
         "--scheduler", nargs="?", const="local", metavar="ADDRESS",
         help="hand slices to a Dask cluster at this address; without an address, to an embedded local one",
     )  # fmt: skip
-    parser.add_argument("--json", metavar="FILE|-", default="-", help="where to write the summary")
+    parser.add_argument(
+        "--json", metavar="FILE|-", help="write the summary as JSON; without it: a table on a terminal, JSON in a pipe"
+    )
 
 
 def run(options):
     plan = _plan(options)
     with _progress(plan.slices) as advance:
         summary = sweep.run(plan, options.out, options.format, options.threads, options.scheduler, advance)
-    write_json(options.json, {"schema": "meshwright.sweep/1", **summary})
+    if options.json is None and sys.stdout.isatty():
+        write_text("-", _table(summary, options.out))
+    else:
+        write_json(options.json or "-", {"schema": "meshwright.sweep/1", **summary})
     return 0 if summary["points_converged"] == summary["points"] else 1
+
+
+def _table(summary, folder):
+    """The summary for a reader: counts, then quantiles over the complete samples."""
+    lines = [f"{summary['samples']} samples, {summary['samples_complete']} complete; rows are in {folder}"]
+    lines += [f"  {count} points {word}" for word, count in summary["points_by_status"].items()]
+    if summary["points_impossible"]:
+        lines.append(f"  {summary['points_impossible']} of them are points that bodies cannot make")
+    if summary["peak_to_peak_arcsec"] is not None:
+        lines.append("quantile".rjust(10) + "peak to peak, arcsec".rjust(24))
+        rows = zip(summary["quantiles"], summary["peak_to_peak_arcsec"], strict=True)
+        lines += [f"{quantile:>10.2f}{value:>24.5f}" for quantile, value in rows]
+    return "\n".join(lines) + "\n"
 
 
 def _plan(options):

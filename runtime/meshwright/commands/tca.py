@@ -82,7 +82,7 @@ def _add_other_contacts(points, drive, result):
 
 
 def _line(drive, result, angle):
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     start = result.solutions[int(np.argmin(np.abs(result.angles - angle)))]
     return (contact_line(drive, mirror * angle, start).points * [1.0, mirror, 1.0]).tolist()
 

@@ -53,18 +53,18 @@ def analyse(drive, angles):
 
     The points are traced in ascending order together with angle 0, to which relative errors refer.
     """
-    mirror = -1.0 if drive.design.mirrored else 1.0
-    grid, inverse = np.unique(np.append(mirror * angles, 0.0), return_inverse=True)
+    mirror = drive.design.mirror
+    grid, inverse = np.unique(np.append(mirror.sign * angles, 0.0), return_inverse=True)
     points = _Points.of(drive, grid)
     return points.result(angles, inverse[:-1], mirror)
 
 
 def without_contact(drive, angles):
     """:class:`~meshwright.contact.results.TCA` of teeth that do not reach each other, at pinion angles (rad)."""
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror
     records = np.zeros(len(angles), _INFO)
     records["status"] = status_codes("no_contact")[0]
-    points = _Points.solved(drive, mirror * angles, np.full((len(angles), drive.model.nx), np.nan), records)
+    points = _Points.solved(drive, mirror.sign * angles, np.full((len(angles), drive.model.nx), np.nan), records)
     return points.result(angles, np.arange(len(angles)), mirror)
 
 
@@ -73,9 +73,9 @@ def at_solutions(drive, angles, unknowns):
 
     Angles and unknowns are those of the right-hand drive, whatever the design's hand.
     """
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror
     points = _Points.solved(drive, angles, unknowns, np.zeros(len(angles), _INFO))
-    return points.result(mirror * angles, np.arange(len(angles)), mirror)
+    return points.result(mirror.sign * angles, np.arange(len(angles)), mirror)
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ class _Points:
         for output in self.description["outputs"]:
             if output["name"] in recovered:
                 columns[output["name"]] = output, self.observed[:, output["offset"]]
-        values = {name: (mirror if turns(name) else 1.0) * self._only(column) for name, (_, column) in columns.items()}
+        values = mirror.numbers({name: self._only(column) for name, (_, column) in columns.items()})
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
     def flags(self):
@@ -161,7 +161,7 @@ class _Points:
 
     def result(self, angles, rows, mirror):
         """The rows asked for, as the drive of the design's hand has them."""
-        flip = np.array([1.0, mirror, 1.0])
+        flip = mirror.flip
         unknowns, units = self.unknowns(mirror)
         curvatures = self._only(np.stack([self.contacts["curvature_min"], self.contacts["curvature_max"]], axis=1))
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -175,10 +175,10 @@ class _Points:
             messages=tuple(text(library().mw_status_text(self.status[k])) for k in rows),
             iterations=self.records["iterations"][rows],
             residual=np.where(self.touching, gap, np.nan)[rows],
-            wheel_angles=mirror
+            wheel_angles=mirror.sign
             * np.where(self.touching, self.observed[:, self.description["wheel_angle"]], np.nan)[rows],
-            error=mirror * self.error[rows],
-            reference_error=mirror * self.reference(),
+            error=mirror.sign * self.error[rows],
+            reference_error=mirror.sign * self.reference(),
             unknowns={name: values[rows] for name, values in unknowns.items()},
             units=units,
             points=flip * self._only(self.contacts["point"])[rows],
@@ -197,11 +197,6 @@ class _Points:
             },
             solutions=self.x[rows],
         )
-
-
-def turns(name):
-    """Whether a number of this name is an angle of rotation about a z-type axis, which a mirror image negates."""
-    return name.startswith(("psi_", "phi_"))
 
 
 @cache

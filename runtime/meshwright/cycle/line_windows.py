@@ -46,7 +46,7 @@ def _end(drive, limits, inside, sign):
 
 def _depth(drive, angle):
     """How deep the deepest point of the line lies, and which limit function (index in the observation) says so."""
-    found = analyse(drive, np.array([-angle if drive.design.mirrored else angle]))
+    found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
     if found.status[0] != "line_contact":
         return math.nan, None
     margins = deepest(drive, angle, found.solutions[0])

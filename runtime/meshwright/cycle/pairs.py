@@ -46,7 +46,7 @@ class Mesh:
 
     @property
     def mirror(self):
-        return -1.0 if self.drive.design.mirrored else 1.0
+        return self.drive.design.mirror.sign
 
     @property
     def envelope(self):

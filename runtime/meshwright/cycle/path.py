@@ -54,7 +54,7 @@ class Path:
         tried = TRIED * drive.pitch()
         first = None
         for angle in np.stack([tried, -tried], axis=1).ravel()[1:]:
-            found = analyse(drive, np.array([-angle if drive.design.mirrored else angle]))
+            found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
             (status,) = found.status
             if status == "converged":
                 return cls.through(drive, angle, found.solutions[0]), status

@@ -180,7 +180,7 @@ def _reason(event):
 
 
 def _mirror(drive):
-    return -1.0 if drive.design.mirrored else 1.0
+    return drive.design.mirror.sign
 
 
 def _descending(drive):

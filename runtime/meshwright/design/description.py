@@ -22,9 +22,26 @@ def families():
     return grouped
 
 
+@cache
 def parameters(family):
-    """The parameters of a family in the order of the parameter vector: equal for all its drives."""
-    return families()[family][0]["parameters"]
+    """The parameters of a family's drives, each once; ``required`` where every one of its drives requires it.
+
+    ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. A drive's own list is
+    that of its parameter vector: it has the keys of its tools alone.
+    """
+    listed, drives_of = {}, families()[family]
+    for p in (p for description in drives_of for p in description["parameters"]):
+        listed.setdefault((p["table"], p["key"]), []).append(p)
+    return [_joint(place, found, len(found) == len(drives_of)) for place, found in listed.items()]
+
+
+def _joint(place, found, everywhere):
+    """One entry for what the drives of a family say of a key."""
+    shared = [{k: v for k, v in p.items() if k not in ("tools", "required")} for p in found]
+    if any(p != shared[0] for p in shared):
+        raise ValueError(f"the drives of a family disagree about the key {'.'.join(place)}")
+    tools = sorted({word for p in found for word in p["tools"]})
+    return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
 
 
 def choose(family, words):

@@ -3,11 +3,13 @@
 import copy
 import difflib
 import hashlib
+import json
 import math
 import operator
 import re
 import tomllib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +19,7 @@ from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, pointer, text
 from meshwright.design import description as metadata
 from meshwright.design import schema
+from meshwright.design.mirror import Mirror
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -28,6 +31,11 @@ def packaged_names():
 
 def read(name_or_path):
     """The raw tables of a packaged design or of a TOML file."""
+    return parsed(text_of(name_or_path), name_or_path)
+
+
+def text_of(name_or_path):
+    """The text of a packaged design or of a design file."""
     path = PACKAGED / f"{name_or_path}.toml"
     if not path.exists():
         path = Path(name_or_path)
@@ -35,12 +43,51 @@ def read(name_or_path):
         near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
         hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
         raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
+    return _text(path)
+
+
+#: A design file is some kilobytes; larger ones are taken for a mistake. Bytes.
+LARGEST_FILE = 2**20
+
+
+def _text(path):
+    """The text of a file of bounded size, in UTF-8 with or without a byte order mark; line ends as they are."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise DesignError(str(path), None, f"not a TOML file: {error}", "correct the line named") from error
+        with open(path, "rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
     except OSError as error:
         raise DesignError(str(path), None, f"cannot be read: {error.strerror}", "name a readable file") from error
+    if len(content) > LARGEST_FILE:
+        raise DesignError(str(path), None, f"longer than {LARGEST_FILE} bytes", "name a design file")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DesignError(str(path), None, f"not a TOML file: {error}", "save it as UTF-8") from error
+
+
+def parsed(text, place):
+    """The tables of TOML text that was found at ``place``."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise DesignError(str(place), None, f"not a TOML file: {error}", "correct the line named") from error
+    except ValueError as error:  # more digits than a number may have
+        raise DesignError(str(place), None, f"a number that cannot be read: {error}", "write it shorter") from error
+    except RecursionError as error:
+        raise DesignError(str(place), None, "nested too deeply", "a design has tables of keys, no more") from error
+
+
+def toml_text(tables):
+    """A design as TOML: nested plain dictionaries of numbers and words."""
+    loose = [f"{key} = {_toml(value)}" for key, value in tables.items() if not isinstance(value, dict)]
+    for name, entries in tables.items():
+        if isinstance(entries, dict) and entries:
+            loose += ["", f"[{name}]", *(f"{key} = {_toml(value)}" for key, value in entries.items())]
+    return "\n".join(loose) + "\n"
+
+
+def _toml(value):
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else repr(value)
 
 
 def changed(tables, changes):
@@ -80,6 +127,11 @@ class Design:
     def __repr__(self):
         return f"<{type(self).__name__} {self.label}>"
 
+    @cached_property
+    def mirror(self):
+        """The :class:`~meshwright.design.mirror.Mirror` of the design's hand."""
+        return Mirror.of(self.description, self.mirrored)
+
     @property
     def family(self):
         return self.description["family"]
@@ -87,14 +139,30 @@ class Design:
     @property
     def flank(self):
         """The flank sign."""
-        return float(self.parameters[0])
+        return next(
+            float(number)
+            for number, p in zip(self.parameters, self.description["parameters"], strict=True)
+            if p["table"] == "flank"
+        )
 
     def value(self, key, table="design"):
-        """A parameter in inner units by its design key; NaN if the design leaves it open."""
+        """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["key"] == key and p["table"] == table:
                 return float(number)
+        if any(p["key"] == key and p["table"] == table for p in metadata.parameters(self.family)):
+            return math.nan
         raise KeyError(f"{table}.{key}")
+
+    def given(self):
+        """The tables as the design file gives them, without the keys that it leaves open."""
+        closed = {}
+        for name, entry in self.tables.items():
+            if isinstance(entry, dict):
+                closed |= {name: kept} if (kept := {k: v for k, v in entry.items() if v is not None}) else {}
+            else:
+                closed[name] = entry
+        return closed
 
     def as_solved(self):
         """The design with every default and derived size filled in, in the units of the keys; None where it is open."""
@@ -135,7 +203,8 @@ def check(tables):
     checked = _validated(family, tables)
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
-    _check_needed(description, checked["design"])
+    _check_needed(description, checked)
+    _check_together(description, checked)
     _check_order(description, checked)
     c = model(description["name"])
     parameters = _vector(description, checked)
@@ -153,7 +222,9 @@ def _validated(family, tables):
     try:
         return schema.design_model(family).model_validate(tables).model_dump()
     except pydantic.ValidationError as error:
-        raise _first_error(family, error.errors()[0]) from None
+        # a misspelt key is what the missing one was meant to be: it is named first
+        first = sorted(error.errors(), key=lambda problem: problem["type"] != "extra_forbidden")[0]
+        raise _first_error(family, first) from None
 
 
 def _first_error(family, problem):
@@ -173,6 +244,12 @@ def _first_error(family, problem):
             return DesignError(key, value, f"must not be less than {context['ge']:g}", "choose a larger value")
         case "less_than":
             return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
+        case "less_than_equal":
+            return DesignError(key, value, f"must not be greater than {context['le']:g}", "choose a smaller value")
+        case "string_pattern_mismatch":
+            return DesignError(key, value, "holds control characters", "write letters, digits and blanks")
+        case "string_too_long":
+            return DesignError(key, value, f"longer than {context['max_length']} letters", "choose a shorter name")
         case "finite_number":
             return DesignError(key, value, "not a finite number", "give a finite number")
         case "literal_error":
@@ -219,13 +296,29 @@ def _check_exclusive(description, given):
             raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
 
 
-def _check_needed(description, design):
-    for key in description["required"]:
-        if design.get(key) is None:
-            raise DesignError(f"design.{key}", None, f"a {description['title']} cannot be made without it", "add it")
-    for key in description["excluded"]:
-        if design.get(key) is not None:
-            raise DesignError(f"design.{key}", design[key], f"a {description['title']} has no such size", "remove it")
+def _check_needed(description, checked):
+    """Every key that the drive requires is given, and none that its tools do not use."""
+    own = {(p["table"], p["key"]) for p in description["parameters"]}
+    for p in description["parameters"]:
+        if p["required"] and p["table"] != "flank" and checked[p["table"]].get(p["key"]) is None:
+            place = f"{p['table']}.{p['key']}"
+            raise DesignError(place, None, f"a {description['title']} cannot be made without it", "add it")
+    for p in metadata.parameters(description["family"]):
+        table, key = p["table"], p["key"]
+        if table != "flank" and (table, key) not in own and (value := checked[table].get(key)) is not None:
+            of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else ""
+            raise DesignError(f"{table}.{key}", value, f"a {description['title']} does not use it{of}", "remove it")
+
+
+def _check_together(description, checked):
+    """Of keys that make sense together alone, such as the components of a vector, all are given or none."""
+    for group in description["together"]:
+        values = {place: checked[table].get(key) for place in group for table, key in [place.split(".")]}
+        missing = [place for place, value in values.items() if value is None]
+        if missing and len(missing) < len(group):
+            given = next(place for place in group if place not in missing)
+            reason = f"given without {', '.join(missing)}, which belong to it"
+            raise DesignError(given, values[given], reason, "give all of them or none")
 
 
 def _check_order(description, checked):
@@ -267,17 +360,8 @@ def _vector(description, checked):
         if p["table"] == "flank":
             vector[k] = p["choices"][checked["flank"]]
         elif (value := checked[p["table"]].get(p["key"])) is not None:
-            vector[k] = p["choices"][value] if p["choices"] else _inner(p, value)
+            vector[k] = p["choices"][value] if p["choices"] else float(value) * p["factor"]
     return vector
-
-
-def _inner(parameter, value):
-    """A number in inner units."""
-    try:
-        return float(value) * parameter["factor"]
-    except OverflowError:
-        place = f"{parameter['table']}.{parameter['key']}"
-        raise DesignError(place, "…", "too large for a number of the machine", "give a smaller number") from None
 
 
 def given_vector(design):

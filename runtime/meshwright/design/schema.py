@@ -11,6 +11,10 @@ _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
 HAND = Literal["right", "left"]
 
+#: Magnitudes beyond which a number of a design, in the unit of its key, is taken for a mistake: nothing that is made
+#: or measured reaches them, and beyond them double precision no longer resolves a contact.
+LARGEST = {"mm": 1e5, "um": 1e6, "deg": 360.0, "": 1e5}
+
 
 def _field(parameter):
     """Type and default of one key: a choice of words, or a number with open bounds in the key's own unit."""
@@ -23,12 +27,17 @@ def _field(parameter):
 
 
 def bounds(parameter):
-    """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``."""
-    found = {}
+    """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``.
+
+    Where the description leaves an end open, it is that of :data:`LARGEST`.
+    """
+    largest = LARGEST.get(parameter["key_unit"], 1e6)
+    found = {"le": largest} | ({"ge": -largest} if parameter["lower"] is None else {})
     if parameter["lower"] is not None:
         found["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]
     if parameter["upper"] is not None:
         found["lt"] = parameter["upper"] / parameter["factor"]
+        del found["le"]
     return found
 
 
@@ -82,7 +91,7 @@ def design_model(family):
         family,
         __config__=_STRICT,
         drive=(Literal[family], ...),
-        name=(str, ""),
+        name=(Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$")], ""),
         flank=(Literal[tuple(flanks)], next(iter(flanks))),
         design=(models["design"], ...),
         **others,

@@ -95,19 +95,19 @@ def solve(
         prepared.input_file.with_suffix(stale).unlink(missing_ok=True)
     run = run_ccx(ccx, prepared.input_file, settings.time_limit, settings.threads, progress)
     document, solution = judge(prepared, run)
-    document["message"] = _ending(run, prepared.input_file, settings.time_limit)
+    document["message"] = _ending(run, prepared.input_file)
     if solution is not None:
         document["files"] |= _write_fields(prepared, solution) | draw(prepared.model, solution, prepared.folder)
         write_json(prepared.folder / _RESULT, {"input_sha256": prepared.fingerprint, "result": document})
     return document
 
 
-def _ending(run: SolverRun, input_file: Path, time_limit: float) -> str:
+def _ending(run: SolverRun, input_file: Path) -> str:
     """Why the solver did not finish; empty if it did."""
     if run.finished:
         return ""
-    if run.return_code is None:
-        return f"the solver was stopped at its time limit of {time_limit:g} s"
+    if run.stopped:
+        return run.stopped
     return f"the solver did not finish: {input_file.with_suffix('.log')} says why"
 
 

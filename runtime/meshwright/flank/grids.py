@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.contact.analysis import turns
 from meshwright.flank.mesh import Triangulation, mesh
 from meshwright.flank.region import NEWTON_STEPS, lengthwise, region, solved
 
@@ -61,7 +60,7 @@ def of_design(drive, triangles):
     """A triangulation as the drive of the design's hand has it."""
     if not drive.design.mirrored:
         return triangles
-    flip = np.array([1.0, -1.0, 1.0])
+    flip = drive.design.mirror.flip
     return Triangulation(
         triangles.parameters, flip * triangles.points, flip * triangles.normals, triangles.triangles[:, ::-1],
         triangles.border[:, ::-1], triangles.limit,
@@ -71,9 +70,8 @@ def of_design(drive, triangles):
 def _of_design(drive, flank, shape, values, triangles):
     """The grid at parameters (N·M, k) of the right-hand drive, as the drive of the design's hand has it."""
     found = flank(values)
-    mirror = -1.0 if drive.design.mirrored else 1.0
-    flip = np.array([1.0, mirror, 1.0])
-    signs = np.array([mirror if turns(name) else 1.0 for name in flank.parameters])
+    mirror = drive.design.mirror
+    flip, signs = mirror.flip, np.array([mirror.factor(name) for name in flank.parameters])
     return Grid(
         flank.body["name"], flank.region, flank.parameters, tuple(shape), signs * values, flip * found.points,
         flip * found.normals, of_design(drive, triangles),

@@ -25,8 +25,7 @@ def contacts(drive, angle):
     Solutions on the spurious sheet, where the wheel's flank does not lie, are rejected; points that bodies cannot
     make keep their flags. Rows are in ascending order of the rack angle Ψ.
     """
-    if drive.design.mirrored:
-        angle = -angle
+    angle = drive.design.mirror.sign * angle
     lines, found = np.linspace(*Profile(drive, "hob").sheet(), LINES), []
     for _ in range(2):
         found = _distinct(drive, [*found, *_solutions(drive, angle, lines)])

@@ -37,19 +37,19 @@ def limits(drive, request):
         **_axes(drive),
         **_right_angle(drive, hob, request),
     )
-    return _mirrored(found) if drive.design.mirrored else found
+    return _seen_in(drive.design.mirror, found)
 
 
 def _of_right_hand(drive, request):
     """The request as the right-hand drive gets it: the mirror image of a section lies at −y."""
-    if request.section_y is None or not drive.design.mirrored:
+    if request.section_y is None:
         return request
-    return replace(request, section_y=-request.section_y)
+    return replace(request, section_y=drive.design.mirror.sign * request.section_y)
 
 
-def _mirrored(found):
+def _seen_in(mirror, found):
     names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
-    return replace(found, **{name: tuple(entry.mirrored() for entry in getattr(found, name)) for name in names})
+    return replace(found, **{name: tuple(entry.seen_in(mirror) for entry in getattr(found, name)) for name in names})
 
 
 def _is_right_angle(drive):

@@ -1,6 +1,6 @@
 """What limits are asked for and what they are: frozen records in mm and rad, and their plain data."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -35,11 +35,9 @@ class SurfaceLimit:
         """Distance from the member's axis."""
         return float(np.hypot(self.point[0], self.point[1]))
 
-    def mirrored(self):
-        """The same limit of the mirror-image drive."""
-        return SurfaceLimit(
-            self.member, self.point * MIRROR, _turned(self.parameters), self.on_flank, dict(self.extra)
-        )
+    def seen_in(self, mirror):
+        """The same limit of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
+        return replace(self, point=self.point * mirror.flip, parameters=mirror.numbers(self.parameters))
 
     def plain(self):
         data = {"member": self.member, "parameters": self.parameters, "point_mm": self.point.tolist()}
@@ -65,16 +63,15 @@ class ContactPoint:
         """Distance from the worm axis."""
         return float(np.hypot(self.point[0], self.point[1]))
 
-    def mirrored(self):
-        """The same contact of the mirror-image drive."""
-        return ContactPoint(
-            self.point * MIRROR,
-            self.normal * MIRROR,
-            self.wheel_point * MIRROR,
-            -self.angle,
-            _turned(self.parameters),
-            self.wheel_radius,
-            self.flags,
+    def seen_in(self, mirror):
+        """The same contact of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
+        return replace(
+            self,
+            point=self.point * mirror.flip,
+            normal=self.normal * mirror.flip,
+            wheel_point=self.wheel_point * mirror.flip,
+            angle=mirror.sign * self.angle,
+            parameters=mirror.numbers(self.parameters),
         )
 
     def as_limit(self):
@@ -113,9 +110,9 @@ class Axis:
         """Angle to the worm axis, 0 to 90°, rad."""
         return float(np.arctan2(np.hypot(self.direction[0], self.direction[1]), abs(self.direction[2])))
 
-    def mirrored(self):
-        """The same axis of the mirror-image drive."""
-        return Axis(self.point * MIRROR, self.direction * MIRROR)
+    def seen_in(self, mirror):
+        """The same axis of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
+        return Axis(self.point * mirror.flip, self.direction * mirror.flip)
 
     def plain(self):
         return {
@@ -133,9 +130,9 @@ class BranchPoint:
     kind: str
     point: np.ndarray
 
-    def mirrored(self):
-        """The same branch point of the mirror-image drive."""
-        return BranchPoint(-self.angle, self.kind, self.point * MIRROR)
+    def seen_in(self, mirror):
+        """The same branch point of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
+        return BranchPoint(mirror.sign * self.angle, self.kind, self.point * mirror.flip)
 
     def plain(self):
         return {
@@ -198,12 +195,3 @@ class Limits:
             "least_teeth_without_undercut": self.least_teeth,
             "head_cutter": self.head_cutter and self.head_cutter.plain(),
         }
-
-
-#: The mirror image y → −y of a point or direction.
-MIRROR = np.array([1.0, -1.0, 1.0])
-
-
-def _turned(parameters):
-    """Parameters with the angles about z-type axes negated."""
-    return {name: -value if name.startswith(("psi", "phi")) else value for name, value in parameters.items()}

@@ -18,7 +18,7 @@ def section(drive, member, offset, count):
     if drive.design.family != "cylindrical-worm":
         raise UsageError(f"--section: a {drive.design.family} drive has no sections that mesh as planar pairs")
     need_right_angle(drive)
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     profile = Profile(drive, "worm" if member == "pinion" else "hob")
     t = np.array([profile.at_radius(r) for r in section_radii(drive, profile, count)], dtype=float)
     point = profile(t)["point"]

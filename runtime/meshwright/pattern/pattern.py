@@ -86,7 +86,7 @@ def patches(mesh, angle, count=72, separation=None):
 
 
 def _contour(drive, found, k, directions, separation):
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     flip = np.array([1.0, mirror, 1.0])
     contact = (flip * a[k] for a in (found.points, found.normals, found.major))
     gap = Gap.at(drive, mirror * found.angles[k], found.solutions[k], *contact)

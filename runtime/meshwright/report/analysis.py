@@ -100,7 +100,7 @@ class Analysis:
     @property
     def mirror(self):
         """−1 for a left-hand design, whose flanks and placements are those of its mirror image."""
-        return -1.0 if self.drive.design.mirrored else 1.0
+        return self.drive.design.mirror.sign
 
     @property
     def teeth(self):
@@ -177,7 +177,7 @@ def _line_positions(drive):
 
 def _lines(drive, angles):
     """The line of contact at each of the ascending angles; empty where there is none."""
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     order = np.argsort(mirror * angles)
     unknowns, _ = drive.trace(mirror * angles[order])
     unknowns = unknowns[np.argsort(order)]
@@ -216,7 +216,7 @@ def _pattern(drive, tca):
 
 
 def _matrices(drive, tca):
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     order = np.argsort(mirror * tca.angles)
     placed = placements(drive, mirror * tca.angles[order])
     return {name: matrices[np.argsort(order)] for name, matrices in placed.matrices.items()}
@@ -226,7 +226,7 @@ def _patches(drive, tca, matrices):
     """Both flanks around the path of contact; none where there are no contact points."""
     if not tca.solved.any():
         return {}
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     flip, solved = np.array([1.0, mirror, 1.0]), tca.solved
     major, normal = flip * tca.major[solved], flip * tca.normals[solved]
     lengths = np.nan_to_num(tca.semi_axes[solved])

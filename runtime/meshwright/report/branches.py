@@ -13,7 +13,7 @@ def breaks(drive, tca):
 
     Positions without a contact point break no curve: there is none at them.
     """
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     joints = np.flatnonzero(tca.solved[1:] & tca.solved[:-1]) + 1
     return np.array([k for k in joints if not _one_branch(drive, mirror * tca.angles, tca.solutions, k)], dtype=int)
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.contact import words
 from meshwright.contact.results import ARCSEC, impossible
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.ends import event, why_open
 from meshwright.cycle.transmission import ROUND_OFF
-from meshwright.report import words
 from meshwright.report.numbers import fixed, number
 
 #: What negative backlash means, what commonly causes it, and what helps.

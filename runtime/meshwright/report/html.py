@@ -8,7 +8,7 @@ from importlib import resources
 import jinja2
 from markupsafe import Markup
 
-from meshwright.report import style, words
+from meshwright.report import style, validity
 from meshwright.report.figures import pictures
 from meshwright.report.findings import findings, tiles
 from meshwright.report.numbers import number
@@ -51,7 +51,7 @@ def page(analysis):
         separation=number(design.value("separation_mm", "contact")),
         pictures=[_drawn(picture, analysis) for picture in pictures(analysis)],
         tables=tables,
-        validity=words.VALIDITY,
+        validity=validity.VALIDITY,
     )
 
 

@@ -11,7 +11,7 @@ from meshwright.cycle.transmission import peak_to_peak
 from meshwright.report.branches import breaks
 
 #: Size and label of a misalignment that a workshop would call small, by the unit of its key.
-STEPS = {"mm": (0.01, "0.01\N{NO-BREAK SPACE}mm"), "deg": (1 / 60, "1′")}
+STEPS = {"mm": (0.01, "0.01\N{NO-BREAK SPACE}mm"), "deg": (1 / 60, "1′"), "um": (1.0, "1\N{NO-BREAK SPACE}µm")}
 
 #: Shifts of a contact point below this are round-off, mm: a tenth of an atom.
 SHIFT_ROUND_OFF = 1e-8

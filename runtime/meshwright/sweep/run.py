@@ -1,8 +1,8 @@
 """Sweeps: one design under many misalignments and parameter values, traced in lanes.
 
 A sweep is cut into slices that depend on nothing but the plan: the same plan gives the same rows however many threads
-or machines work on it and however often it is interrupted. Each slice is one file, replaced atomically; a slice whose
-file exists is done.
+or machines work on it and however often it is interrupted. Each slice is one file, replaced atomically and sealed
+(:mod:`meshwright.sweep.slices`); a slice that is sealed is done. One process at a time works in a folder.
 """
 
 import hashlib
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
-from meshwright.base.files import write_bytes
+from meshwright.base.files import locked, write_bytes
 from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, SOLVED
 from meshwright.drive import Drive
@@ -34,6 +34,9 @@ AHEAD = 1000
 
 #: So many samples that are not complete are listed.
 FIRST = 20
+
+#: The file that says which sweep a folder holds.
+MARK = "sweep.json"
 
 QUANTILES = (0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0)
 
@@ -98,10 +101,16 @@ class Plan:
     def slices(self):
         return -(-self.count // self.slice_samples)
 
+    def _samples_of(self, number):
+        return min(self.slice_samples, self.count - number * self.slice_samples)
+
+    def slice_rows(self, number):
+        """Number of rows of a slice: its samples at every angle."""
+        return self._samples_of(number) * len(self.angles)
+
     def values(self, number):
         """Values of the varied keys in a slice, (samples, keys), in the keys' units."""
-        first = number * self.slice_samples
-        count = min(self.slice_samples, self.count - first)
+        first, count = number * self.slice_samples, self._samples_of(number)
         if self.levels:
             places = np.unravel_index(np.arange(first, first + count), [self.levels] * len(self.variations))
             columns = [v.levels(place, self.levels) for v, place in zip(self.variations, places, strict=True)]
@@ -149,11 +158,11 @@ def solve(plan, number):
     return Rows(sample, values, found.status, found.error, found.points, found.flags)
 
 
-def write_slice(plan, folder, number, form):
-    """Solve a slice and write it, unless its file exists."""
+def write_slice(plan, identity, folder, number, form):
+    """Solve a slice and write it, unless it is done."""
     path = _slice(folder, number, form)
-    if not path.exists():
-        slices.write(_columns(plan, solve(plan, number)), path, form)
+    if not slices.done(path, identity, number):
+        slices.write(_columns(plan, solve(plan, number)), path, form, identity, number)
 
 
 def _slice(folder, number, form):
@@ -181,23 +190,32 @@ def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lamb
     drive = check(plan)
     slices.require(form)
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    _claim(plan, drive, folder, form)
-    if scheduler is None:
-        _on_threads(plan, folder, form, threads or os.cpu_count(), advance)
-    else:
-        _on_dask(plan, folder.resolve(), form, threads, scheduler, advance)
-    for part in folder.glob(".slice-*"):
-        part.unlink(missing_ok=True)  # what a killed process left; every slice is there
-    return summary(plan, folder, form)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"{folder}: cannot be made ({error.strerror}); name another folder") from error
+    identity = plan.identity
+    with locked(folder, "sweep"):
+        _claim(plan, identity, drive, folder, form)
+        for left_by_a_killed_process in (*folder.glob(".slice-*"), *folder.glob(f".{MARK}.*")):
+            left_by_a_killed_process.unlink(missing_ok=True)
+        try:
+            if scheduler is None:
+                _on_threads(plan, identity, folder, form, threads or os.cpu_count(), advance)
+            else:
+                _on_dask(plan, identity, folder.resolve(), form, threads, scheduler, advance)
+        except OSError as error:
+            done = "what is written stays, and the same command goes on from there"
+            raise UsageError(f"{folder}: cannot be written ({error.strerror or error}); make room: {done}") from error
+        return summary(plan, folder, form)
 
 
-def _on_threads(plan, folder, form, threads, advance):
+def _on_threads(plan, identity, folder, form, threads, advance):
     numbers = iter(range(plan.slices))
     with ThreadPoolExecutor(threads) as pool:
         running, free = set(), 2 * threads
         while True:
-            running |= {pool.submit(write_slice, plan, folder, k, form) for k in islice(numbers, free)}
+            running |= {pool.submit(write_slice, plan, identity, folder, k, form) for k in islice(numbers, free)}
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
@@ -207,14 +225,14 @@ def _on_threads(plan, folder, form, threads, advance):
                 advance()
 
 
-def _on_dask(plan, folder, form, threads, scheduler, advance):
+def _on_dask(plan, identity, folder, form, threads, scheduler, advance):
     try:
         from distributed import Client, as_completed
     except ImportError as error:
         raise UsageError("--scheduler needs Dask: pip install 'meshwright[sweep]'") from error
     local = {"n_workers": threads or os.cpu_count(), "threads_per_worker": 1, "dashboard_address": None}
     with Client(**local) if scheduler == "local" else Client(scheduler) as client:
-        work = (client.submit(write_slice, plan, folder, k, form, pure=False) for k in range(plan.slices))
+        work = (client.submit(write_slice, plan, identity, folder, k, form, pure=False) for k in range(plan.slices))
         running = as_completed(islice(work, AHEAD))
         for finished in running:
             finished.result()
@@ -222,12 +240,12 @@ def _on_dask(plan, folder, form, threads, scheduler, advance):
             running.update(islice(work, 1))
 
 
-def _claim(plan, drive, folder, form):
+def _claim(plan, identity, drive, folder, form):
     """Mark the folder as this sweep's, with the meaning of the numbers in its columns: flags from the lowest bit."""
-    mark = folder / "sweep.json"
+    mark = folder / MARK
     claim = {
         "schema": "meshwright.sweep/1",
-        "identity": plan.identity,
+        "identity": identity,
         "format": form,
         "slices": plan.slices,
         "statuses": {str(code): word for code, word in analysis.statuses().items()},
@@ -256,10 +274,12 @@ def summary(plan, folder, form="parquet"):
     Of those that are not, the first are listed by number.
     """
     names = ["status", "flags", "transmission_error_arcsec", *(f"contact_{axis}_mm" for axis in "xyz")]
+    identity = plan.identity
     n, bad = len(plan.angles), samples.impossible_bits(check(plan))
     peaks, places, wholes, words, impossible = [], [], [], Counter(), 0
     for number in range(plan.slices):
-        status, flags, error, *xyz = slices.read(_slice(folder, number, form), names)
+        path, rows = _slice(folder, number, form), plan.slice_rows(number)
+        status, flags, error, *xyz = slices.read(path, names, identity, number, rows)
         solved = np.isin(status, analysis.status_codes(*SOLVED))
         good = solved & ((flags.astype(np.uint32) & bad) == 0)
         words.update(status.tolist())

@@ -16,6 +16,7 @@ from meshwright.cycle import edge, windows
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.path import NODES_PER_PITCH
 from meshwright.cycle.transmission import ROUND_OFF
+from meshwright.design import description as metadata
 from meshwright.design import design as designs
 
 #: Width of the lanes that give the same bits on every machine.
@@ -85,7 +86,7 @@ class Points:
 
 def solve(drive, keys, values, angles, portable=False):
     """:class:`Points` of the samples ``values`` (S, K) of ``keys`` at pinion angles (N,), rad: as of ``Drive.tca``."""
-    mirror = -1.0 if drive.design.mirrored else 1.0
+    mirror = drive.design.mirror.sign
     angles = np.asarray(angles, dtype=float)
     batch = Batch.of(drive, keys, values, portable)
     found = batch.points(mirror * angles).mirrored(mirror)
@@ -219,11 +220,17 @@ def column(drive, key):
     """Index and entry of the parameter that a key ("table.key") of the design file sets; it must be free to vary."""
     table, _, name = key.partition(".")
     description = drive.design.description
-    if table == "design" and name in description["excluded"]:
-        raise DesignError(key, None, f"a {description['title']} has no such size", "vary another key")
     if table == "design" and designs.has_rival(drive.design, name):
         raise DesignError(key, None, "another key of the design determines it", "vary that key instead")
+    if any(key in group for group in description["together"]) and not _is_given(drive.design, table, name):
+        raise DesignError(key, None, "it makes sense only together with others", "give all of them in the design")
     for k, p in enumerate(description["parameters"]):
         if (p["table"], p["key"]) == (table, name) and designs.is_real(p):
             return k, p
+    if any((p["table"], p["key"]) == (table, name) for p in metadata.parameters(description["family"])):
+        raise DesignError(key, None, f"a {description['title']} does not use it", "vary another key")
     raise DesignError(key, None, "no real parameter of this drive", "`meshwright drives` lists the keys as table.key")
+
+
+def _is_given(design, table, key):
+    return design.tables[table].get(key) is not None

@@ -1,11 +1,29 @@
-"""Slices of a sweep as files of columns: Parquet or CSV."""
+"""Slices of a sweep as files of columns, Parquet or CSV, each beside its seal.
+
+The seal, ``<slice>.seal``, is written after the slice and says whose rows it holds, how many, and the digest of its
+bytes. A slice without a seal is not done; one that does not agree with its seal is refused.
+"""
 
 import csv
+import hashlib
+import json
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.files import replaced
+from meshwright.base.files import replaced, write_bytes
+
+
+@dataclass(frozen=True)
+class Seal:
+    """Slice ``number`` of the sweep ``identity``: its rows, and the size and SHA-256 of its file."""
+
+    identity: str
+    number: int
+    rows: int
+    bytes: int
+    sha256: str
 
 
 def require(form):
@@ -14,15 +32,64 @@ def require(form):
         _parquet()
 
 
-def write(columns, path, form):
-    """Write columns by name, (N,) each, in place of what is there; an interrupted write leaves nothing."""
+def write(columns, path, form, identity, number):
+    """Write columns by name, (N,) each, in place of what is there, then the seal, which an interrupted write lacks."""
+    seal = _seal_path(path)
+    seal.unlink(missing_ok=True)
     with replaced(path) as temporary:
         _WRITERS[form](columns, temporary)
+        digest, size = _digest(temporary)
+    rows = len(next(iter(columns.values())))
+    write_bytes(seal, json.dumps(asdict(Seal(identity, number, rows, size, digest))).encode())
 
 
-def read(path, names):
-    """Columns of a written slice."""
-    return _READERS[path.suffix.removeprefix(".")](path, names)
+def done(path, identity, number):
+    """Whether a slice is written and sealed as this one; its bytes are compared when it is read."""
+    seal = _read_seal(path)
+    return seal is not None and path.exists() and (seal.identity, seal.number) == (identity, number)
+
+
+def read(path, names, identity, number, rows):
+    """Columns of a written slice; raises :class:`~meshwright.base.errors.UsageError` for one that is not as sealed."""
+    seal = _read_seal(path)
+    try:
+        intact = seal is not None and seal == Seal(identity, number, rows, *_digest(path)[::-1])
+    except OSError as error:
+        raise _damaged(path, f"cannot be read ({error.strerror})") from error
+    if not intact:
+        raise _damaged(path, "is not what the sweep wrote there")
+    return columns(path, names)
+
+
+def columns(path, names):
+    """Columns (N,) of a slice file, whoever wrote it."""
+    try:
+        return _READERS[path.suffix.removeprefix(".")](path, names)
+    except (OSError, ValueError, KeyError) as error:  # pyarrow's errors are of these kinds
+        raise _damaged(path, f"cannot be read ({error})") from error
+
+
+def _damaged(path, what):
+    return UsageError(f"{path}: {what}; remove it and run the sweep again: it is computed anew")
+
+
+def _seal_path(path):
+    return path.with_name(f"{path.name}.seal")
+
+
+def _read_seal(path):
+    """The seal of a slice; None if there is none, or none that can be read."""
+    try:
+        return Seal(**json.loads(_seal_path(path).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+def _digest(path):
+    """SHA-256 and size of a file."""
+    with open(path, "rb") as stream:
+        digest = hashlib.file_digest(stream, "sha256").hexdigest()
+        return digest, stream.tell()
 
 
 def _parquet():

@@ -1,17 +1,4 @@
-"""Flags and limits of validity in plain words."""
-
-#: What each flag of a contact point means, for a reader.
-FLAGS = {
-    "undercut": "the point lies past an undercut line: that part of the flank is cut away",
-    "interference": "the flanks would cut into each other here (negative relative curvature)",
-    "beyond_regression": "the point lies beyond an edge of regression: that part of the flank does not exist",
-    "spurious_sheet": "the point lies on a sheet that satisfies the equations but is no part of the tooth",
-    "off_tip": "the point lies outside a tip",
-    "off_root": "the point lies below a root",
-    "off_face": "the point lies outside a face",
-    "off_tool": "the point lies beyond the end of the cutting tool",
-    "edge_contact": "an edge of a tooth touches, not its flank",
-}
+"""What the numbers of a report leave out."""
 
 #: What the numbers of every report leave out.
 VALIDITY = (
@@ -25,8 +12,3 @@ VALIDITY = (
     "A misalignment is applied alone, on top of those of the design, and its effect is a central difference: "
     "proportional effects may be scaled, peak-to-peak values may not.",
 )
-
-
-def flag(word):
-    """A flag in words."""
-    return FLAGS.get(word, word.replace("_", " "))

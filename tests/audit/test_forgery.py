@@ -1,0 +1,574 @@
+"""Forged records, every hash, link, root and seal made anew by the forger: what is said must be wrong in itself."""
+
+import hashlib
+import json
+import re
+
+import pytest
+
+from derive.audit import check, store
+from derive.files import replace_text
+
+KINDS = ("source", "step", "equation", "certificate", "verdict")
+MERSENNE = 2**61 - 1
+
+
+class Forger:
+    """A record that can be edited as plain JSON and is then hashed, linked, rooted and sealed again."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.objects = list(check.read_record(folder).values())
+
+    def one(self, **wanted):
+        return next(item for item in self.objects if all(item.get(key) == value for key, value in wanted.items()))
+
+    def verdict(self, name):
+        return self.one(object="verdict", id=name)
+
+    def source(self, name):
+        return self.one(object="source", id=name)
+
+    def equation(self, name):
+        return self.one(object="equation", id=name)
+
+    def certificate(self, name):
+        return self.one(object="certificate", equation=self.equation(name)["sha256"])
+
+    def proof(self, left, right, /, name="recess-action/eq-12/as printed/1", **parts):
+        """An equation and its certificate replaced by another statement with an empty numerator."""
+        equation, certificate = self.equation(name), self.certificate(name)
+        text = f"{parts.pop('text', 'omega1 = w1')}"
+        equation |= {"lhs": left, "rhs": right, "where": {}, "signs": [], "jets": {}}
+        certificate |= {
+            "kind": "ring_nf", "outcome": "proved", "angles": [], "arcs": [], "roots": [], "generators": [],
+            "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}], "degree": 0,
+            "point": {"symbols": {}, "half_tangents": {}}, "lhs": ["0"], "rhs": ["0"],
+        } | parts  # fmt: skip
+        verdict = self.verdict(name.rsplit("/", 2)[0])
+        verdict["status"] = "proved"
+        verdict["readings"][0]["texts"] = [text]
+        verdict["readings"][0]["parts"] = verdict["readings"][0]["parts"][:1]
+        self.source(verdict["id"])["reading"] = {"as printed": [text]}
+
+    def used(self):
+        """The objects that a verdict rests on."""
+        by_hash = {item["sha256"]: item for item in self.objects}
+        pending, found = [item["sha256"] for item in self.objects if item["object"] == "verdict"], set()
+        while pending:
+            key = pending.pop()
+            if key in by_hash and key not in found:
+                found.add(key)
+                pending += re.findall(r"[0-9a-f]{64}", check.canonical({**by_hash[key], "sha256": ""}))
+        return [item for item in self.objects if item["sha256"] in found]
+
+    def sealed(self, everything=False):
+        """Everything hashed and written again, in the order of its links; what is no longer used is left out."""
+        renamed, objects = {}, {}
+        kept = self.objects if everything else self.used()
+        for kind in KINDS:
+            for item in (item for item in kept if item["object"] == kind):
+                text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), check.canonical(item))
+                body = json.loads(text)
+                old, body["sha256"] = item["sha256"], check.sha256_of(body)
+                renamed[old] = body["sha256"]
+                objects[body["sha256"]] = body
+        lines = {"ledger.jsonl": "", "certificates.jsonl": ""}
+        for item in objects.values():
+            name = "certificates.jsonl" if item["object"] == "certificate" else "ledger.jsonl"
+            lines[name] += check.canonical(item) + "\n"
+        for name, text in lines.items():
+            replace_text(self.folder / name, text)
+        reseal(self.folder)
+
+
+def reseal(folder):
+    """Root and seal made anew over the files as they are."""
+    root = check.root_of({json.loads(line)["sha256"]: 0 for name in ("ledger", "certificates")
+                          for line in (folder / f"{name}.jsonl").read_text().splitlines()})  # fmt: skip
+    for path in (folder.parent / "c").glob("*.h"):
+        path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {root})", path.read_text()))
+    files = {
+        path.relative_to(folder.parent).as_posix(): path.read_text(encoding="utf-8")
+        for path in sorted(folder.parent.rglob("*"))
+        if path.is_file() and path.name not in ("artifacts.json", "manifest.json")
+    }
+
+    class Rooted:
+        pass
+
+    Rooted.root = root
+    replace_text(folder / "artifacts.json", store.seal(Rooted, files))
+
+
+@pytest.fixture
+def forger(record):
+    return Forger(record)
+
+
+def test_a_record_that_is_only_hashed_again_holds(forger, record):
+    forger.sealed()
+    check.verify(record)
+
+
+# ---- mathematics -----------------------------------------------------------------------------------------------------
+
+
+def two_roots_one_name(forger):
+    """sqrt(2) = sqrt(3), both called sqrt0."""
+    roots = [{"radicand": n, "generator": "sqrt0", "divisor": "1"} for n in (2, 3)]
+    forger.proof(["sqrt", 2], ["sqrt", 3], roots=roots, text="sqrt(2) = sqrt(3)", lhs=["1.4"], rhs=["1.4"])
+
+
+def root_with_two_divisors(forger):
+    """sqrt(x^2) = -sqrt(1) x, by a divisor whose sign is chosen."""
+    roots = [{"radicand": n, "generator": "sqrt0", "divisor": d} for n, d in ((4, "1"), (1, "-2"))]
+    forger.proof(["sqrt", 4], ["-", ["*", 2, ["sqrt", 1]]], roots=roots, generators=["sqrt0"],
+                 text="sqrt(4) = -2*sqrt(1)", lhs=["2"], rhs=["-2"])  # fmt: skip
+
+
+def root_named_as_cosine(forger):
+    """sqrt(x) = cos(a)."""
+    roots = [{"radicand": "x", "generator": "cos(a)", "divisor": "1"}]
+    forger.proof(["sqrt", "x"], ["cos", "a"], roots=roots, angles=[{"symbol": "a", "divisor": 1}],
+                 text="sqrt(x) = cos(a)")  # fmt: skip
+
+
+def root_named_as_symbol(forger):
+    """sqrt(x) = y."""
+    roots = [{"radicand": "x", "generator": "y", "divisor": "1"}]
+    forger.proof(["sqrt", "x"], "y", roots=roots, text="sqrt(x) = y")
+
+
+def arc_named_as_symbol(forger):
+    """atan2(a, b) = z."""
+    tree = ["atan2", "a", "b"]
+    forger.proof(tree, "z", arcs=[{"tree": tree, "generator": "z"}], text="atan2(a, b) = z")
+
+
+def symbol_named_as_root(forger):
+    """A free symbol called sqrt0."""
+    roots = [{"radicand": "x", "generator": "sqrt0", "divisor": "1"}]
+    forger.proof(["sqrt", "x"], "sqrt0", roots=roots, text="sqrt(x) = sqrt0")
+
+
+def multiple_of_a_prime(forger):
+    """x + (2^61 - 1) y = x."""
+    forger.proof(["+", "x", ["*", MERSENNE, "y"]], "x", text=f"x + {MERSENNE}*y = x",
+                 point={"symbols": {"x": "1", "y": "0"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])  # fmt: skip
+
+
+def prime_is_zero(forger):
+    """2^61 - 1 = 0."""
+    forger.proof(MERSENNE, 0, text=f"{MERSENNE} = 0")
+
+
+def fermat(forger):
+    """x^(p - 1) = 1 by nested powers."""
+    tree = "x"
+    for factor in (2, 3, 3, 5, 5, 7, 11, 13, 31, 41, 61):
+        tree = ["^", tree, factor]
+    tree = ["*", ["^", ["^", ["^", tree, 1321 // 64], 32], 60], 1]
+    forger.proof(tree, 1, text="x = 1", point={"symbols": {"x": "1"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])
+
+
+def enormous_degree(forger):
+    """(((x^64)^64)^64 ...) = the same times one."""
+    tree = "x"
+    for _ in range(8):
+        tree = ["^", tree, 64]
+    forger.proof(tree, ["*", 1, tree], text="x = 1*x")
+
+
+def enormous_exponent(forger):
+    forger.proof(["^", "x", 10**9], ["*", 1, ["^", "x", 10**9]], text=f"x**{10**9} = 1*x**{10**9}")
+
+
+def enormous_integer(forger):
+    forger.proof(10**4000, 0, text="1 = 0")
+
+
+def sign_that_is_an_angle(forger):
+    equation = forger.equation("recess-action/eq-16/as printed/1")
+    equation["signs"] = [forger.certificate(equation["id"])["angles"][0]["symbol"]]
+
+
+def turned_derivative(forger):
+    forger.proof(["d", ["sin", "a"], ["a", 1]], ["-", ["cos", "a"]], text="d(sin(a), a) = -cos(a)",
+                 angles=[{"symbol": "a", "divisor": 1}], lhs=["0.8"], rhs=["-0.8"],
+                 point={"symbols": {}, "half_tangents": {"a": "1/3"}})  # fmt: skip
+
+
+def refuted_circle(forger):
+    """cos^2 + sin^2 = 1 for an angle that is defined by a length over a radius, called exact and refuted."""
+    equation, certificate = (
+        forger.equation("recess-action/eq-12/as printed/1"), forger.certificate("recess-action/eq-12/as printed/1")
+    )  # fmt: skip
+    forger.objects.append(
+        {"object": "step", "id": "forged.a", "op": "define", "tree": ["/", "u", "r"], "inputs": [], "sha256": "e" * 64}
+    )
+    equation |= {
+        "lhs": ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2]], "rhs": 1, "where": {"a": "e" * 64},
+        "signs": [], "jets": {},
+    }  # fmt: skip
+    for key in ("generators", "relations", "components", "degree"):
+        certificate.pop(key, None)
+    certificate |= {
+        "kind": "exact_point", "outcome": "refuted", "angles": [{"symbol": "a", "divisor": 1}], "arcs": [], "roots": [],
+        "point": {"symbols": {"u": "2", "r": "3"}, "half_tangents": {}}, "rounded": False, "lhs": ["1"], "rhs": ["1"],
+        "differs": [0],
+    }  # fmt: skip
+    verdict = forger.verdict("recess-action/eq-12")
+    verdict["status"] = "false"
+    verdict["readings"][0]["texts"] = ["cos(a)**2 + sin(a)**2 = 1"]
+    forger.source("recess-action/eq-12")["reading"] = {"as printed": ["cos(a)**2 + sin(a)**2 = 1"]}
+
+
+def invented_point_value(forger):
+    """A counterexample that sets pi to 3."""
+    certificate = forger.one(object="certificate", kind="exact_point")
+    certificate["point"]["symbols"]["pi"] = "3"
+
+
+def sign_of_two(forger):
+    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and "s" in c["point"]["symbols"])
+    certificate["point"]["symbols"]["s"] = "2"
+
+
+def worked_numbers(forger):
+    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and c["lhs"][0] != "0")
+    certificate["lhs"] = certificate["rhs"] = ["7" for _ in certificate["lhs"]]
+
+
+def understated_degree(forger):
+    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and c["degree"] > 1)
+    certificate["degree"] = 1
+
+
+# ---- printed numbers -------------------------------------------------------------------------------------------------
+
+
+def figure(forger):
+    source = next(item for item in forger.objects if item["object"] == "source" and item["figures"])
+    verdict = forger.verdict(source["id"])
+    equation = forger.equation(f"{source['id']}/as printed/1")
+    return source, verdict, equation, forger.certificate(equation["id"])
+
+
+def misprint_called_proved(forger):
+    """3 printed as 2.86."""
+    source, verdict, equation, certificate = figure(forger)
+    source["figures"] = verdict["readings"][0]["texts"] = [["3", "2.86"]]
+    verdict["readings"][0]["parts"] = verdict["readings"][0]["parts"][:1]
+    source["verbatim"] = "2.86"
+    equation |= {"lhs": 3, "rhs": "2.86"}
+    certificate |= {"value": "3", "outcome": "proved"}
+    verdict |= {"status": "proved", "corrected": []}
+
+
+def half_unit_of_the_forger(forger):
+    figure(forger)[3]["half_unit"] = "1000"
+
+
+def wide_pi(forger):
+    """pi = 100, printed to no digit."""
+    source, verdict, equation, certificate = figure(forger)
+    misprint_called_proved(forger)
+    source["figures"] = verdict["readings"][0]["texts"] = [["pi", "100"]]
+    source["verbatim"] = "100"
+    equation |= {"lhs": "pi", "rhs": "100"}
+    certificate["value"] = "3.14159265"
+
+
+def number_with_exponent(forger):
+    source, verdict, equation, certificate = figure(forger)
+    misprint_called_proved(forger)
+    source["figures"] = verdict["readings"][0]["texts"] = [["3", "3e2"]]
+    source["verbatim"], equation["rhs"] = "3e2", "3e2"
+
+
+def number_that_is_not_printed(forger):
+    source, *_ = figure(forger)
+    source["verbatim"] = "no number at all"
+
+
+def value_of_another_formula(forger):
+    figure(forger)[3]["value"] = "12.5"
+
+
+def formula_of_another_text(forger):
+    figure(forger)[2]["lhs"] = ["+", figure(forger)[2]["lhs"], 0]
+
+
+# ---- bindings --------------------------------------------------------------------------------------------------------
+
+
+def rests_on_x_is_x(forger):
+    """A verdict on Eq (12) whose certificate proves x = x, its reading rewritten to say so."""
+    forger.proof("x", "x", text="x = x", point={"symbols": {"x": "1"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])
+
+
+def proof_of_something_true(forger):
+    """The same with the reading left as it is."""
+    text = forger.source("recess-action/eq-12")["reading"]["as printed"][0]
+    forger.proof(["+", "x", "y"], ["+", "y", "x"], text=text, lhs=["2"], rhs=["2"],
+                 point={"symbols": {"x": "1", "y": "1"}, "half_tangents": {}})  # fmt: skip
+
+
+def equation_of_another_verdict(forger):
+    """Eq (16), refuted as printed, rests on the proof of Eq (12)."""
+    forger.verdict("recess-action/eq-16")["readings"][0]["parts"] = [
+        dict(part) for part in forger.verdict("recess-action/eq-12")["readings"][0]["parts"]
+    ]
+
+
+def verdict_on_another_source(forger):
+    forger.verdict("recess-action/eq-16")["source"] = forger.source("recess-action/eq-12")["sha256"]
+
+
+def reading_left_out(forger):
+    forger.verdict("rack-and-pinion/ratio-sign")["readings"].pop()
+
+
+def emptied_readings(forger):
+    verdict = forger.verdict("recess-action/eq-16")
+    verdict |= {"readings": [], "corrected": [], "status": "not_mathematical"}
+
+
+def emptied_parts(forger):
+    forger.verdict("recess-action/eq-16")["readings"][0]["parts"] = []
+
+
+def correction_that_corrects_nothing(forger):
+    verdict = forger.verdict("recess-action/eq-16")
+    verdict["corrected"][0]["parts"] = verdict["readings"][0]["parts"]
+    verdict["status"] = "proved_with_correction"
+
+
+def correction_of_both_sides(forger):
+    equation = forger.equation("recess-action/eq-16/corrected/1")
+    equation |= {"lhs": ["+", equation["lhs"], 1], "rhs": ["+", equation["rhs"], 1]}
+
+
+def damage_invented(forger):
+    forger.verdict("recess-action/eq-12")["damage"] = "illegible"
+
+
+def status_without_evidence(forger):
+    forger.verdict("recess-action/eq-16")["status"] = "proved"
+
+
+def two_certificates(forger):
+    certificate = forger.certificate("recess-action/eq-16/as printed/1")
+    forger.objects.append({**certificate, "differs": [0, 1], "sha256": "d" * 64})
+
+
+def unused_object(forger):
+    forger.objects.append(
+        {"object": "step", "id": "forged.x", "op": "define", "tree": "y", "inputs": [], "sha256": "c" * 64}
+    )
+
+
+def definition_of_another_name(forger):
+    equation = next(e for e in forger.objects if e["object"] == "equation" and len(e["where"]) > 1)
+    first, second = list(equation["where"])[:2]
+    equation["where"][first] = equation["where"][second]
+
+
+def step_with_an_input_it_does_not_use(forger):
+    steps = [item for item in forger.objects if item["object"] == "step"]
+    steps[-1]["inputs"] = sorted({*steps[-1]["inputs"], steps[0]["sha256"]})
+
+
+def step_under_another_operation(forger):
+    next(item for item in forger.objects if item.get("op") == "diff")["op"] = "define"
+
+
+def key_added(forger):
+    forger.verdict("recess-action/eq-12")["note"] = "believe me"
+
+
+def key_left_out(forger):
+    del forger.equation("recess-action/eq-12/as printed/1")["side_conditions"]
+
+
+def print_left_out(forger):
+    forger.source("recess-action/eq-12")["verbatim"] = ""
+
+
+FORGED = [
+    (two_roots_one_name, "not of its radicand"),
+    (root_with_two_divisors, "two divisors"),
+    (root_named_as_cosine, "cannot be the name"),
+    (root_named_as_symbol, "cannot be the name"),
+    (arc_named_as_symbol, "cannot be the name"),
+    (symbol_named_as_root, "no name of a symbol"),
+    (multiple_of_a_prime, "trees differ"),
+    (prime_is_zero, "trees differ"),
+    (fermat, "degree|not 'x = 1'|exponent"),
+    (enormous_degree, "degree|is not"),
+    (enormous_exponent, "exponent"),
+    (enormous_integer, "integer|is not|digits"),
+    (sign_that_is_an_angle, "two things"),
+    (turned_derivative, "trees differ"),
+    (refuted_circle, "agree at the counterexample"),
+    (invented_point_value, "one value twice"),
+    (sign_of_two, "neither"),
+    (worked_numbers, "recorded numbers"),
+    (understated_degree, "recorded degree"),
+    (misprint_called_proved, "half a unit"),
+    (half_unit_of_the_forger, "not the keys"),
+    (wide_pi, "half a unit"),
+    (number_with_exponent, "not a decimal"),
+    (number_that_is_not_printed, "does not stand in the print"),
+    (value_of_another_formula, "recorded value"),
+    (formula_of_another_text, "not that of the source"),
+    (rests_on_x_is_x, "same expression"),
+    (proof_of_something_true, "is not"),
+    (equation_of_another_verdict, "another verdict|missing or added"),
+    (verdict_on_another_source, "another source"),
+    (reading_left_out, "readings are not"),
+    (emptied_readings, "readings are not"),
+    (emptied_parts, "missing or added"),
+    (correction_that_corrects_nothing, "status does not follow|nothing is corrected|rests on"),
+    (correction_of_both_sides, "more than one side|recorded numbers|trees"),
+    (damage_invented, "another damage"),
+    (status_without_evidence, "does not follow"),
+    (two_certificates, "two certificates"),
+    (unused_object, "no verdict rests on"),
+    (definition_of_another_name, "another step's name"),
+    (step_with_an_input_it_does_not_use, "not used"),
+    (step_under_another_operation, "operation of its tree"),
+    (key_added, "not the keys"),
+    (key_left_out, "not the keys"),
+    (print_left_out, "print is missing"),
+]
+
+
+@pytest.mark.parametrize(("forge", "reason"), FORGED, ids=[forge.__name__ for forge, _ in FORGED])
+def test_forged_object_is_refused(forger, record, forge, reason):
+    forge(forger)
+    forger.sealed(everything=forge in (two_certificates, unused_object))
+    with pytest.raises(check.Rejected, match=reason):
+        check.verify(record)
+
+
+def test_every_part_of_a_proof_that_fits_is_expanded_and_the_rest_meets_random_primes(forger, record, monkeypatch):
+    """x + (2^61 - 1) y = x is refused at random points too: no prime is known beforehand."""
+    monkeypatch.setattr(check, "EXPANSION", 0)
+    multiple_of_a_prime(forger)
+    forger.sealed()
+    with pytest.raises(check.Rejected, match="trees differ"):
+        check.verify(record)
+
+
+# ---- files -----------------------------------------------------------------------------------------------------------
+
+
+def altered(name, old, new):
+    def edit(folder):
+        path = folder / name
+        text = path.read_text(encoding="utf-8")
+        assert old in text
+        path.write_bytes(text.replace(old, new, 1).encode())
+
+    return edit
+
+
+def emptied_list_of_files(folder):
+    path = folder / "artifacts.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), "files": {}}, indent=1, sort_keys=True) + "\n")
+
+
+def emptied_equations_of_a_header(folder):
+    path = folder / "artifacts.json"
+    seal = json.loads(path.read_text())
+    seal["files"]["c/drive.h"]["equations"] = []
+    path.write_text(json.dumps(seal, indent=1, sort_keys=True) + "\n")
+
+
+def added_header(folder):
+    (folder.parent / "c" / "other.h").write_text("double y;\n")
+
+
+def removed_page(folder):
+    (folder / "audit.tex").unlink()
+
+
+def header_on_what_is_not_held(folder):
+    altered("../c/drive.h", "rack-and-pinion/eq-1", "rack-and-pinion/eq-77")(folder)
+    reseal(folder)
+
+
+def header_on_what_is_false(folder):
+    altered("../c/drive.h", "rack-and-pinion/eq-1", "rack-and-pinion/twice")(folder)
+    reseal(folder)
+
+
+def header_of_another_root(folder):
+    path = folder.parent / "c" / "drive.h"
+    path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {'0' * 64})", path.read_text()))
+    seal = folder / "artifacts.json"
+    old = json.loads(seal.read_text())
+    old["files"]["c/drive.h"]["sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
+    seal.write_text(json.dumps(old, indent=1, sort_keys=True) + "\n")
+
+
+def header_without_its_equations(folder):
+    text = "/* A drive. */\nstatic inline int drive_setup(const double *p, double *s)\n{\n}\n"
+    (folder.parent / "c" / "drive.h").write_text(text)
+    reseal(folder)
+
+
+def manifest_of_other_files(folder):
+    (folder.parent / "manifest.json").write_text('{"files": {}}\n')
+
+
+def emptied_record(folder):
+    for name in ("ledger.jsonl", "certificates.jsonl"):
+        (folder / name).write_text("\n")
+    (folder / "ledger.jsonl").write_text("")
+
+
+def duplicate_key(folder):
+    path = folder / "ledger.jsonl"
+    text = path.read_text()
+    path.write_text(text.replace('{"change":', '{"change":"","change":', 1))
+
+
+def repeated_line(folder):
+    path = folder / "ledger.jsonl"
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join([lines[0], *lines]))
+
+
+FILES = [
+    (altered("index.html", "proved", "false"), "index.html has been changed"),
+    (altered("audit.tex", "proved", "false"), "audit.tex has been changed"),
+    (altered("check.py", "Rejected", "Accepted"), "check.py has been changed"),
+    (emptied_list_of_files, "not sealed"),
+    (emptied_equations_of_a_header, "other equations than its seal"),
+    (added_header, "other.h is not sealed"),
+    (removed_page, "audit.tex is missing"),
+    (header_on_what_is_not_held, "not a proved statement"),
+    (header_on_what_is_false, "not a proved statement"),
+    (header_of_another_root, "does not carry the root"),
+    (header_without_its_equations, "names no equation"),
+    (manifest_of_other_files, "manifest"),
+    (emptied_record, "does not end|cannot be read|Expecting"),
+    (duplicate_key, "key stands twice"),
+    (repeated_line, "repeated"),
+    (altered("ledger.jsonl", '{"', '{ "'), "not canonical"),
+    (altered("ledger.jsonl", '"object":"source"', '"object": "source"'), "not canonical"),
+    (altered("ledger.jsonl", "\n", "\r\n"), "end its lines"),
+    (altered("ledger.jsonl", "\n", "\n\n"), "line 2"),
+    (altered("certificates.jsonl", '"degree":0', '"degree":0.0'), "not a number of the record"),
+    (altered("artifacts.json", '"root"', ' "root"'), "not canonical"),
+]
+
+
+@pytest.mark.parametrize(("edit", "reason"), FILES, ids=[f"{k} {reason}" for k, (_, reason) in enumerate(FILES)])
+def test_forged_file_is_refused(record, edit, reason):
+    edit(record)
+    with pytest.raises(check.Rejected, match=reason):
+        check.verify(record)

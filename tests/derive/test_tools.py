@@ -1,0 +1,70 @@
+"""A tool declares what it needs to know beside its geometry, and nothing else of a drive changes for it."""
+
+import mpmath
+import pytest
+import sympy as sp
+
+from derive.drives import cylindrical_worm
+from derive.language.surface import helicoid
+from derive.language.symbols import Quantity
+from derive.language.tool import Datum, tool
+from derive.newton import sample_parameters
+from derive.schedule import schedule
+from derive.tools.worm_body import WormTool, reach
+
+CROWN = Datum("blade_crown_per_mm", "c", "crowning of the blade", default=0, sample="0.001")
+
+
+@tool(CROWN)
+def crowned_axial_blade(body, definitions):
+    """Edge in the axial plane that falls back from the straight one by a parabola."""
+    r, s = body.pitch_radius, body.flank
+    t = Quantity(f"t_{body.name}", "mm", "radius", body.name)
+    height = body.groove_width / 2 + (t - r) * sp.tan(body.pressure_angle) - body[CROWN] * (t - r) ** 2
+    section = definitions.let_vector(f"P_{body.name}", (t, 0, s * height / sp.cos(body.lead_angle)), "blade", "mm")
+    flank = helicoid(definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s)
+    return WormTool(flank, r, reach(body, t), body.module, body.screw_parameter, lower_end=sp.Integer(0))
+
+
+@pytest.fixture
+def crowned(monkeypatch):
+    monkeypatch.setitem(cylindrical_worm.TOOLS, "ZX", crowned_axial_blade)
+    return cylindrical_worm.cylindrical_worm("ZX", "ZX")
+
+
+def _keys(drive):
+    return [p.key for p in drive.parameters]
+
+
+def test_a_key_of_the_tool_is_a_key_of_the_drives_that_use_it(crowned):
+    assert {"blade_crown_per_mm", "hob_blade_crown_per_mm"} <= {*_keys(crowned)}
+    assert crowned.sample["blade_crown_per_mm"] == "0.001"
+    assert [(use.body, use.word, use.keys) for use in crowned.tools] == [
+        ("worm", "ZX", ("blade_crown_per_mm",)), ("hob", "ZX", ("blade_crown_per_mm", "hob_blade_crown_per_mm")),
+    ]  # fmt: skip
+    plain = cylindrical_worm.cylindrical_worm("ZA", "ZN")
+    assert not [key for key in _keys(plain) if "crown" in key or "grinding" in key or "arc" in key]
+
+
+def test_the_hob_takes_the_datum_of_the_worm_unless_it_has_its_own(crowned):
+    symbol = {p.key: p.symbol for p in crowned.parameters}
+    values = sample_parameters(crowned)
+    assert values[symbol["hob_blade_crown_per_mm"]] == values[symbol["blade_crown_per_mm"]] == mpmath.mpf("0.001")
+
+
+def test_the_flank_stands_off_the_straight_one_by_the_parabola(crowned):
+    """At a mm from the pitch cylinder by c·a²/cos γ along the axis, whatever else the blade is."""
+    straight = cylindrical_worm.cylindrical_worm("ZA", "ZA")
+    with_crown, without = (d.pinion.surface.definitions.resolve(d.pinion.surface.point[2]) for d in (crowned, straight))
+    symbols = {q.name: q for q in with_crown.free_symbols}
+    numbers = {"c_worm": sp.Rational(1, 100), "lambda_worm": sp.pi / 3, "s": 1, "t_worm": 23, "r_worm": 20}
+    gap = (with_crown - without).subs({symbols[name]: value for name, value in numbers.items()})
+    assert sp.expand(gap) == -sp.Rational(9, 100) * 2
+
+
+def test_the_whole_drive_follows(crowned):
+    """The sample meshes: its residual vanishes with the crowned blade's own coefficient in it."""
+    plan = schedule(crowned)
+    with mpmath.workdps(40):
+        numbers = plan.tape.evaluate(plan.residual, plan.sample, mpmath)
+    assert max(map(abs, numbers)) < 1e-20
