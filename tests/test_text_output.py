@@ -1,7 +1,6 @@
 """What the commands print for a reader: round-off is no figure, and what is missing has its cause and its remedy."""
 
 import json
-from importlib.resources import files
 
 import pytest
 
@@ -11,6 +10,7 @@ from meshwright.commands.shown import ROUND_OFF, shown
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.ends import why_open
 from meshwright.cycle.pairs import Mesh
+from tests.worm.designs import without_blank
 
 
 def _printed(capsys, *arguments):
@@ -47,11 +47,7 @@ def test_a_number_above_round_off_is_kept():
 
 
 def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys, tmp_path):
-    packaged = (files("meshwright") / "designs" / "zk-zn-60.toml").read_text(encoding="utf-8")
-    design, _, rest = packaged.partition("[blank]")
-    bare = tmp_path / "bare.toml"
-    bare.write_text(design + rest[rest.index("[contact]") :], encoding="utf-8")
-    line = _line(_printed(capsys, "ratio", str(bare)), "no complete window")
+    line = _line(_printed(capsys, "ratio", without_blank("zk-zn-60", tmp_path)), "no complete window")
     assert "begins or ends" in line and "[blank]: wheel_tip_radius_mm, wheel_throat_radius_mm" in line
 
 

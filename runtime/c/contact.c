@@ -77,7 +77,7 @@ static unsigned flags_of(const mw_model *m, const double *o, double curvature_mi
 
 int mw_impossible(const char *flag)
 {
-    return strcmp(flag, "interference") == 0 || strcmp(flag, "spurious_sheet") == 0;
+    return strcmp(flag, "interference") == 0 || strcmp(flag, "spurious_sheet") == 0 || strcmp(flag, "not_first") == 0;
 }
 
 const char *mw_flag(const mw_model *m, int bit)

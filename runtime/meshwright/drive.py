@@ -11,7 +11,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.contact.functions import Function
-from meshwright.cycle import contact_ratio, edge, windows
+from meshwright.cycle import contact_ratio, edge, first_contact, windows
 from meshwright.design import design as designs
 from meshwright.design.design import Design
 from meshwright.flank import grids
@@ -116,6 +116,12 @@ class Drive:
         if result.past_a_tip and self.past_the_tips:
             return analysis.without_contact(self, angles)
         return edge.flagged(result, self.edge_window)
+
+    def first_contact(self, angles, result=None):
+        """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:
+        :class:`~meshwright.cycle.first_contact.FirstContacts`. ``result``: a TCA of these angles, if there is one.
+        """
+        return first_contact.first_contacts(self, analysis.checked_angles(angles), result)
 
     def contacts(self, angle):
         """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""

@@ -10,7 +10,7 @@ VTK_TRIANGLE = 5
 
 
 def vtu(grid):
-    """The mesh of a grid as a VTK unstructured grid (XML text): triangles, with normals and parameters at the points."""
+    """The mesh of a grid as a VTK unstructured grid (XML text): triangles with normals and parameters at the points."""
     mesh = grid.mesh
     data = [_array("normal", mesh.normals)]
     data += [_array(name, column) for name, column in zip(grid.parameters, mesh.parameters.T, strict=True)]

@@ -1,4 +1,4 @@
-"""Triangles over a region, its border resolved: vertices on the limits to rounding, and at the corners where two meet."""
+"""Triangles over a region with its border resolved: vertices on the limits to rounding and at the corners of two."""
 
 import math
 from dataclasses import dataclass

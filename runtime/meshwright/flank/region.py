@@ -22,8 +22,8 @@ from meshwright.flank.surface import Flank
 #: Limits that come from the surface itself, not from a size of blank or tool.
 SINGULAR = ("undercut", "regression", "spurious_sheet")
 
-#: Name of the limit where nothing in the design bounds the surface, and how far beyond what contact uses it then goes,
-#: in natural sizes of the parameters.
+#: Name of the limit where nothing in the design bounds the surface, and how far beyond what contact uses it then goes
+#: unless more is asked for, in natural sizes of the parameters.
 OPEN = "open"
 BEYOND = 0.5
 
@@ -46,15 +46,17 @@ NEWTON_STEPS = 40
 @dataclass(frozen=True)
 class Uses:
     """Where contact uses the flanks: parameters (P, k) of each by member, and the natural sizes of its parameters by
-    member (k,). ``edges`` gives further points (E, 3) of a member's flank in use, body frame. Right-hand drive.
+    member (k,). ``edges`` gives further points (E, 3) of a member's flank in use, body frame. Where nothing ends a
+    surface it goes ``beyond`` what is used by so many natural sizes. Right-hand drive.
     """
 
     places: dict[str, np.ndarray]
     sizes: dict[str, np.ndarray]
     edges: Callable[[str], np.ndarray]
+    beyond: float
 
     @classmethod
-    def of(cls, drive, unknowns, edges=lambda member: np.empty((0, 3))):
+    def of(cls, drive, unknowns, edges=lambda member: np.empty((0, 3)), beyond=BEYOND):
         """From solutions (P, nx) of the drive's contact."""
         scale = np.empty(drive.model.nx)
         drive.model.scale(pointer(drive.state()), pointer(scale))
@@ -63,6 +65,7 @@ class Uses:
             {b["name"]: unknowns[:, b["unknowns"]] for b in bodies},
             {b["name"]: scale[b["unknowns"]] for b in bodies},
             edges,
+            beyond,
         )
 
     def on(self, flank):
@@ -188,7 +191,7 @@ class Region:
         return self.seed is None
 
     def lattice(self, cells):
-        """The :class:`Lattice` with cells × cells over the box, a cell more on every side; nodes that hang together with
+        """The :class:`Lattice` of cells × cells over the box, a cell more on every side: nodes that hang together with
         the seed through nodes that only singular lines may part.
         """
         margin = (self.box[1] - self.box[0]) / np.asarray(cells)
@@ -211,7 +214,7 @@ def region(drive, member, name, uses):
         chart = Chart.at(flank, _on_surface(flank, places[:1], sizes)[0], sizes)
         return Region(chart, limits, None, np.zeros((2, 2)))
     chart = Chart.at(flank, start, sizes)
-    limits = _closed(chart, limits, start, places)
+    limits = _closed(chart, limits, start, places, uses.beyond)
     return _boxed(chart, limits, _deeper(chart, limits, start))
 
 
@@ -260,7 +263,7 @@ def _limits(drive, flank, uses):
             visited = np.concatenate([visited, _along(flank, uses.edges(flank.body["name"]))])
         if not len(visited):
             return limits
-        beyond = BEYOND * _lengthwise_size(flank, found, sizes)
+        beyond = uses.beyond * _lengthwise_size(flank, found, sizes)
         low, high, name = visited.min() - beyond, visited.max() + beyond, OPEN
     else:
         whole = region(drive, flank.body["name"], "flank", uses)
@@ -349,8 +352,8 @@ def _deeper(chart, limits, start):
 
 
 def _ray(chart, limits, start, axis, sign):
-    """Where a chart's line through an inner place leaves the region: coordinate (infinite if it does not), and the
-    limit that ends it.
+    """Where a chart's line through an inner place leaves the region: coordinate (infinite if it does not), the limit
+    that ends it, and the last place (k,) inside.
     """
     q, step = start, FIRST_STEP * chart.sizes[chart.free[axis]]
     at = start[list(chart.free)].copy()
@@ -362,7 +365,7 @@ def _ray(chart, limits, start, axis, sign):
         if not values.min() >= 0.0:
             return _halved(chart, limits, (q, at[axis], further[axis]), axis)
         q, at, step = trial, further, GROWTH * step
-    return sign * math.inf, None
+    return sign * math.inf, None, q
 
 
 def _halved(chart, limits, between, axis):
@@ -376,10 +379,10 @@ def _halved(chart, limits, between, axis):
             q, inner = trial, at[axis]
         else:
             outer, worst = at[axis], limits.names[int(np.argmin(values))]
-    return inner, worst
+    return inner, worst, q
 
 
-def _closed(chart, limits, start, places):
+def _closed(chart, limits, start, places, beyond):
     """The limits, and those that close the surface in its free parameters where no size of blank or tool does: across
     the tooth, the first one, on either side by itself; along it where the lengthwise limit is such a one too.
     """
@@ -387,13 +390,25 @@ def _closed(chart, limits, start, places):
     for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)):
         number = chart.free[axis]
         if axis == 0:
-            _, name = _ray(chart, limits, start, axis, sign)
-            closed = name not in (None, OPEN, *SINGULAR)
+            closed = _ends(chart, limits, start, sign)
         if closed if axis == 0 else along:
             continue
-        end = max((sign * used[:, number]).max(), sign * start[number]) + BEYOND * chart.sizes[number]
+        end = max((sign * used[:, number]).max(), sign * start[number]) + beyond * chart.sizes[number]
         limits = limits.with_(OPEN, lambda at, sign=sign, end=end, i=number: end - sign * at.parameters[:, i])
     return limits
+
+
+def _ends(chart, limits, start, sign):
+    """Whether a size of blank or tool ends the profile on one side: a limit that is reached, or that a singular line
+    only keeps from being reached.
+    """
+    _, name, last = _ray(chart, limits, start, 0, sign)
+    if name not in (None, OPEN, *SINGULAR):
+        return True
+    here, there = limits.values(chart.flank(np.stack([start, last])))
+    with np.errstate(invalid="ignore"):
+        nearer = np.isfinite(here) & (there < here)
+    return any(near and n not in (OPEN, "face", *SINGULAR) for near, n in zip(nearer, limits.names, strict=True))
 
 
 def _boxed(chart, limits, start):

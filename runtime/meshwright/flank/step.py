@@ -20,7 +20,7 @@ ROOM = 0.02
 
 @dataclass(frozen=True)
 class StepFile:
-    """The file's ``content`` and how far its faces are at most from the exact region, mm: the surface midway between the
+    """The file's ``content`` and how far its faces are at most from the region, mm: the surface midway between the
     points that it passes through, the border curves midway between theirs.
     """
 
