@@ -4,10 +4,8 @@ VENV   := .venv
 PY     := $(VENV)/bin/python
 READY  := $(VENV)/.ready
 
-SHIP   := runtime/meshwright/_generated
+SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
-CC     := $(shell command -v cc || command -v gcc || command -v clang || echo $(PY) -m ziglang cc)
-CFLAGS := -std=c99 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 
 .PHONY: setup generate audit bench build check examples run lint test solver cmake test-fe
 
@@ -29,31 +27,20 @@ solver:
 cmake: setup
 	@command -v cmake >/dev/null || test -x $(VENV)/bin/cmake || $(PY) -m pip install --quiet cmake
 
-# Regenerate generated/ from the drives.
+# Regenerate generated/: the drives that packaged designs use; with DRIVES="name …" those, with DRIVES=all all.
 generate: setup
-	$(PY) -m derive
+	$(PY) -m derive $(DRIVES)
 
 # Prove everything anew, write generated/audit/index.html and re-check record and code with their own checkers.
 audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
 
-# The shared library and the data that the Python package ships; the lane kernels take the time.
+# The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
+# with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them.
 build: setup
-	@$(MAKE) --no-print-directory -j$$(nproc 2>/dev/null || echo 2) $(SHIP)/libmeshwright.so
-
-$(addprefix $(OBJECTS)/,library.o sensitivity.o casadi_entry.o $(patsubst runtime/c/%.c,%.o,$(wildcard runtime/c/lanes*.c))): \
-		$(wildcard generated/c/*.h)
-
-$(OBJECTS)/%.o: runtime/c/%.c $(wildcard runtime/c/*.h)
-	@mkdir -p $(OBJECTS)
-	$(CC) $(CFLAGS) -Igenerated/c -Iruntime/c -c $< -o $@
-
-$(SHIP)/libmeshwright.so: $(patsubst runtime/c/%.c,$(OBJECTS)/%.o,$(wildcard runtime/c/*.c)) $(wildcard generated/*/*)
-	mkdir -p $(SHIP)/include
-	cp generated/c/*.h runtime/c/meshwright.h runtime/c/mw_model.h $(SHIP)/include/
-	cp generated/c/*.json generated/casadi/*.casadi $(SHIP)/
-	$(CC) -shared $(filter %.o,$^) -o $@ -lm
+	@$(PY) runtime/meshwright/base/compile.py generated $(SHIP) $$($(PY) -m derive.packaged) --objects $(OBJECTS)
+	@test -z "$(DRIVES)" || $(PY) -m derive $(DRIVES) --into $(SHIP)
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup

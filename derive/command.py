@@ -1,7 +1,10 @@
-"""``python -m derive [DRIVE…] [--output FOLDER]``: run the six stages and replace the generated files.
+"""``python -m derive [DRIVE…|FILE.py] [--output FOLDER | --into FOLDER]``: run the six stages, write their files.
 
-Without drives, everything is proved anew and every file replaced. With drives, their files alone are replaced; what
-they rest on is looked up in the record that was written when everything was last proved.
+Without drives, everything is proved anew and the files of every packaged drive are replaced, which are those that a
+packaged design uses; with ``all`` the files of all drives. With names, the files of those drives alone are replaced;
+what they rest on is looked up in the record that was written when everything was last proved. ``--into`` writes a
+folder of drives instead, with shared objects and an audit entry each, for ``meshwright --drives FOLDER``: of the drives
+named, or of those that a file outside the tree defines.
 """
 
 import argparse
@@ -12,10 +15,14 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from derive import compiler, drives
+from derive import compiler, drives, outside
 from derive.audit import check
-from derive.emit import tables
+from derive.emit import families
 from derive.files import replace_text
+from derive.packaged import packaged
+from meshwright.base.compile import CompileError
+
+EVERY = "all"
 
 
 @contextmanager
@@ -23,49 +30,93 @@ def log(stage, name):
     """One line a stage: its name, the drive, its time."""
     begin = time.perf_counter()
     yield
-    print(f"{stage:<9} {name:<28} {time.perf_counter() - begin:7.3f} s", file=sys.stderr)
+    sys.stderr.write(f"{stage:<9} {name:<28} {time.perf_counter() - begin:7.3f} s\n")
 
 
 def main(arguments=None):
     """Exit status 0, or 2 for an unknown drive."""
     parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__)
-    parser.add_argument("drive", nargs="*", help="drives to compile; default: all")
+    parser.add_argument("drive", nargs="*", help="drives to compile, or all; default: those of packaged designs")
     parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")
+    parser.add_argument("--into", type=Path, metavar="FOLDER", help="write a folder of drives, compiled and audited")
     options = parser.parse_args(arguments)
-    known = drives.catalogue(options.drive or drives.FAMILIES)
-    unknown = [name for name in options.drive if name not in known]
-    if unknown:
-        print(f"no drive {unknown[0]!r}; known: {', '.join(drives.catalogue())}", file=sys.stderr)
+    try:
+        if options.into:
+            _into(options.into, options.drive)
+        elif not options.drive or EVERY in options.drive:
+            files = _everything(every=EVERY in options.drive)
+            _remove_superseded(options.output, files)
+            _replace(options.output, files)
+        else:
+            files = _some(_known(options.drive))
+            _replace(options.output, files)
+            _list_in_manifest(options.output, files)
+    except check.Rejected as error:
+        print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
-    if options.drive:
-        try:
-            files = _some(options.drive)
-        except check.Rejected as error:
-            print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
-            return 2
-    else:
-        files = _everything(known)
-        _remove_superseded(options.output, files)
-    for path, text in files.items():
-        replace_text(options.output / path, text)
+    except (outside.FileError, CompileError) as error:
+        print(error, file=sys.stderr)
+        return 2
     return 0
+
+
+def _known(names):
+    """The names, if they are of drives of the tree."""
+    known = drives.catalogue(names)
+    for name in names:
+        if name.endswith(".py"):
+            raise outside.FileError(f"{name}: what a file defines is written to a folder of its own: add --into FOLDER")
+        if name not in known:
+            raise outside.FileError(f"no drive {name!r}; known: {', '.join(drives.catalogue())}")
+    return names
+
+
+def _into(folder, words):
+    """Write the drives of names, or of files, into a folder of drives."""
+    record = _record()
+    if not words:
+        raise outside.FileError("--into: no drive is named; name drives, a file that defines some, or all")
+    for word in [*drives.catalogue()] if EVERY in words else words:
+        if word.endswith(".py"):
+            path = Path(word)
+            for name, build in outside.catalogue_of(path).items():
+                with log("define", name):
+                    drive = outside.built(path, name, build)
+                outside.write(drive, record, folder, log, path)
+        else:
+            (name,) = _known([word])
+            with log("define", name):
+                drive = drives.catalogue([name])[name]()
+            outside.write(drive, record, folder, log)
+
+
+def _replace(folder, files):
+    for path, text in files.items():
+        replace_text(folder / path, text)
 
 
 def _some(names):
     """The files of the drives named."""
-    with log("prove", "audit record, as written"):
-        record = check.read_record(compiler.ROOT / "generated" / "audit")
+    record = _record()
     return {path: text for name in names for path, text in _of_drive(record, name).items()}
 
 
-def _everything(known):
-    """Every generated file, all of it proved anew."""
+def _record():
+    with log("prove", "audit record, as written"):
+        return check.read_record(compiler.RECORD)
+
+
+def _everything(every):
+    """Every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
     from derive.audit import record
 
     with log("prove", "audit record"):
         ledger = record.ledger()
-    files = _of_drives([*known], ledger.objects)
-    files |= tables.tables({name: json.loads(files[f"c/{name}.json"]) for name in known})
+    with log("define", "families"):
+        known = drives.catalogue()
+        table = families.table(build() for build in known.values())
+    files = _of_drives([*known] if every else packaged(table), ledger.objects)
+    files["families.json"] = families.text(table)
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     files["manifest.json"] = compiler.manifest(files)
@@ -87,9 +138,19 @@ def _of_drive(record, name):
     return compiler.compile_drive(drive, record, log)
 
 
-def _remove_superseded(folder, files):
-    """Remove what an earlier run wrote there, by its manifest, and this one does not."""
+def _written(folder):
+    """Path → hash of what earlier runs wrote there, by the manifest."""
     manifest = folder / "manifest.json"
-    written = json.loads(manifest.read_text(encoding="utf-8"))["files"] if manifest.exists() else {}
-    for path in written.keys() - files.keys():
+    return json.loads(manifest.read_text(encoding="utf-8"))["files"] if manifest.exists() else {}
+
+
+def _remove_superseded(folder, files):
+    """Remove what earlier runs wrote there and this one does not."""
+    for path in _written(folder).keys() - files.keys():
         (folder / path).unlink(missing_ok=True)
+
+
+def _list_in_manifest(folder, files):
+    """Add the files of some drives to a folder's manifest."""
+    if written := _written(folder):
+        replace_text(folder / "manifest.json", compiler.manifest_of(written | compiler.hashes(files)))

@@ -22,18 +22,32 @@ from derive.emit import c99, casadi, lanes, metadata, sensitivity
 from derive.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
+
+
+def package():
+    """Folder of the Python package that holds the core library."""
+    from meshwright.base.drives import SHIPPED
+
+    return SHIPPED
+
+
+#: In a checkout; the installed package has both among its own files.
+RECORD = ROOT / "generated" / "audit"
 MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
+if not MODEL_HEADER.exists():
+    RECORD, MODEL_HEADER = ROOT / "derive" / "record", package() / "include" / "mw_model.h"
 
 
-def compile_drive(drive, record, log):
+def compile_drive(drive, record, log, open_=None):
     """All generated files of one drive: relative path → text.
 
-    ``record`` holds the objects of the audit record against which it is checked, by their hash.
+    ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
+    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason.
     """
     with log("schedule", drive.name):
         plan = schedule(drive)
     with log("prove", drive.name):
-        origin = provenance(record, plan)
+        origin = provenance(record, plan, open_)
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
         files = {
@@ -44,13 +58,28 @@ def compile_drive(drive, record, log):
         # last: it adds the changes of the inputs to the tape
         tangents = sensitivity.tangents(plan)
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-        evaluated = [*conditions.functions(plan), *tangents.functions()]
+        evaluated = [*conditions.functions(plan), conditions.along(plan), *tangents.functions()]
         description["side_conditions"] = conditions.side_conditions(plan, evaluated)
         files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
         return files
 
 
+def hashes(files):
+    """SHA-256 of generated files by their path."""
+    return {path: sha256(text) for path, text in files.items()}
+
+
+def sha256(text):
+    """SHA-256 of a text."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def manifest(files):
     """The list of all generated files with their hashes."""
-    hashes = {path: hashlib.sha256(text.encode()).hexdigest() for path, text in sorted(files.items())}
-    return json.dumps({"schema": "meshwright.manifest/1", "files": hashes}, indent=1) + "\n"
+    return manifest_of(hashes(files))
+
+
+def manifest_of(hashes):
+    """The list of files with these hashes."""
+    listed = dict(sorted(hashes.items()))
+    return json.dumps({"schema": "meshwright.manifest/1", "files": listed}, indent=1) + "\n"

@@ -99,8 +99,15 @@ def functions(plan):
     yield results("observe", plan.observed)
     for table in (*plan.flanks, *plan.regions):
         yield results(f"{table.region}_{table.body}", table.outputs)
+        yield results(f"curvature_{table.region}_{table.body}", table.curvature)
     for function in plan.functions:
         yield results(function.name, function.outputs)
+
+
+def along(plan):
+    """The derivatives of the residual along a direction; they read the design part of the state and the instant."""
+    design = frozenset(list(plan.state)[: plan.design_slots])
+    return Evaluated("along", plan.tape, plan.lower, (plan.along.first, plan.along.second), design, "tangent")
 
 
 def _on_parameters(name, program, guard, part=0):

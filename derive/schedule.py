@@ -9,12 +9,18 @@ A value is computed at the earliest stage that knows its inputs, and stored in t
 
 from dataclasses import dataclass, field
 
-from derive import conditions, linearise, newton, pivots
+import sympy as sp
+
+from derive import conditions, geometry, linearise, newton, pivots
 from derive.completion import ParameterTape, SystemTape, lower_system, on_parameters
+from derive.directional import Derivatives
 from derive.language.drive import Body, Drive, System
 from derive.language.limits import singular_function
-from derive.language.origin import STEP_SIZE, UNIT, Origin
+from derive.language.origin import STEP_SIZE, Origin
 from derive.tape import Lowering, Stage, Tape
+
+#: What the instantaneous ratio divides by.
+LEVER = Origin("derivation/quotient", "lever arm of the wheel")
 
 
 @dataclass(frozen=True)
@@ -29,22 +35,24 @@ class Output:
 
 @dataclass(frozen=True)
 class Flank:
-    """A flank, or another region of a member, as a function of its own parameters, body frame."""
+    """A flank, or another region of a member, and its curvature: functions of its own parameters, body frame."""
 
     body: str
     parameters: tuple
     outputs: tuple[Output, ...]
+    curvature: tuple[Output, ...]
     region: str = "flank"
 
 
 @dataclass(frozen=True)
 class FunctionOutputs:
-    """A function of its own arguments."""
+    """A function of its own arguments; ``rests_on`` are statements of the audit record."""
 
     name: str
     meaning: str
     parameters: tuple
     outputs: tuple[Output, ...]
+    rests_on: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -56,6 +64,18 @@ class BodyOutputs:
     at: int
     singular: int
     margins: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Along:
+    """First and second derivatives of the residual along a direction of (unknowns, instant), nodes.
+
+    ``direction`` are the input nodes of that direction.
+    """
+
+    direction: tuple[int, ...]
+    first: tuple[int, ...]
+    second: tuple[int, ...]
 
 
 @dataclass
@@ -92,12 +112,18 @@ class Schedule:
     systems: list[SystemTape] = field(default_factory=list)
     sizes: ParameterTape | None = None
     functions: list[FunctionOutputs] = field(default_factory=list)
+    along: Along | None = None
     state: dict[int, int] = field(default_factory=dict)
     design_slots: int = 0
 
     @property
     def unknowns(self):
         return [u.symbol for u in self.drive.unknowns]
+
+    @property
+    def placement(self):
+        """The function that places both bodies: see :func:`derive.geometry.placement`."""
+        return self.functions[0]
 
     @property
     def newton_step(self):
@@ -114,7 +140,8 @@ def schedule(drive):
     inputs[drive.instant] = Stage.INSTANT
     inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
     inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
-    inputs |= {q: Stage.ITERATE for function in drive.functions for q in function.arguments}
+    functions = (geometry.placement(drive), *drive.functions)
+    inputs |= {q: Stage.ITERATE for function in functions for q in function.arguments}
     tape = Tape()
     for symbol, stage in inputs.items():
         tape.input(symbol, stage)
@@ -140,7 +167,8 @@ def schedule(drive):
         limits = [Output(f"margin_{m.event}", (plan.lower(m.positive),)) for m in region.margins]
         surface = _surface(plan, region.surface, region.member, regular, limits)
         plan.regions.append(Flank(region.member, *surface, region.name))
-    plan.functions = [_function(plan, function) for function in drive.functions]
+    plan.functions = [_function(plan, function) for function in functions]
+    plan.along = _along(plan)
     _assign_state(plan)
     plan.guards = conditions.design_guards(plan)
     plan.tests = conditions.tests(plan)
@@ -173,23 +201,12 @@ def _vector(plan, vector):
     return [plan.lower(c) for c in vector]
 
 
-def _unit(plan, nodes):
-    """A node vector divided by its length, and the length."""
-    t = plan.tape
-    square = None
-    for i in nodes:
-        square = t.mul(i, i) if square is None else t.add(square, t.mul(i, i))
-    with t.within(UNIT):
-        length = t.sqrt(square)
-        return [t.div(i, length) for i in nodes], length
-
-
 def _observe(plan):
     drive = plan.drive
     put = plan.observed.append
     for body in drive.bodies:
         placed = body.placed
-        normal, _ = _unit(plan, _vector(plan, placed.body_normal()))
+        normal, _ = geometry.unit(plan.tape, _vector(plan, placed.body_normal()))
         put(Output(f"point_{body.name}_f", tuple(_vector(plan, placed.body_point())), "mm", "f"))
         put(Output(f"normal_{body.name}_f", tuple(normal), "", "f"))
     for body in drive.bodies:
@@ -203,25 +220,20 @@ def _observe(plan):
             put(Output(f"{symbol}", (plan.lower(symbol),), symbol.unit, symbol.frame))
     for body in drive.bodies:
         _observe_body(plan, body)
+    _observe_contact(plan)
 
 
 def _observe_body(plan, body: Body):
-    """Derivatives of point and unit normal (tangential part) by the surface parameters, in the fixed frame."""
-    placed, tape = body.placed, plan.tape
+    """Derivatives of the point by the surface parameters, fixed frame; of its conditions; its margins."""
+    tape = plan.tape
     parameters = [plan.lower(p) for p in body.surface.parameters]
-    point, raw = _vector(plan, placed.body_point()), _vector(plan, placed.body_normal())
-    _, length = _unit(plan, raw)
+    point = _vector(plan, body.placed.body_point())
     at = _count(plan.observed)
     put = plan.observed.append
     for symbol, parameter in zip(body.surface.parameters, parameters, strict=True):
         tangent = [tape.derivative(i, parameter) for i in point]
-        changes = [tape.derivative(i, parameter) for i in raw]
-        with tape.within(UNIT):
-            turning = [tape.div(change, length) for change in changes]
         put(Output(f"tangent_{symbol}", tuple(tangent), f"mm/({symbol.unit})", "f"))
-        put(Output(f"turning_{symbol}", tuple(turning), f"1/({symbol.unit})", "f"))
-    for k, condition in enumerate(body.surface.conditions):
-        slopes = tuple(tape.derivative(plan.lower(condition), p) for p in parameters)
+    for k, slopes in enumerate(_slopes(plan, body.surface)):
         put(Output(f"condition_{body.name}_{k}", slopes))
     singular = _count(plan.observed)
     put(Output(f"regular_{body.name}", (_regular(plan, body),)))
@@ -232,6 +244,56 @@ def _observe_body(plan, body: Body):
     plan.bodies[body.name] = BodyOutputs(
         len(parameters), len(body.surface.conditions), at, singular, tuple(margins)
     )
+
+
+def _slopes(plan, surface):
+    """Derivatives of each implicit condition of a surface by its parameters."""
+    parameters = [plan.lower(p) for p in surface.parameters]
+    return [tuple(plan.tape.derivative(plan.lower(c), p) for p in parameters) for c in surface.conditions]
+
+
+def _observe_contact(plan):
+    """Second fundamental forms of both flanks and of the gap in one tangent basis, its curvatures; lever arms.
+
+    The basis is that of the pinion's first tangent and the contact normal, the pinion's outward normal.
+    """
+    drive, tape = plan.drive, plan.tape
+    pinion, wheel = drive.bodies
+    normal, _ = geometry.unit(tape, _vector(plan, pinion.placed.body_normal()))
+    points = [_vector(plan, body.placed.body_point()) for body in drive.bodies]
+    first = plan.lower(pinion.surface.parameters[0])
+    basis = geometry.tangent_basis(tape, normal, [tape.derivative(i, first) for i in points[0]])
+    forms = [_second_form(plan, body.placed, basis) for body in drive.bodies]
+    gap = [tape.sub(tape.neg(a), b) for a, b in zip(*forms, strict=True)]
+    arms = [
+        geometry.lever_arm(plan, body, variable, point, normal)
+        for body, variable, point in zip(drive.bodies, (drive.instant, drive.error), points, strict=True)
+    ]
+    with tape.within(LEVER):
+        ratio = tape.div(*arms)
+    plan.observed += [
+        Output("tangent_basis", (*basis[0], *basis[1]), "", "f"),
+        *(Output(f"second_form_{b.name}", form, "1/mm", "f") for b, form in zip(drive.bodies, forms, strict=True)),
+        Output("second_form_gap", tuple(gap), "1/mm", "f"),
+        Output("curvature_gap", geometry.principal_curvatures(tape, gap), "1/mm"),
+        *(Output(f"lever_arm_{body.name}", (arm,), "mm") for body, arm in zip(drive.bodies, arms, strict=True)),
+        Output("instantaneous_ratio", (ratio,)),
+    ]
+
+
+def _second_form(plan, surface, basis):
+    parameters = [plan.lower(p) for p in surface.parameters]
+    point, normal = _vector(plan, surface.body_point()), _vector(plan, surface.body_normal())
+    return geometry.second_form(plan.tape, parameters, point, normal, _slopes(plan, surface), basis)
+
+
+def _along(plan):
+    """Derivatives of the residual along a direction: see :class:`Along`."""
+    tape, symbols = plan.tape, [*plan.unknowns, plan.drive.instant]
+    seeds = {plan.lower(s): tape.input(sp.Symbol(f"along_{s}"), Stage.ITERATE) for s in symbols}
+    tangent = Derivatives(tape, seeds)
+    first = [tangent(i) for i in plan.residual]
+    return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))
 
 
 def _count(outputs):
@@ -257,8 +319,8 @@ def _margin(plan, body, margin):
 
 
 def _surface(plan, surface, frame, regular, limits):
-    """Parameters of a surface and what is known at them, body frame."""
-    normal, _ = _unit(plan, _vector(plan, surface.body_normal()))
+    """Parameters of a surface, what is known at them, and its curvature there, body frame."""
+    normal, _ = geometry.unit(plan.tape, _vector(plan, surface.body_normal()))
     parameters = [plan.lower(p) for p in surface.parameters]
     point = _vector(plan, surface.body_point())
     outputs = [
@@ -271,16 +333,21 @@ def _surface(plan, surface, frame, regular, limits):
         Output("regular", (regular,)),
         *limits,
     ]
-    for k, condition in enumerate(surface.conditions):
-        node = plan.lower(condition)
-        slopes = tuple(plan.tape.derivative(node, p) for p in parameters)
-        outputs += [Output(f"condition_{k}", (node,)), Output(f"condition_{k}_slopes", slopes)]
-    return tuple(surface.parameters), tuple(outputs)
+    for k, (condition, slopes) in enumerate(zip(surface.conditions, _slopes(plan, surface), strict=True)):
+        outputs += [Output(f"condition_{k}", (plan.lower(condition),)), Output(f"condition_{k}_slopes", slopes)]
+    basis = geometry.tangent_basis(plan.tape, normal, outputs[2].nodes)
+    form = _second_form(plan, surface, basis)
+    curvature = (
+        Output("tangent_basis", (*basis[0], *basis[1]), "", frame),
+        Output("second_form", form, "1/mm", frame),
+        Output("curvature", geometry.principal_curvatures(plan.tape, form), "1/mm"),
+    )
+    return tuple(surface.parameters), tuple(outputs), curvature
 
 
 def _function(plan, function):
     outputs = (Output(r.name, tuple(map(plan.lower, r.values)), r.unit, r.frame) for r in function.results)
-    return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs))
+    return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs), function.rests_on)
 
 
 def iterate_outputs(plan):
@@ -300,6 +367,9 @@ def iterate_outputs(plan):
         yield from output.nodes
     for table in (*plan.flanks, *plan.regions, *plan.functions):
         for output in table.outputs:
+            yield from output.nodes
+    for flank in (*plan.flanks, *plan.regions):
+        for output in flank.curvature:
             yield from output.nodes
 
 
@@ -324,6 +394,11 @@ def _assign_state(plan):
     for i in tape.needed(list(wanted[Stage.INSTANT]), design):
         for a in tape.nodes[i].args:
             leave(a, Stage.INSTANT)
+    for i in tape.needed([*plan.along.first, *plan.along.second], design):  # given the instant itself
+        for a in tape.nodes[i].args:
+            leave(a, Stage.INSTANT)
+    for i in (*plan.along.first, *plan.along.second):
+        leave(i, Stage.INSTANT)
     slots = [*wanted[Stage.DESIGN], *wanted[Stage.INSTANT]]
     plan.state = {node: slot for slot, node in enumerate(slots)}
     plan.design_slots = len(wanted[Stage.DESIGN])

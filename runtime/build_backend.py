@@ -1,13 +1,28 @@
-"""Build backend of the package: setuptools, with the C library compiled first and the wheel named for its platform."""
+"""Build backend of the package: setuptools, with the C libraries compiled first and a wheel named for its platform."""
 
-import subprocess
+import json
+import runpy
+import shutil
 import sysconfig
+from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 from setuptools import build_meta
 from setuptools.build_meta import *  # noqa: F403  what is not changed here
 
-LIBRARY = "runtime/meshwright/_generated/libmeshwright.so"
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def _program(path):
+    """A program of the checkout as a module; the packages that it belongs to need more than a build has."""
+    return SimpleNamespace(**runpy.run_path(str(ROOT / path)))
+
+
+SHIPPED = ROOT / "runtime" / "meshwright" / "_generated"
+
+#: The audit record, by which derive looks up what a drive rests on: in a checkout below generated/.
+RECORD = ("ledger.jsonl", "certificates.jsonl")
 
 #: What a source archive holds beside the package, in the words of setuptools: all that the library is built from.
 SOURCES = """
@@ -21,13 +36,31 @@ global-exclude *.py[cod]
 """
 
 
-
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """A wheel with the compiled library; it runs on any processor of this platform, and with any Python 3."""
-    subprocess.run(["make", "--silent", "-j2", LIBRARY], check=True)
+    """A wheel with the compiled libraries; it runs on any processor of this platform, and with any Python 3."""
+    generated = ROOT / "generated"
+    families = json.loads((generated / "families.json").read_text(encoding="utf-8"))
+    drives = _program("derive/packaged.py").packaged(families)
+    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects")]
+    if _program("runtime/meshwright/base/compile.py").main(arguments):
+        raise SystemExit("the libraries do not compile: see above")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     options = {**(config_settings or {}), "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
-    return build_meta.build_wheel(wheel_directory, options, metadata_directory)
+    with _record(generated / "audit"):
+        return build_meta.build_wheel(wheel_directory, options, metadata_directory)
+
+
+@contextmanager
+def _record(audit):
+    """The audit record among derive's own files while the wheel is made."""
+    place = ROOT / "derive" / "record"
+    place.mkdir(exist_ok=True)
+    try:
+        for name in RECORD:
+            shutil.copy(audit / name, place / name)
+        yield
+    finally:
+        shutil.rmtree(place)
 
 
 def build_sdist(sdist_directory, config_settings=None):

@@ -41,7 +41,7 @@ CASES = [
     ({"drive": ["cylindrical-worm"]}, ("drive", "cylindrical-worm", "no such family", "use one of")),
     ({"blank.worm_tip_radius_mm": 18.0, "blank.worm_root_radius_mm": 18.5}, ("blank.worm_tip_radius_mm", "18", "18.5")),
     ({"misalignment.vertical_deg": 1e308}, ("misalignment.vertical_deg", "1e+308", "not be greater than 360")),
-    ({"misalignment.center_distance_mm": -1e9}, ("center_distance_mm", "not be less than -100000")),
+    ({"misalignment.center_distance_mm": -1e12}, ("center_distance_mm", "not be less than -1e+09")),
     ({"design.wheel_teeth": 10**17}, ("wheel_teeth", "not be greater than 100000")),
     ({"name": "\x1b[31mred"}, ("name", r"\x1b[31mred", "control characters")),
     ({"name": "a" * 10_000}, ("name", "a...a", "longer than 200")),

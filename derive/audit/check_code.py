@@ -465,20 +465,26 @@ def attempt(check: Callable[..., None], *arguments: object) -> None:
     raise refusals[-1] if refusals else Rejected("no input was found at which every root exists")
 
 
+def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
+    """What is checked of a header: words, and the check with its arguments."""
+    yield "jacobian of the residual", (check_jacobian, header)
+    yield "assembly of the two points", (check_assembly, header)
+    for name in header.functions:
+        if name.startswith(("flank_", "fillet_")):
+            yield f"tangents and normal of {name}", (check_flank, header, name)
+    for body in header.unknowns:
+        yield f"agreement of flank and observation of the {body}", (check_agreement, header, body)
+
+
 def check_header(path: Path) -> int:
     """All checks of one header; how many were made."""
     try:
-        header = read_header(path.read_text(encoding="utf-8"))
-        flanks = [name for name in header.functions if name.startswith(("flank_", "fillet_"))]
-        attempt(check_jacobian, header)
-        attempt(check_assembly, header)
-        for name in flanks:
-            attempt(check_flank, header, name)
-        for body in header.unknowns:
-            attempt(check_agreement, header, body)
+        checks = list(checks_of(read_header(path.read_text(encoding="utf-8"))))
+        for _, check in checks:
+            attempt(*check)
     except (Rejected, LookupError, ValueError) as error:
         raise Rejected(f"{path.name}: {error}") from error
-    return 2 + len(flanks) + len(header.unknowns)
+    return len(checks)
 
 
 def verify(folder: Path) -> tuple[int, int]:

@@ -23,21 +23,27 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(objects: Mapping[str, dict], plan: Schedule) -> Provenance:
+def provenance(objects: Mapping[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
     """Root hash and equation ids of a drive, by function name without the drive's prefix.
 
-    ``objects`` are those of the record by their hash, just proved or read from where it was written.
+    ``objects`` are those of the record by their hash, just proved or read from where it was written. A statement that
+    they do not prove is refused or, where ``open_`` is given, left out and entered there with the reason.
     """
     steps = dict(_steps(plan))
     for f in functions(plan):
         operations = (f.tape.origins[i].statement for i in partial_operations(f))
         steps[f.name] = joined(steps.get(f.name, ()), operations)
-    used = sorted({key for keys in steps.values() for key in keys})
-    _require_proved(objects, plan.drive.name, used)
+    missing = dict(_not_proved(objects, {key for keys in steps.values() for key in keys}))
+    if missing and open_ is None:
+        name, reason = next(iter(missing.items()))
+        raise ValueError(f"{plan.drive.name} rests on {name}, which {reason}")
+    if open_ is not None:
+        open_ |= missing
+    proved = {name: [key for key in keys if key not in missing] for name, keys in steps.items()}
     return {
         "root_hash": root_of(objects),
-        "equations": used,
-        "equations_of": {name: list(keys) for name, keys in steps.items() if keys},
+        "equations": sorted({key for keys in proved.values() for key in keys}),
+        "equations_of": {name: keys for name, keys in proved.items() if keys},
     }
 
 
@@ -47,22 +53,26 @@ def _steps(plan: Schedule) -> Iterator[tuple[str, tuple[str, ...]]]:
     on_surface = (UNIT.statement, SINGULAR)
     for body in drive.bodies:
         yield f"flank_{body.name}", joined(body.surface.rests_on, on_surface)
+        yield f"curvature_flank_{body.name}", joined(body.surface.rests_on, on_surface)
     for region in drive.regions:
         yield f"{region.name}_{region.member}", joined(region.surface.rests_on, on_surface)
+        yield f"curvature_{region.name}_{region.member}", joined(region.surface.rests_on, on_surface)
     mesh = joined(*(body.placed.rests_on for body in drive.bodies), (CONTACT, ANGLES))
     yield "eval", mesh
+    yield "along", mesh
     yield "step", joined(mesh, (ELIMINATION, STEP_SIZE.statement))
     yield "observe", joined(mesh, on_surface)
-    yield from ((function.name, function.rests_on) for function in drive.functions)
+    yield from ((function.name, function.rests_on) for function in plan.functions)
 
 
-def _require_proved(objects: Mapping[str, dict], drive: str, names: list[str]) -> None:
+def _not_proved(objects: Mapping[str, dict], names: set[str]) -> Iterator[tuple[str, str]]:
+    """The statements that the record does not prove, each with what it says of it."""
     verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
-    for name in names:
+    for name in sorted(names):
         if name not in verdicts:
-            raise ValueError(f"{drive} rests on {name}, which the record does not hold")
-        if not _holds(objects, verdicts[name]):
-            raise ValueError(f"{drive} rests on {name}, which is not a proved statement of the record")
+            yield name, "the record does not hold"
+        elif not _holds(objects, verdicts[name]):
+            yield name, "is not a proved statement of the record"
 
 
 def _holds(objects: Mapping[str, dict], verdict: dict) -> bool:

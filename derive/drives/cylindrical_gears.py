@@ -207,18 +207,18 @@ def _rolled_length(gear, turned):
 
 def _zero_backlash():
     """Centre distance at which both flanks touch: what both rolled lengths and the profile shifts add up to."""
-    angle = Quantity("alpha_w", "rad", "transverse working pressure angle")
+    root = Quantity("sqrt_alpha_w", "", "square root of the transverse working pressure angle, which is not negative")
+    angle = root**2
     teeth = PINION.teeth.symbol + WHEEL.teeth.symbol
     normal = _normal(sp.cos(angle))
     lengths = (_rolled_length(gear, -turn) for gear, turn in zip((PINION, WHEEL), _turns(*normal), strict=True))
     return DesignSystem(
         name="zero_backlash",
-        unknowns=(Unknown(angle),),
+        unknowns=(Unknown(root),),
         residual=(sp.tan(angle) - angle - PINION.involute - parallel * 2 * x_sum * sp.tan(alpha) / teeth,),
-        guess={angle: PINION.transverse_pressure_angle},
+        guess={root: v.root(PINION.transverse_pressure_angle)},
         fills={A: (sp.Add(*lengths) + m * x_sum * sp.sin(alpha)) * normal[2] / normal[0]},
-        message="no centre distance without backlash: the profile shifts bring the gears closer than their base "
-        "cylinders",
+        message="with these profile shifts there is no centre distance without backlash",
         keys=(PINION.profile_shift.key, WHEEL.profile_shift.key, k.pressure_angle.key),
     )
 
@@ -325,6 +325,11 @@ def _pair_guards():
             parallel + square * PINION.cos_base_helix**2 - along**2,
             "no common normal: the helix angles differ too much from the shaft angle",
             (*helix, k.pressure_angle.key),
+        ),
+        Guard(
+            k.full_rounding(),
+            "the basic rack is so deep that it ends in a point",
+            (k.dedendum.key, k.pressure_angle.key, k.module.key),
         ),
         Guard(
             k.full_rounding() - k.rounding.symbol + m / 10**9,

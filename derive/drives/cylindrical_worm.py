@@ -326,7 +326,8 @@ def cylindrical_worm(worm_profile, hob_profile):
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
         variant_defaults={"hob_profile": "worm_profile"},
         functions=generation_functions(
-            worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered
+            worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered,
+            _rack_sizes(worm_profile == hob_profile),
         ),
         tools=(
             ToolUse("worm", worm_profile, worm_tool, tuple(own["worm"][d].key for d in worm_tool.data)),
@@ -339,6 +340,26 @@ def cylindrical_worm(worm_profile, hob_profile):
             (lead_angle.key, pitch_radius.key),
         ),
     )
+
+
+def _rack_sizes(same_profile):
+    """Sizes (value, unit) by name, for limits, sections and the search for contacts."""
+    return {
+        "module": (m_n, "mm"),
+        "reference_radius_tool": (r_h, "mm"),
+        "end_radius_tool": (r_h + hob_tip.symbol, "mm"),
+        "reference_radius_pinion": (r_1, "mm"),
+        "tip_radius_pinion": (worm_tip.symbol, "mm"),
+        "root_radius_pinion": (worm_root.symbol, "mm"),
+        "axial_pitch_pinion": (2 * sp.pi * p_1 / T_1, "mm"),
+        "tip_radius_wheel": (wheel_tip.symbol, "mm"),
+        "throat_radius_wheel": (wheel_throat.symbol, "mm"),
+        "cutting_distance": (A_gen, "mm"),
+        "cutting_angle": (Sigma_gen, "rad"),
+        "turns": (T_1 / T_h, ""),
+        "oversize": (r_h - r_1, "mm"),
+        "same_profile": (sp.Integer(int(same_profile)), ""),
+    }
 
 
 def _hobbed(cutter, phi_h):

@@ -10,28 +10,49 @@ from derive.language.symbols import Quantity, rotation_angle
 MESHING = "rack-and-pinion/rack-form"
 
 
-def generation_functions(worm, hob, rack, wheel, psi, recovered):
-    """Functions of the two tools, and of the generation of ``wheel`` by the hob as a ``rack`` at rack angle ``psi``."""
+def generation_functions(worm, hob, rack, wheel, psi, recovered, sizes):
+    """Functions of the two tools, and of the generation of ``wheel`` by the hob as a ``rack`` at rack angle ``psi``.
+
+    ``sizes`` are results by name: what limits and sections need to know of worm, hob and blank.
+    """
     t, _ = rack.flank.parameters
     return (
-        *(_profile(name, tool) for name, tool in (("worm", worm), ("hob", hob))),
-        *(_profile_range(name, tool) for name, tool in (("worm", worm), ("hob", hob))),
+        *(_profile(*named) for named in (("pinion", "worm", worm), ("tool", "hob", hob))),
+        *(_profile_range(*named) for named in (("pinion", "worm", worm), ("tool", "hob", hob))),
         _generation(rack, wheel, t, psi, recovered),
         _section(rack, t),
-        _worm_point(rack, t),
+        _tool_point(rack, t),
         _second_type(rack, t),
         _axes(rack),
+        Function(
+            "rack_sizes",
+            "sizes of pinion, tool and their generation",
+            (),
+            tuple(Result(name, (value,), unit) for name, (value, unit) in sizes.items()),
+        ),
+        _undercut_place(hob, t, psi),
     )
 
 
-def _profile(name, tool):
+def _undercut_place(hob, t, psi):
+    x, y, _ = hob.flank.point
+    return Function(
+        "undercut_place_wheel",
+        "distance from the axis of the tool of the point that cuts",
+        (t, psi),
+        (Result("tool_radius", (v.radius(x, y),), "mm", "hob"),),
+        hob.flank.steps,
+    )
+
+
+def _profile(role, name, tool):
     flank = tool.flank
     t = tool.parameter
     x, y, z = flank.point
     growth = flank.definitions.derivative(x**2 + y**2, t)
     axial = z - tool.screw_parameter * v.arc(y, x)
     return Function(
-        f"profile_{name}",
+        f"profile_{role}",
         f"profile of the {name} flank in its section frame; growth of the squared radius along it; axial section",
         (t,),
         (
@@ -44,13 +65,13 @@ def _profile(name, tool):
     )
 
 
-def _profile_range(name, tool):
+def _profile_range(role, name, tool):
     results = {"pitch_point": tool.pitch_point, "scale": tool.scale}
     if tool.lower_end is not None:
         results["lower_end"] = tool.lower_end
     unit = tool.parameter.unit
     return Function(
-        f"profile_range_{name}",
+        f"profile_range_{role}",
         f"profile parameter of the {name}: pitch point, natural step, and the lower end where it is not an edge of"
         " regression",
         (),
@@ -88,10 +109,10 @@ def _section(rack, t):
     )
 
 
-def _worm_point(rack, t):
+def _tool_point(rack, t):
     turn = rotation_angle("psi_given", "screw angle of a given point of the hob flank", "hob")
     return Function(
-        "worm_point",
+        "tool_point",
         "the two rack angles at which a given point of the hob flank touches the wheel; right angles only",
         (t, turn),
         (Result("psi_fixed_hob", rp.contacts_of_worm_point(rack, turn), "rad", "gen"),),

@@ -29,6 +29,7 @@ from derive.language.drive import (
     body_point,
 )
 from derive.language.envelope import envelope, nearest_turn
+from derive.language.functions import Function, Result, ToolClearance
 from derive.language.origin import Origin
 from derive.language.replace import replaced
 from derive.language.surface import Surface
@@ -299,11 +300,65 @@ def face_worm():
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
         together=tuple(tuple(f"{p.table.value}.{p.key}" for p in group) for group in k.TOGETHER),
+        functions=_limit_functions(cutter, gear, worm, reference),
+        tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),
         ascending_path=True,
         flanks_apart=True,
         absorbs_errors=True,
     )  # fmt: skip
+
+
+def _limit_functions(cutter, gear, worm, reference):
+    """Where undercut is sought on gear, worm and hob-cut reference gear, and the sizes of the passing blades."""
+    root, tip = cutter.junction, k.addendum.symbol / sp.cos(alpha_g)
+    slant = sp.cos(alpha)
+    far = 4 * R_g / sp.Abs(sp.sin(alpha_g))  # the tool's cone ends in its apex, on the axis
+    u_g, _ = gear.parameters
+    u_w, theta_w, _ = worm.parameters
+    on_gear = [replaced(c, dict(zip(gear.parameters, (u_w, theta_w), strict=True))) for c in gear.body_point()]
+    return (
+        _undercut_range("wheel", -far, 0, far, along_first=sp.Integer(0), along_last=sp.Integer(0)),
+        _undercut_place("wheel", gear.parameters, u_g),
+        _undercut_range("pinion", root, 0, tip),
+        # the worm's generating point lies on the head-cutter's cone, at the same u and θ to the blade's small parabola
+        _undercut_place("pinion", worm.parameters, u_w, on_gear),
+        _undercut_range("reference_wheel", -k.addendum.symbol / slant, 0, k.blade_depth.symbol / slant),
+        _undercut_place(
+            "reference_wheel", reference.surface.parameters, reference.u, reference.surface.body_point()
+        ),
+        Function(
+            "tool_clearance",
+            "sizes of the head-cutter that passes over finished teeth",
+            (),
+            (
+                Result("fillet_end", (cutter.fillet_end,), "rad", "tool"),
+                Result("edge_root", (root,), "mm", "tool"),
+                Result("edge_tip", (tip,), "mm", "tool"),
+                Result("inner", (R_in,), "mm", "wheel"),
+                Result("outer", (R_out,), "mm", "wheel"),
+            ),
+        ),
+    )
+
+
+def _undercut_range(surface, first, middle, last, **along):
+    ends = {"first": first, "middle": middle, "last": last} | along
+    return Function(
+        f"undercut_range_{surface}",
+        "positions on the blade between which undercut is sought",
+        (),
+        tuple(Result(name, (sp.sympify(end),), "mm", "tool") for name, end in ends.items()),
+    )
+
+
+def _undercut_place(surface, parameters, position, point=None):
+    """Position on the blade; with a ``point`` of the gear, whether it lies between the ends of the face."""
+    results = [Result("edge_position", (position,), "mm", "tool")]
+    if point is not None:
+        radius = v.radius(*point[:2])
+        results.append(Result("inside", ((R_out - radius) * (radius - R_in),), "", "wheel"))
+    return Function(f"undercut_place_{surface}", "position on the blade", tuple(parameters), tuple(results))
 
 
 def _hob_phase(reference):

@@ -19,6 +19,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit
+from derive.language.functions import Function, LeastTeeth, Result
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Unknown, rotation_angle
@@ -114,6 +115,40 @@ def spherical(pinion_form, wheel_form):
             for gear, form in ((PINION, pinion_form), (WHEEL, wheel_form))
         ),
         loading=Loading(pairs=3, torque_on="pinion"),
+        functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
+        least_teeth={
+            tooth.gear.name: LeastTeeth(
+                tooth.gear.teeth.key, tuple(p.key for p in tooth.gear.own(SWEEPS[form]).values())
+            )
+            for tooth, form in zip(teeth, (pinion_form, wheel_form), strict=True)
+        },
+    )
+
+
+def _undercut(tooth):
+    """Undercut is sought in sections of the face, from far beyond the root to the end of the edge.
+
+    Beyond the centre of its arc a cutter has a second sheet, which cuts nothing.
+    """
+    gear, tool = tooth.gear, tooth.tool
+    far = 2 * gear.pitch_radius
+    if tool.arc_radius is not None:
+        to_centre = (tool.arc_radius - gear.edge_offset.symbol - gear.face_width.symbol / 2) / sp.cos(alpha)
+        far = (far + to_centre - sp.Abs(far - to_centre)) / 2
+    ends = {"first": -far, "start": 0, "middle": tool.pitch_point, "last": tool.edge_length}
+    return (
+        Function(
+            f"undercut_range_{gear.name}",
+            "positions on the edge of the cutter between which undercut is sought",
+            (),
+            tuple(Result(name, (sp.sympify(end),), "mm", gear.name) for name, end in ends.items()),
+        ),
+        Function(
+            f"undercut_place_{gear.name}",
+            "position on the edge of the cutter, 0 at the root of the gear",
+            tooth.surface.parameters,
+            (Result("edge_position", (tool.along,), "mm", gear.name),),
+        ),
     )
 
 

@@ -223,10 +223,11 @@ def header(plan: Schedule, description: dict, model_source: str):
         start_jacobian=start_jacobian,
         start_solution=start.body(plan.start_solution)[0],
         observed=solved.body([i for o in plan.observed for i in o.nodes])[0],
-        flanks=[_flank(plan, flank, leaves.state) for flank in plan.flanks],
-        regions=[_flank(plan, region, leaves.state) for region in plan.regions],
+        flanks=[_surface(plan, flank, leaves.state) for flank in plan.flanks],
+        regions=[_surface(plan, region, leaves.state) for region in plan.regions],
+        along=_along(plan, leaves),
         systems=[_system(system, drive) for system in plan.systems],
-        functions=[_flank(plan, f, leaves.state, plan.tests.get((f.name, 0))) for f in plan.functions],
+        functions=[_function(plan, f, leaves.state) for f in plan.functions],
         literal=number,
         approximation=approximation,
         estrin=estrin,
@@ -240,11 +241,30 @@ def _linearised(printer, residual, jacobian):
     return body, printer.body(flat, known)[0]
 
 
-def _flank(plan, flank, state, tests=None):
-    own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
+def _surface(plan, flank, state):
+    body, curvature = (_on_arguments(plan, flank.parameters, o, state) for o in (flank.outputs, flank.curvature))
+    return {"flank": flank, "body": body, "curvature": curvature}
+
+
+def _function(plan, function, state):
+    tests = plan.tests.get((function.name, 0))
+    return {"function": function, "body": _on_arguments(plan, function.parameters, function.outputs, state, tests)}
+
+
+def _on_arguments(plan, arguments, outputs, state, tests=None):
+    """The body of a function of its own arguments q and the state."""
+    own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(arguments)}
     printer = Printer(plan.tape, plan.drive.name, state | own, seldom=True)
-    groups = [o.nodes for o in flank.outputs]
-    return {"flank": flank, "body": _tested(printer, groups, tests or {})}
+    return _tested(printer, [o.nodes for o in outputs], tests or {})
+
+
+def _along(plan, leaves):
+    """Bodies of the residual's first derivative along a direction v, and of the second that may follow it."""
+    own = {plan.lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
+    own |= {node: f"v[{k}]" for k, node in enumerate(plan.along.direction)}
+    printer = Printer(plan.tape, plan.drive.name, leaves.instant | own, seldom=True)
+    body, known = printer.body(plan.along.first, later=plan.along.second)
+    return {"first": body, "second": printer.body(plan.along.second, known)[0]}
 
 
 def _system(plan, drive):

@@ -27,10 +27,12 @@ class _Symbolic:
 
 
 def function(plan):
-    """CasADi function of a drive: (p, phi, x) → residual, observation, start residual, start values, guards, rules.
+    """CasADi function of a drive: (p, phi, x) → residual, observation, placement, start residual, start values, guards,
+    rules.
 
-    The unknowns of the start system are read from their places in x. Derivatives are left to CasADi. ``rules`` are
-    the values of the defaults and rules that complete a design, each from p alone, in the order in which they run.
+    ``placement`` are the results of the drive's function of that name at phi and the wheel angle. The unknowns of the
+    start system are read from their places in x. Derivatives are left to CasADi. ``rules`` are the values of the
+    defaults and rules that complete a design, each from p alone, in the order in which they run.
     """
     drive, tape = plan.drive, plan.tape
     p = casadi.SX.sym("p", len(drive.parameters))
@@ -40,12 +42,16 @@ def function(plan):
     inputs[drive.instant] = phi
     inputs |= {u: x[k] for k, u in enumerate(plan.unknowns)}
 
+    [wheel_angle] = tape.evaluate([plan.lower(drive.wheel_angle)], inputs, _Symbolic)
+    inputs |= dict(zip(plan.placement.parameters, (phi, wheel_angle), strict=True))
+
     def vector(nodes):
         return casadi.vertcat(*tape.evaluate(nodes, inputs, _Symbolic))
 
     results = {
         "residual": vector(plan.residual),
         "observation": vector([i for o in plan.observed for i in o.nodes]),
+        "placement": vector([i for o in plan.placement.outputs for i in o.nodes]),
         "start_residual": vector(plan.start_residual),
         "start_solution": vector(plan.start_solution),
         "start_guess": vector(plan.start_guess),

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from dataclasses import asdict
 
 import mpmath
 
@@ -23,19 +24,13 @@ def describe(plan, provenance):
     return {
         "schema": "meshwright.drive/1",
         "generator": GENERATOR,
-        "name": drive.name,
-        "prefix": drive.name,
-        "family": drive.family,
-        "title": drive.title,
-        "variant": {key: [word] for key, word in drive.variant.items()},
-        "variant_defaults": drive.variant_defaults,
-        "handed": drive.handed,
+        **identity(drive),
         "abi": 1,
         "specification_hash": specification_hash(plan),
         **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
         "unknowns": [_name(u.symbol) for u in drive.unknowns],
-        "parameters": [_parameter(drive, p) for p in drive.parameters],
+        "parameters": parameters(drive),
         "quantities": _quantities(drive),
         "tools": [
             {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
@@ -52,15 +47,16 @@ def describe(plan, provenance):
         "systems": [_system(drive, system) for system in drive.systems],
         "rules": _rules(drive),
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in plan.guards],
-        "outputs": [
-            {**_plain(o.name, o.unit, o.frame), "offset": offsets[o.name], "size": len(o.nodes)} for o in plan.observed
-        ],
+        "outputs": _named(plan.observed),
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
+        "geometry": offsets["tangent_basis"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
         "functions": [_function(function) for function in plan.functions],
+        "least_teeth": {member: asdict(search) for member, search in drive.least_teeth.items()},
+        "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
             "s": [len(plan.state)],
@@ -74,6 +70,24 @@ def describe(plan, provenance):
     }
 
 
+def identity(drive):
+    """What tells a drive from the others of its family."""
+    return {
+        "name": drive.name,
+        "prefix": drive.name,
+        "family": drive.family,
+        "title": drive.title,
+        "variant": {key: [word] for key, word in drive.variant.items()},
+        "variant_defaults": drive.variant_defaults,
+        "handed": drive.handed,
+    }
+
+
+def parameters(drive):
+    """The parameters of a drive in the order of its parameter vector."""
+    return [_parameter(drive, p) for p in drive.parameters]
+
+
 def specification_hash(plan):
     """SHA-256 of the tape, its inputs and what is read from it: equal for equal generated arithmetic."""
     nodes = _nodes(plan.tape)
@@ -82,6 +96,8 @@ def specification_hash(plan):
     reads += [[o.name, list(o.nodes)] for o in plan.observed]
     reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
     reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.regions]
+    reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.curvature]] for f in (*plan.flanks, *plan.regions)]
+    reads += [[plan.along.direction, plan.along.first, plan.along.second]]
     reads += [_system_content(system) for system in plan.systems]
     reads += [[f.name, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.functions]
     rules = [[r.target.name, str(r.value)] for r in plan.drive.rules]
@@ -219,20 +235,23 @@ def _region(scheduled, region):
         "margins": _margins(region.margins),
         "lengthwise": region.lengthwise,
         "outputs": sum(len(o.nodes) for o in scheduled.outputs),
+        "curvature": _named(scheduled.curvature),
     }
 
 
 def _function(function):
-    places = _places(function.outputs)
     return {
         "name": function.name,
         "meaning": function.meaning,
         "arguments": [_name(q) for q in function.parameters],
-        "outputs": [
-            {**_plain(o.name, o.unit, o.frame), "offset": places[o.name], "size": len(o.nodes)}
-            for o in function.outputs
-        ],
+        "outputs": _named(function.outputs),
     }
+
+
+def _named(outputs):
+    """Name, unit, frame, place and size of consecutive outputs."""
+    places = _places(outputs)
+    return [{**_plain(o.name, o.unit, o.frame), "offset": places[o.name], "size": len(o.nodes)} for o in outputs]
 
 
 def _offsets(plan):
@@ -263,4 +282,5 @@ def _body(plan, body, offsets):
         "lengthwise": body.lengthwise,
         "recovered": [s.name for s in body.recovered],
         "outputs": sum(len(o.nodes) for o in flank.outputs),
+        "curvature": _named(flank.curvature),
     }

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.conditions import Evaluated
+from derive.directional import Derivatives
 from derive.emit.c99 import Printer
 from derive.emit.render import render
 from derive.language.drive import PATH
@@ -53,21 +54,6 @@ class Tangents:
             yield tangent.evaluated()
 
 
-class _Derivatives:
-    """Tangent nodes on a tape: an input's is an input of its own, a value's follows by the chain rule."""
-
-    def __init__(self, tape, seeds):
-        self.tape, self._done = tape, dict(seeds)
-
-    def __call__(self, i):
-        for k in [*self.tape.needed([i], self._done), i]:
-            if k not in self._done:
-                args = self.tape.nodes[k].args
-                known = {a: self._done.get(a, self.tape.constant(0)) for a in args}
-                self._done[k] = self.tape.rule(k, known) if args else self.tape.constant(0)
-        return self._done[i]
-
-
 def _seeds(tape, lower, symbols, stage):
     """Seed inputs d_name of these input symbols: input node → seed node."""
     return {lower(s): tape.input(sp.Symbol(f"d_{s}"), stage) for s in symbols}
@@ -106,7 +92,7 @@ def _of_contact(plan):
     by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
     leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
     leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
-    tangent = _Derivatives(tape, by_p | by_phi | by_x)
+    tangent = Derivatives(tape, by_p | by_phi | by_x)
     point = next(o for o in plan.observed if o.name == _POINT)
     return Tangent("tangent", lower, leaves, tuple(map(tangent, (*plan.residual, *point.nodes))))
 
@@ -122,7 +108,7 @@ def _of_rule(drive, rule, part):
     symbols, tape = [p.symbol for p in drive.parameters], Tape()
     lower = Lowering(tape, dict.fromkeys(symbols, Stage.DESIGN), drive.definitions)
     seeds = _seeds(tape, lower, symbols, Stage.DESIGN)
-    value = _Derivatives(tape, seeds)(lower(rule.value))
+    value = Derivatives(tape, seeds)(lower(rule.value))
     return Tangent("derive_tangent", lower, _leaves(lower, "p", symbols, seeds), (value,), part)
 
 
@@ -144,7 +130,7 @@ def _of_system(drive, plan):
     by_q, by_y = _seeds(tape, lower, symbols, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
     leaves = _leaves(lower, "q", symbols, by_q) | _leaves(lower, "y", plan.unknowns, by_y)
     leaves[lower(PATH)] = f"q[{len(symbols)}]"
-    tangent = _Derivatives(tape, by_q | by_y)
+    tangent = Derivatives(tape, by_q | by_y)
     return tuple(
         Tangent(f"{plan.system.name}_{name}", lower, leaves, tuple(map(tangent, nodes)))
         for name, nodes in (("tangent", plan.residual), ("fill_tangent", plan.values))

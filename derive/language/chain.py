@@ -243,6 +243,22 @@ class Motion:
             point, normal = factor.point(point), factor.direction(normal)
         return total
 
+    def axis(self, variable):
+        """Unit direction and a point of the axis about which the body turns with ``variable``, parent frame.
+
+        The sense of the direction is that in which a growing variable turns the body. Raises ValueError for a motion
+        that is not one rotation by it.
+        """
+        moving = [k for k, f in enumerate(self.factors) if any(sp.sympify(e).has(variable) for e in f.expressions())]
+        if len(moving) != 1 or not isinstance(self.factors[moving[0]], Rotation | Swing):
+            raise ValueError(f"{variable} does not turn the body about one axis")
+        factor, outer = self.factors[moving[0]], Motion(self.factors[: moving[0]])
+        rate = sp.diff(factor.angle, variable)
+        if rate not in (1, -1):
+            raise ValueError(f"the body does not turn by {variable} but by {rate} times it")
+        centre = factor.centre if isinstance(factor, Swing) else (sp.Integer(0),) * 3
+        return outer.direction(v.scale(rate, v.vector(*v.AXES[factor.axis]))), outer.point(centre)
+
     def substitute(self, replacement):
         """The same motion with symbols replaced; rotations that become equal merge again."""
         def swap(expression):

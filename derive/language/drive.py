@@ -7,7 +7,7 @@ import sympy as sp
 
 from derive.language.chain import Motion
 from derive.language.definitions import Definitions
-from derive.language.functions import Function
+from derive.language.functions import Function, LeastTeeth, ToolClearance
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.language.tool import Tool
@@ -188,6 +188,8 @@ class Drive:
     contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
+    ``least_teeth``, by member, says how the least number of teeth without undercut is sought; ``tool_clearance`` what
+    tool must clear finished teeth.
     ``absorbs_errors``: its transmission error is designed as a parabola, whose extreme at an end of contact means that
     the drive runs on an edge.
     """
@@ -224,6 +226,8 @@ class Drive:
     flanks_apart: bool = False
     absorbs_errors: bool = False
     functions: tuple[Function, ...] = ()
+    least_teeth: dict[str, LeastTeeth] = field(default_factory=dict)
+    tool_clearance: ToolClearance | None = None
     tools: tuple[ToolUse, ...] = ()
     reference_angle: sp.Expr = sp.S.Zero
     proportions: tuple[Rule, ...] = ()

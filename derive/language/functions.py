@@ -2,6 +2,17 @@
 
 A function's results are expressions in the design, the drive's definitions and the function's arguments; it is
 scheduled on the drive's tape and printed like a flank.
+
+The analyses find what a drive offers by the names of its functions, M standing for a member or another surface:
+
+undercut_range_M     where undercut is sought: the profile parameter from ``first`` to ``last`` and at ``middle``; of an
+                     explicit surface also the lines ``along_first`` to ``along_last``, else sections of its face;
+                     ``start`` is where the tool's profile begins, for the least number of teeth
+undercut_place_M     of a surface's parameters: the place on the tool, a result in mm; ``inside`` > 0 on the flank where
+                     the margins do not say it
+profile_pinion, profile_tool, profile_range_…, generation, section, tool_point, second_type, meshing_axes, rack_sizes
+                     generation of the wheel by a helicoid: see :mod:`derive.language.rack_and_pinion`
+tool_clearance       sizes of a tool of revolution that passes over finished teeth: see :class:`ToolClearance`
 """
 
 from dataclasses import dataclass
@@ -17,6 +28,32 @@ class Result:
     values: tuple
     unit: str = ""
     frame: str = ""
+
+
+@dataclass(frozen=True)
+class ToolClearance:
+    """A tool of revolution whose blades pass over finished teeth beside the space that they cut.
+
+    Results are called ``name``; ``tilt_key`` is the design key that changes the tilt of the tool's axis, ``tilt_size``
+    the derived size that says it. The drive's function ``tool_clearance`` gives ``fillet_end`` (last parameter of the
+    fillet), ``edge_root`` and ``edge_tip`` (first and last parameter of the flank), ``inner`` and ``outer`` radius of
+    the face; flank and fillet of the wheel continued round the tool are the blades.
+    """
+
+    name: str
+    tilt_key: str
+    tilt_size: str
+
+
+@dataclass(frozen=True)
+class LeastTeeth:
+    """How a member's number of teeth is varied in search of the least without undercut.
+
+    ``teeth`` is its design key; sizes under the keys ``proportional`` keep their ratio to the pitch radius.
+    """
+
+    teeth: str
+    proportional: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
 /* Follow a branch of contact in arclength, through folds and past crossings.  SPDX-License-Identifier: MIT-0 */
 #include <math.h>
 #include <string.h>
+#include "linear.h"
 #include "meshwright.h"
 
 enum { N = MW_MAX_UNKNOWNS + 1, MAX_CORRECTIONS = 15, MAX_SPLITS = 10 };
 
-static const double ANGLE_STEP = 1e-5;  /* of the difference quotient by the input angle, rad */
 static const double DONE = 1e-12, ENOUGH = 1e-8;
 static const double SMOOTH = 0.9;       /* cosine by which chord and tangent may turn on a step; past it lie other branches */
 
@@ -26,58 +26,17 @@ static void unscaled(const curve *c, const double *y, double *x)
 static void equations(const curve *c, const double *y, const double *border, double *R, double *A)
 {
     const int n = c->n, w = n + 1;
-    double x[N], J[N * N], ahead[N], behind[N];
+    double x[N], J[N * N], with_angle[N] = { 0.0 }, by_angle[N];
     unscaled(c, y, x);
-    c->m->set_phi(c->s, y[n] + ANGLE_STEP);
-    c->m->eval(c->s, x, ahead, NULL);
-    c->m->set_phi(c->s, y[n] - ANGLE_STEP);
-    c->m->eval(c->s, x, behind, NULL);
+    with_angle[n] = 1.0;
     c->m->set_phi(c->s, y[n]);
     c->m->eval(c->s, x, R, J);
+    c->m->along(c->s, y[n], x, with_angle, by_angle, NULL);
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) A[i * w + j] = J[i * n + j] * c->scale[j];
-        A[i * w + n] = (ahead[i] - behind[i]) / (2.0 * ANGLE_STEP);
+        A[i * w + n] = by_angle[i];
     }
     memcpy(A + n * w, border, sizeof(double) * (size_t)w);
-}
-
-/* Gaussian elimination with partial pivoting of rows scaled to unit size; returns the determinant. */
-static double solve(int w, double *A, double *b)
-{
-    double determinant = 1.0;
-    for (int i = 0; i < w; i++) {
-        double size = 0.0;
-        for (int j = 0; j < w; j++) size = fmax(size, fabs(A[i * w + j]));
-        for (int j = 0; j < w; j++) A[i * w + j] /= size;
-        b[i] /= size;
-    }
-    for (int k = 0; k < w; k++) {
-        int pivot = k;
-        for (int i = k + 1; i < w; i++)
-            if (fabs(A[i * w + k]) > fabs(A[pivot * w + k])) pivot = i;
-        if (pivot != k) {
-            for (int j = 0; j < w; j++) {
-                const double keep = A[k * w + j];
-                A[k * w + j] = A[pivot * w + j];
-                A[pivot * w + j] = keep;
-            }
-            const double keep = b[k];
-            b[k] = b[pivot];
-            b[pivot] = keep;
-            determinant = -determinant;
-        }
-        determinant *= A[k * w + k];
-        for (int i = k + 1; i < w; i++) {
-            const double factor = A[i * w + k] / A[k * w + k];
-            for (int j = k; j < w; j++) A[i * w + j] -= factor * A[k * w + j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (int k = w - 1; k >= 0; k--) {
-        for (int j = k + 1; j < w; j++) b[k] -= A[k * w + j] * b[j];
-        b[k] /= A[k * w + k];
-    }
-    return determinant;
 }
 
 /* Unit tangent t[n+1] of the curve at y, on the side of `before`; returns the bordered determinant. */
@@ -88,12 +47,12 @@ static double tangent(const curve *c, const double *y, const double *before, dou
     equations(c, y, before, R, A);
     memset(t, 0, sizeof(double) * N);
     t[c->n] = 1.0;
-    solve(w, A, t);
+    mw_bordered_solve(w, A, t);
     for (int i = 0; i < w; i++) length += t[i] * t[i];
     for (int i = 0; i < w; i++) t[i] /= sqrt(length);
     equations(c, y, t, R, A);
     double unused[N] = { 0.0 };
-    return solve(w, A, unused);
+    return mw_bordered_solve(w, A, unused);
 }
 
 /* Newton from y on the plane through it across t. Nonzero if it settles. */
@@ -104,7 +63,7 @@ static int correct(const curve *c, const double *t, double *y)
     for (int k = 0; k < MAX_CORRECTIONS; k++) {
         equations(c, y, t, R, A);
         R[c->n] = 0.0;
-        solve(w, A, R);
+        mw_bordered_solve(w, A, R);
         double change = 0.0;
         for (int i = 0; i < w; i++) {
             y[i] -= R[i];

@@ -11,7 +11,7 @@ static int available(const mw_lane_set *sets[3])
 {
     int count = 0;
     sets[count++] = &mw_lanes_native;
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef MW_WIDE_LANES
     if (!__builtin_cpu_supports("fma")) return count;
     if (__builtin_cpu_supports("avx2")) sets[count++] = &mw_lanes_avx2;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
@@ -38,6 +38,12 @@ int mw_lanes_width(const mw_lane_set *set)
 const char *mw_lanes_name(const mw_lane_set *set)
 {
     return set->name;
+}
+
+/* A drive's kernels for an instruction set; NULL if it has none: a header alone, or a table of other functions. */
+static const mw_lane_model *kernels_of(const mw_model *m, const mw_lane_set *set)
+{
+    return m->kernels ? m->kernels->lanes[set->set] : NULL;
 }
 
 /* Work of both traces: state, parameters, start, angles, points in lanes; then the scalar state and work. */
@@ -123,7 +129,7 @@ static size_t converged(size_t n, int *status)
 size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
                         size_t n, const double *start, double *work, double *x, int *status)
 {
-    const mw_lane_model *k = set->find(m->drive);
+    const mw_lane_model *k = kernels_of(m, set);
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, np = (size_t)m->np;
     const room r = divide(set, m, n, work);
     double valid[MW_MAX_LANES];
@@ -151,7 +157,7 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
 size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *p, const double *phi, size_t n,
                        double *work, double *x, int *status)
 {
-    const mw_lane_model *k = set->find(m->drive);
+    const mw_lane_model *k = kernels_of(m, set);
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, part = (n + lanes - 1) / lanes;
     const room r = divide(set, m, part, work);
     double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];

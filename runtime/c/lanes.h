@@ -2,17 +2,10 @@
 #ifndef MW_LANES_H
 #define MW_LANES_H
 
+#include "kernels.h"
 #include "meshwright.h"
 
 enum { MW_MAX_LANES = 16 };
-
-/* One drive's kernels; number k of lane l is at [k * lanes + l]. See the generated lane headers. */
-typedef struct mw_lane_model {
-    const char *drive;
-    void (*setup)(const double *p, double *s, double *valid);
-    void (*set_phi)(double *s, const double *phi);
-    void (*step)(const double *s, double *x, double *size);
-} mw_lane_model;
 
 /* Where the points of a lane go: x[count * nx]. */
 typedef struct mw_lane_row {
@@ -23,14 +16,14 @@ typedef struct mw_lane_row {
 /* Points that are kept in lanes before they go to the rows; so they stay in the nearest cache. */
 enum { MW_LANE_BLOCK = 32 };
 
-/* All drives for one instruction set: vectors of width numbers, lanes instances at once. follow() traces every lane along
+/* One instruction set: vectors of width numbers, lanes instances at once. follow() traces every lane along
  * its own phi[n * lanes] from start[nx * lanes], the start values at phi[0], and writes the points to rows[lanes];
  * solved[l] counts the points of lane l before it failed; s is set up; points[(MW_HISTORY + MW_LANE_BLOCK) * nx * lanes]
  * is work. */
 struct mw_lane_set {
     const char *name;
+    mw_instruction_set set;
     int width, lanes;
-    const mw_lane_model *(*find)(const char *drive);
     void (*follow)(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
                    double *points, const mw_lane_row *rows, size_t *solved);
 };

@@ -7,8 +7,9 @@
 #endif
 #define MW_LANES 8
 #define MW_FUSED
-#define MW_LANE_SET mw_lanes_avx2
+#define MW_LANE_SET _lanes_avx2
 #define MW_LANE_SET_NAME "avx2"
+#define MW_LANE_SET_NUMBER MW_AVX2
 #include "lane_kernels.h"
 #ifdef __clang__
 #pragma clang attribute pop

@@ -7,8 +7,9 @@
 #endif
 #define MW_LANES 16
 #define MW_FUSED
-#define MW_LANE_SET mw_lanes_avx512
+#define MW_LANE_SET _lanes_avx512
 #define MW_LANE_SET_NAME "avx512"
+#define MW_LANE_SET_NUMBER MW_AVX512
 #include "lane_kernels.h"
 #ifdef __clang__
 #pragma clang attribute pop

@@ -1,4 +1,4 @@
-/* Small dense linear algebra with complete pivoting.  SPDX-License-Identifier: MIT-0 */
+/* Small dense linear algebra.  SPDX-License-Identifier: MIT-0 */
 #include <math.h>
 #include "linear.h"
 #include "meshwright.h"
@@ -67,4 +67,42 @@ int mw_linear_solve(int n, double *A, double *b, const double *scale, double tol
     for (int j = 0; j < n; j++) x[j] *= scale[j];
     *gap = first > 0.0 ? last / first : 0.0;
     return rank;
+}
+
+double mw_bordered_solve(int w, double *A, double *b)
+{
+    double determinant = 1.0;
+    for (int i = 0; i < w; i++) {
+        double size = 0.0;
+        for (int j = 0; j < w; j++) size = fmax(size, fabs(A[i * w + j]));
+        for (int j = 0; j < w; j++) A[i * w + j] /= size;
+        b[i] /= size;
+    }
+    for (int k = 0; k < w; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < w; i++)
+            if (fabs(A[i * w + k]) > fabs(A[pivot * w + k])) pivot = i;
+        if (pivot != k) {
+            for (int j = 0; j < w; j++) {
+                const double keep = A[k * w + j];
+                A[k * w + j] = A[pivot * w + j];
+                A[pivot * w + j] = keep;
+            }
+            const double keep = b[k];
+            b[k] = b[pivot];
+            b[pivot] = keep;
+            determinant = -determinant;
+        }
+        determinant *= A[k * w + k];
+        for (int i = k + 1; i < w; i++) {
+            const double factor = A[i * w + k] / A[k * w + k];
+            for (int j = k; j < w; j++) A[i * w + j] -= factor * A[k * w + j];
+            b[i] -= factor * b[k];
+        }
+    }
+    for (int k = w - 1; k >= 0; k--) {
+        for (int j = k + 1; j < w; j++) b[k] -= A[k * w + j] * b[j];
+        b[k] /= A[k * w + k];
+    }
+    return determinant;
 }

@@ -45,7 +45,9 @@ typedef struct mw_info {
 } mw_info;
 
 /* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
- * positive without interference. major: direction of curvature_min. flags: see mw_flag. */
+ * positive without interference. major: direction of curvature_min. lever: velocity of a member's point along the normal
+ * for a unit velocity of its own angle, mm; ratio: instantaneous d(wheel angle)/d(pinion angle), the quotient of both.
+ * flags: see mw_flag. */
 typedef struct mw_contact {
     double point[3], normal[3];
     double curvature_min, curvature_max;
@@ -53,6 +55,7 @@ typedef struct mw_contact {
     double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
     int line;                    /* curvature_min is zero to round-off: line contact */
     unsigned flags;
+    double lever_pinion, lever_wheel, ratio;
 } mw_contact;
 
 int mw_abi(void);
@@ -126,6 +129,13 @@ void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, co
  * s[ns] set up by setup(). Returns the number of points: the first is x0 corrected. */
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant);
+
+/* The singular point of the equations next to phi and x[nx], to round-off. crossing = 0: a fold, where the branch turns
+ * back (dR/dx singular); else a point where another branch crosses, a pitchfork or transcritical point (dR/d(x, phi)
+ * singular). Newton's method on the extended system of Moore, "The numerical treatment of non-trivial bifurcation points",
+ * Numer. Funct. Anal. Optim. 2 (1980): the residual, the left null vector and its length, with exact second derivatives.
+ * s[ns] set up by setup(). Returns MW_CONVERGED, or MW_DIVERGED if there is none nearby; phi and x are then unchanged. */
+int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, double *x);
 
 /* Contact points[designs*n*3] (fixed frame; NaN where there is none) and flags[designs*n] of what mw_trace_designs
  * solved; status[designs*n] becomes line contact where the flanks touch along a line. Work: s[ns], o[no]. */

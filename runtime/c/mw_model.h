@@ -15,9 +15,9 @@ typedef struct mw_name {
 typedef void (*mw_surface)(const double *s, const double *q, double *o);
 
 /* A member. In the observation o of a solution: its point, body frame, at o[point]; at o[at], for each surface
- * parameter, d(point)/d(parameter) and the tangential part of d(unit normal)/d(parameter), 3 numbers each, fixed
- * frame; then the slopes of each implicit condition; o[regular] < 0 beyond a singular line; its margins, negative
- * outside, NaN where the design sets no limit, at o[margin]. */
+ * parameter, d(point)/d(parameter), fixed frame; then the slopes of each implicit condition; o[regular] < 0 beyond a
+ * singular line; its margins, negative outside, NaN where the design sets no limit, at o[margin]. curvature() writes an
+ * orthonormal tangent basis (6), the second fundamental form in it (11, 12, 22) and the two principal curvatures. */
 typedef struct mw_body {
     const char *name;
     int parameters, conditions;
@@ -26,7 +26,7 @@ typedef struct mw_body {
     const char *const *flags;    /* flag of each margin */
     const char *const *events;   /* event of each margin */
     int outputs;                 /* length of what flank() writes */
-    mw_surface flank;
+    mw_surface flank, curvature;
 } mw_body;
 
 /* Equations solved once per design: their solution y[n] fills in open parameters. q[np + 1] are the parameters followed
@@ -46,8 +46,9 @@ typedef struct mw_system {
 typedef struct mw_region {
     const char *member, *name;
     int parameters, conditions, outputs;
-    mw_surface flank;
+    mw_surface flank, curvature;
 } mw_region;
+
 /* A function that a drive offers beside its contact: o[outputs] at q[arguments] for the design in s. */
 typedef struct mw_function {
     const char *name;
@@ -63,6 +64,10 @@ typedef struct mw_model {
     int nx, np, ns, no, nd, nstart, nguards;
     int error;                   /* index of the transmission error among the unknowns */
     int wheel_angle;             /* index of the wheel angle in the observation */
+    int geometry;                /* in the observation: an orthonormal basis of the tangent plane (6), fixed frame; in it
+                                    second fundamental forms (11, 12, 22) of pinion and wheel along their own outward
+                                    normals and of the gap along the pinion's; the gap's principal curvatures, the smaller
+                                    first; lever arms of pinion and wheel; their quotient, the instantaneous ratio */
     const mw_name *unknowns, *parameters, *sizes, *outputs;
     int noutputs;
     const int *output_sizes;     /* how many numbers each named output of the observation has */
@@ -74,6 +79,8 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
+    void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
     void (*start_scale)(const double *s, double *y);            /* natural size of the start system's unknowns */
     void (*start_eval)(const double *s, const double *y, double *R, double *J);
@@ -86,6 +93,7 @@ typedef struct mw_model {
     const mw_region *regions;
     int nfunctions;
     const mw_function *functions;
+    const struct mw_kernels *kernels; /* lane kernels and tangents: of a drive's object; NULL in the header alone */
 } mw_model;
 
 #endif

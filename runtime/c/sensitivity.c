@@ -1,29 +1,8 @@
 /* Exact sensitivities of a design and of its contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
 #include "complete.h"
+#include "kernels.h"
 #include "linear.h"
-
-typedef struct mw_system_tangents {
-    void (*equations)(const double *q, const double *dq, const double *y, const double *dy, double *dR);
-    void (*fill)(const double *q, const double *y, const double *dy, double *known, double *dq);
-} mw_system_tangents;
-
-typedef struct mw_tangents {
-    const char *drive;
-    void (*derive)(double *known, const double *p, double *dp);
-    const mw_system_tangents *systems;
-    void (*contact)(const double *p, const double *dp, double phi, double dphi, const double *x, const double *dx,
-                    double *dR, double *dr);
-} mw_tangents;
-
-#include "sensitivity_models.h"
-
-static const mw_tangents *find(const mw_model *m)
-{
-    for (size_t i = 0; i < sizeof mw_tangent_models / sizeof mw_tangent_models[0]; i++)
-        if (strcmp(mw_tangent_models[i].drive, m->drive) == 0) return &mw_tangent_models[i];
-    return NULL;
-}
 
 /* Below this share of the largest pivot a system does not determine its solution: line contact. */
 static const double RANK_TOLERANCE = 1e-12;
@@ -55,7 +34,7 @@ static int place(const mw_model *m, const mw_system *system, const mw_system_tan
 int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp)
 {
     double known[MW_MAX_PARAMETERS];
-    const mw_tangents *t = find(m);
+    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
     if (!t || m->np > MW_MAX_PARAMETERS) return MW_BAD_INPUT;
     memcpy(known, given, sizeof(double) * (size_t)m->np);
     t->derive(known, p, dp);
@@ -72,7 +51,7 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
                        const double *x, double *dx, double *dr)
 {
     double R[MW_MAX_UNKNOWNS], dR[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    const mw_tangents *t = find(m);
+    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
     if (!t) return MW_BAD_INPUT;
     for (int j = 0; j < m->nx; j++) dx[j] = 0.0;
     t->contact(p, dp, phi, dphi, x, dx, dR, dr);

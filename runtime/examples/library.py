@@ -1,4 +1,4 @@
-"""The compiled library through ctypes, without the Python package. Argument: path of the library."""
+"""A drive's shared object through ctypes, without the Python package. Argument: path of cylindrical_worm_zn_zn.so."""
 
 import ctypes
 import math
@@ -15,8 +15,8 @@ class Info(ctypes.Structure):
 library = ctypes.CDLL(sys.argv[1])
 if library.mw_abi() != ABI:
     sys.exit(f"{sys.argv[1]} has ABI {library.mw_abi()}, this program needs ABI {ABI}")
-library.mw_find.restype = ctypes.c_void_p
-drive = ctypes.c_void_p(library.mw_find(b"cylindrical_worm_zn_zn"))
+library.mw_drive_cylindrical_worm_zn_zn.restype = ctypes.c_void_p
+drive = ctypes.c_void_p(library.mw_drive_cylindrical_worm_zn_zn())
 p = (ctypes.c_double * 64)(*[math.nan] * 64)
 for place, value in {1: 2, 3: 1, 4: 277, 5: math.radians(3), 7: math.radians(10), 9: 4, 10: 20.063824}.items():
     p[place] = value

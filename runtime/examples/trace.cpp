@@ -1,13 +1,16 @@
-// A trace with the installed library from C++11: find_package(meshwright) or pkg-config.
+// A trace from C++11, with a library that has the drive built in (find_package(meshwright), pkg-config) or with the drive's
+// shared object and the core library.
 #include <cmath>
 #include <cstdio>
 #include <vector>
 #include "meshwright.h"
 
+extern "C" const mw_model *mw_drive_cylindrical_worm_zn_zn(void);
+
 int main()
 {
-    const mw_model *drive = mw_find("cylindrical_worm_zn_zn");
-    if (!drive || mw_abi() != MW_MODEL_ABI) return 2;
+    const mw_model *drive = mw_drive_cylindrical_worm_zn_zn();
+    if (mw_abi() != MW_MODEL_ABI || drive->abi != MW_MODEL_ABI) return 2;
     const double degree = 3.141592653589793 / 180.0;
     std::vector<double> p(static_cast<std::size_t>(drive->np), std::nan("")), q(p.size() + 1);
     p[1] = 2.0, p[3] = 1.0, p[4] = 277.0, p[5] = 3.0 * degree, p[7] = 10.0 * degree, p[9] = 4.0, p[10] = 20.063824;

@@ -8,8 +8,20 @@
 ('converged', 'converged')
 """
 
-from meshwright.base.errors import DesignError, UsageError
-from meshwright.contact.results import TCA
-from meshwright.drive import Drive
+from importlib import import_module
 
-__all__ = ["TCA", "DesignError", "Drive", "UsageError"]
+#: Public name → module that has it, imported when it is first used: tools that need a part do not wait for the rest.
+_PLACES = {
+    "DesignError": "meshwright.base.errors",
+    "Drive": "meshwright.drive",
+    "TCA": "meshwright.contact.results",
+    "UsageError": "meshwright.base.errors",
+}
+
+__all__ = [*_PLACES]
+
+
+def __getattr__(name):
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_PLACES[name]), name)

@@ -9,13 +9,15 @@ import re
 import sys
 
 from meshwright import commands
-from meshwright.base.errors import DesignError, UsageError
-from meshwright.base.library import LibraryError
+from meshwright.base import drives
+from meshwright.base.errors import DesignError, LibraryError, UsageError
 
 
 def parser():
     """The argument parser of all commands."""
     top = argparse.ArgumentParser(prog="meshwright", description="Tooth contact analysis of gear drives.")
+    top.add_argument("--version", action=_Version, help="show the version and exit")
+    top.add_argument("--drives", action="append", default=[], metavar="DIR", help="folder of drives to search first")
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for module in commands.ALL:
         name = module.__name__.rsplit(".", 1)[-1]
@@ -24,6 +26,18 @@ def parser():
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
     return top
+
+
+class _Version(argparse.Action):
+    """Prints the installed version; it is looked up only when it is asked for."""
+
+    def __init__(self, **options):
+        super().__init__(nargs=0, **options)
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        from importlib.metadata import version
+
+        parser.exit(message=f"meshwright {version('meshwright')}\n")
 
 
 def joined(arguments):
@@ -45,6 +59,8 @@ def main(arguments=None):
     try:
         _refuse_empty(options)
         _refuse_mixed(options)
+        for folder in reversed(options.drives):
+            drives.add(folder)
         status = options.run(options)
         sys.stdout.flush()
         return status

@@ -9,8 +9,8 @@ Lengths in mm, angles in rad, except where a design key names its unit.
 import casadi
 import numpy as np
 
+from meshwright.base.drives import folder_of
 from meshwright.base.errors import UsageError
-from meshwright.base.library import SHIPPED
 from meshwright.design import design as designs
 
 #: Largest residual (mm of position, components of unit normals) of what counts as a contact.
@@ -39,7 +39,8 @@ def differentiable_tca(description, mirrored=False):
     """
     sign = -1.0 if mirrored else 1.0
     values, p, phi, x, out = _generated(description)
-    curvatures = relative_curvatures(description, out["observation"])
+    at = next(o["offset"] for o in description["outputs"] if o["name"] == "curvature_gap")
+    curvatures = out["observation"][at : at + 2]
     at_contact = {
         "x": x,
         "error": sign * x[description["error"]],
@@ -113,7 +114,7 @@ def _by_system(description, system, p, known):
 def _system_values(description, system):
     """CasADi function p → values of a design system, its solution followed along its path in equal steps."""
     name = f"{description['name']}_{system['name']}"
-    generated = casadi.Function.load(str(SHIPPED / f"{name}.casadi"))
+    generated = casadi.Function.load(str(folder_of(description["name"]) / f"{name}.casadi"))
     p, path, y = (casadi.SX.sym(q, generated.size1_in(q)) for q in ("p", "path", "y"))
     out = dict(zip(generated.name_out(), generated(p, path, y), strict=True))
     regular = casadi.logic_all(casadi.vertcat(casadi.norm_inf(out["residual"]) <= RESIDUAL, out["watch"] > 0.0))
@@ -130,43 +131,9 @@ def _system_values(description, system):
     return casadi.Function(name, [p], [casadi.if_else(legal, look(p, 1.0, y)[1], np.nan)])
 
 
-def relative_curvatures(description, observation):
-    """Smaller and larger principal curvature of the gap, 1/mm, from an observation: CasADi expressions (2).
-
-    Positive without interference. The contact normal is the pinion's outward normal.
-    """
-    pinion, wheel = description["bodies"]
-    normal = observation[3:6]
-    along = observation[pinion["at"] : pinion["at"] + 3]
-    along -= casadi.dot(along, normal) * normal
-    along /= casadi.norm_2(along)
-    basis = casadi.horzcat(along, casadi.cross(normal, along)).T
-    gap = -_second_form(pinion, observation, basis) - _second_form(wheel, observation, basis)
-    mean, half = (gap[0, 0] + gap[1, 1]) / 2, (gap[0, 0] - gap[1, 1]) / 2
-    radius = casadi.sqrt(half**2 + gap[0, 1] ** 2)
-    largest = mean + radius
-    smallest = casadi.if_else(mean > 0.0, (gap[0, 0] * gap[1, 1] - gap[0, 1] ** 2) / largest, mean - radius)
-    return casadi.vertcat(smallest, largest)
-
-
-def _second_form(body, observation, basis):
-    """Second fundamental form (2, 2) along the body's own outward normal, in a basis (2, 3) of the tangent plane.
-
-    The normal turns by −K times the way along the surface: for all parameter changes n that keep the conditions,
-    slopes·n = 0, turnings·n = −K tangents·n. With multipliers λ that is [K λ] [tangents; slopes] = −turnings.
-    """
-    count, at = len(body["parameters"]), body["at"]
-    derivatives = casadi.reshape(observation[at : at + 6 * count], 6, count)
-    tangents, turnings = basis @ derivatives[:3, :], basis @ derivatives[3:, :]
-    end = at + 6 * count
-    slopes = casadi.reshape(observation[end : end + body["conditions"] * count], count, body["conditions"]).T
-    form = (-turnings @ casadi.inv_minor(casadi.vertcat(tangents, slopes)))[:, :2]
-    return (form + form.T) / 2
-
-
 def _generated(description):
     """The generated function of a drive, symbols for its inputs p, phi, x, and its outputs by name."""
-    values = casadi.Function.load(str(SHIPPED / f"{description['name']}.casadi"))
+    values = casadi.Function.load(str(folder_of(description["name"]) / f"{description['name']}.casadi"))
     inputs = [casadi.SX.sym(name, values.size1_in(name)) for name in values.name_in()]
     return values, *inputs, dict(zip(values.name_out(), values(*inputs), strict=True))
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright import limits
+from meshwright.base.drives import add
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, model, pointer, text
 from meshwright.contact import analysis
@@ -45,8 +46,13 @@ class Drive:
     backend: str = "c"
 
     @classmethod
-    def load(cls, name_or_path, backend="c"):
-        """The drive of a packaged design or a TOML file; raises :class:`~meshwright.base.errors.DesignError`."""
+    def load(cls, name_or_path, backend="c", drives=None):
+        """The drive of a packaged design or a TOML file; raises :class:`~meshwright.base.errors.DesignError`.
+
+        ``drives`` is a folder of drives that is searched first from now on, as by ``MESHWRIGHT_DRIVES``.
+        """
+        if drives is not None:
+            add(drives)
         return cls.from_tables(designs.read(name_or_path), backend)
 
     @classmethod

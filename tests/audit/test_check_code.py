@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from derive.audit import check_code
+from meshwright.base.drives import folder_of
 
 ALL_ATTEMPTS = check_code.ATTEMPTS
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -23,7 +24,7 @@ def test_every_generated_header_is_its_own_mathematics():
 
 
 def header(name):
-    return (GENERATED / "c" / f"{name}.h").read_text(encoding="utf-8")
+    return (folder_of(name) / "include" / f"{name}.h").read_text(encoding="utf-8")
 
 
 def rejected(tmp_path, text, match):
@@ -101,6 +102,6 @@ def test_a_wrong_header_is_refused_within_seconds(tmp_path, monkeypatch):
 def test_a_folder_without_the_programs_is_rejected(tmp_path):
     (tmp_path / "audit").mkdir()
     (tmp_path / "c").mkdir()
-    shutil.copy(GENERATED / "c" / "models.h", tmp_path / "c")
+    shutil.copy(GENERATED / "c" / "face_worm_lanes.h", tmp_path / "c")
     (tmp_path / "c" / "drive.h").write_text("static inline int drive_setup(const double *p, double *s)\n{\n}\n")
     assert check_code.main([str(tmp_path / "audit")]) == 1

@@ -1,6 +1,5 @@
 """Divisions, roots and arcs of the generated code: each has a side condition, and a broken one ends as promised."""
 
-import json
 import math
 import re
 from collections import Counter
@@ -14,6 +13,7 @@ from derive.drives import catalogue
 from derive.newton import sample_parameters
 from derive.schedule import schedule
 from meshwright.base.library import ffi, library, model, text
+from meshwright.design.description import described
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 DRIVES = sorted(path.stem for path in (GENERATED / "c").glob("*.json"))
@@ -22,7 +22,7 @@ PARTIAL = {"division": r"= [^;?]*? / (?![\d.]+(?:e[-+]?\d+)?;)", "root": r"= sqr
 
 
 def description(drive):
-    return json.loads((GENERATED / "c" / f"{drive}.json").read_text(encoding="utf-8"))
+    return described(drive)
 
 
 def functions_in(header, prefix):
@@ -73,7 +73,7 @@ def test_every_side_condition_names_a_proved_statement_and_a_guard(drive):
 
 # -- every condition, broken on the tape: what is not finite arrives --------------------------------------------------
 
-REPRESENTATIVE = ("cylindrical_worm_zn_zn", "cylindrical_worm_zi_zc", "spherical_convex_spur", "face_worm")
+REPRESENTATIVE = ("cylindrical_worm_zn_zn", "cylindrical_worm_zc_zc", "spherical_convex_spur", "face_worm")
 
 
 def run(tape, outputs, inputs, broken):
@@ -180,8 +180,8 @@ DESIGNS = [
     ("cylindrical_worm_zn_zn", {"m_n": 0, "dx": -1}, "m_n must not be 0"),
     ("cylindrical_worm_zn_zn", {"alpha": 0}, "sin(alpha) must not be 0"),
     ("cylindrical_worm_zn_zn", {"dx": -20000.0}, "the groove is wider than the pitch cylinder"),
-    ("cylindrical_worm_zc_zk", {"r_c_hob": 0}, "r_c_hob must not be 0"),
-    ("cylindrical_worm_zk_zc", {"rho_c_hob": -1}, "the arc's centre lies inside the groove"),
+    ("cylindrical_worm_zk_zk", {"r_c_hob": 0}, "r_c_hob must not be 0"),
+    ("cylindrical_worm_zc_zc", {"rho_c_hob": -1}, "the arc's centre lies inside the groove"),
     ("cylindrical_worm_zi_zi", {"lambda_worm": 0}, "sin(lambda_worm) must not be 0"),
     ("cylindrical_worm_za_za", {"r_hob": 0, "dx": -1}, ""),
     ("spherical_convex_spur", {"alpha": 0}, "sin(alpha) must not be 0"),
@@ -221,8 +221,8 @@ def _read_by_the_residual(drive):
 
 POINTS = [
     ("cylindrical_worm_za_za", {"t_hob": 0.0, "psi_fixed_hob": 0.0}, "slope of the equation of meshing"),
-    ("cylindrical_worm_zi_zc", {"t_worm": 1.0}, "r_b_worm"),
-    ("cylindrical_worm_zk_zi", {"t_hob": 1.0}, "r_b_hob"),
+    ("cylindrical_worm_zi_zi", {"t_worm": 1.0}, "r_b_worm"),
+    ("cylindrical_worm_zi_zi", {"t_hob": 1.0}, "r_b_hob"),
     ("spherical_convex_spur", {"theta_pinion": math.inf}, "cos(theta_pinion)"),
     ("face_worm", {"u_gear": math.inf}, "pivot"),
 ]

@@ -14,7 +14,8 @@ PHI = 0.3
 
 
 def _external(drive, name):
-    return casadi.external(f"{drive.design.description['name']}_{name}", str(SHIPPED / "libmeshwright.so"))
+    drive_name = drive.design.description["name"]
+    return casadi.external(f"{drive_name}_{name}", str(SHIPPED / f"{drive_name}.so"))
 
 
 def _places(drive, keys):

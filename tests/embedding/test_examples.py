@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+from pathlib import Path
 
 import pytest
 
@@ -34,14 +35,14 @@ def test_a_program_with_one_copied_header(tmp_path, error, standard):
 
 
 def test_the_library_without_the_python_package(error):
-    assert error in c.run(sys.executable, EXAMPLES / "library.py", SHIPPED / "libmeshwright.so")
+    assert error in c.run(sys.executable, EXAMPLES / "library.py", SHIPPED / "cylindrical_worm_zn_zn.so")
 
 
 def test_the_library_from_cpp(tmp_path):
     command = sorted(c.compilers().items())[-1][1][1]
     program = tmp_path / "trace"
     c.run(*command, "-std=c++11", *c.STRICT, f"-I{SHIPPED / 'include'}", EXAMPLES / "trace.cpp", "-o", program,
-          f"-L{SHIPPED}", "-lmeshwright", f"-Wl,-rpath,{SHIPPED}")  # fmt: skip
+          SHIPPED / "cylindrical_worm_zn_zn.so", f"-L{SHIPPED}", "-lmeshwright", f"-Wl,-rpath,{SHIPPED}")  # fmt: skip
     assert "11 of 11 points solved" in c.run(program)
 
 
@@ -104,7 +105,7 @@ def test_the_wheel_holds_library_metadata_and_headers(tmp_path):
 
 
 def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
-    """Every tracked file of the folders that count; make finds in it what the library is compiled from."""
+    """Every tracked file of the folders that count; core and drives compile from it."""
     c.run(sys.executable, "-m", "build", "--sdist", "--outdir", tmp_path, c.ROOT)
     (archive,) = tmp_path.glob("*.tar.gz")
     with tarfile.open(archive) as packed:
@@ -113,7 +114,10 @@ def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
     tracked = c.run("git", "ls-files", "Makefile", "LICENSE", "derive", "generated", "runtime", "tests", cwd=c.ROOT)
     assert [name for name in tracked.splitlines() if not (unpacked / name).exists()] == []
     assert not (c.ROOT / "MANIFEST.in").exists()
-    c.run("make", "--dry-run", "runtime/meshwright/_generated/libmeshwright.so", cwd=unpacked)
+    program = Path("runtime", "meshwright", "base", "compile.py")
+    built, objects = tmp_path / "built", tmp_path / "objects"
+    c.run(sys.executable, program, "generated", built, "spherical_convex_spur", "--objects", objects, cwd=unpacked)
+    assert (built / "spherical_convex_spur.so").exists()
 
 
 def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
@@ -123,8 +127,8 @@ def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
     source.write_text("int mw_abi(void);\nint mw_abi(void) { return 7; }\n")
     c.run(*sorted(c.compilers().items())[-1][1][0], "-shared", "-fPIC", source, "-o", library)
     code = (
-        "import pathlib, sys; from meshwright import _library; from meshwright.cli import main\n"
-        "_library.SHIPPED = pathlib.Path(sys.argv[1]); sys.exit(main(sys.argv[2:]))"
+        "import pathlib, sys; from meshwright.base import library; from meshwright.cli import main\n"
+        "library.SHIPPED = pathlib.Path(sys.argv[1]); sys.exit(main(sys.argv[2:]))"
     )
     arguments = ["tca", "recess-action-full", "--phi-deg", "0"]
     done = subprocess.run([sys.executable, "-c", code, tmp_path, *arguments], capture_output=True, text=True)

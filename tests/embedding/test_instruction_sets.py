@@ -7,6 +7,7 @@ import shutil
 import numpy as np
 import pytest
 
+from meshwright.base import compile as build
 from tests.embedding import compile as c
 from tests.embedding.machines import arm64
 from tests.embedding.test_headers import FAMILIES, problem_of
@@ -21,8 +22,8 @@ _VECTOR = re.compile(r"\t(v[a-z0-9]+)\s.*%[xyz]mm")
 
 @pytest.mark.skipif(platform.machine() != "x86_64" or not shutil.which("objdump"), reason="x86-64 with binutils")
 def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has():
-    objects = sorted(OBJECTS.glob("*.o"))
-    assert {path.name for path in objects} >= {*WIDE, "lanes_native.o", "library.o", "sensitivity.o"}
+    objects = sorted((*OBJECTS.glob("*.o"), *OBJECTS.glob("face_worm/*.o")))
+    assert {path.name for path in objects} >= {*WIDE, "lanes_native.o", "library.o", "sensitivity.o", "drive.o"}
     for path in objects:
         code = c.run("objdump", "-d", "--no-show-raw-insn", path)
         if path.name in WIDE:
@@ -32,12 +33,18 @@ def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has():
 
 
 def test_the_library_builds_for_arm64(tmp_path):
-    """All of it, with one drive: the wide units are empty there."""
+    """Core and a drive in one: the wide units are empty there."""
     library = tmp_path / "libmeshwright.so"
     target = ("-target", "aarch64-linux-gnu", "-std=c99", "-O1", "-shared", "-fPIC")
-    options = (*c.STRICT, *c.EXACT, "-DMW_DRIVES", "-DMW_DRIVE_face_worm", f"-I{c.GENERATED}", f"-I{c.RUNTIME}")
-    c.run(*c.CLANG, "cc", *target, *options, *sorted(c.RUNTIME.glob("*.c")), "-o", library, "-lm")
+    options = (*c.STRICT, *c.EXACT, f"-I{c.GENERATED}", f"-I{c.RUNTIME}")
+    objects = []
+    for unit in build.DRIVE_UNITS:
+        objects.append(tmp_path / f"{c.Path(unit).stem}.o")
+        compiled = (*target[:-2], "-fPIC", *options, "-DMW_DRIVE=face_worm", "-c", c.RUNTIME / unit)
+        c.run(*c.CLANG, "cc", *compiled, "-o", objects[-1])
+    c.run(*c.CLANG, "cc", *target, *options, *sorted(c.RUNTIME.glob("*.c")), *objects, "-o", library, "-lm")
     content = library.read_bytes()
+    assert b"mw_drive_face_worm" in content
     assert content[:4] == b"\x7fELF"
     assert int.from_bytes(content[18:20], "little") == 183  # EM_AARCH64
     assert b"mw_trace_designs" in content

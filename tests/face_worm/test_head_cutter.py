@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, UsageError
-from meshwright.limits.head_cutter import clearance, least_tilt
+from meshwright.limits.clearance import clearance, least_tilt
 from tests.face_worm.designs import NAMES, changed, independent
 
 
@@ -79,5 +79,5 @@ def test_design_tilted_to_clear_still_meshes():
 
 
 def test_other_families_have_no_head_cutter():
-    with pytest.raises(UsageError, match="no head-cutter"):
+    with pytest.raises(UsageError, match="no tool that passes over finished teeth"):
         clearance(Drive.load("recess-action-full"))

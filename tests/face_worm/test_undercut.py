@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.limits.face_worm import undercut
+from meshwright.limits.results import Request
 from meshwright.limits.singular_lines import edges
 from tests.face_worm.designs import NAMES, independent
 
@@ -46,7 +46,7 @@ def test_at_an_edge_the_tangents_of_the_cut_surface_are_dependent(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_undercut_points_are_singular_and_lie_off_the_flanks_of_the_packaged_designs(name):
     drive = Drive.load(name)
-    found = list(undercut(drive, 5))
+    found = list(drive.limits(Request(grid=5)).undercut)
     assert {"wheel", "reference_wheel"} <= {p.member for p in found}
     for p in found:
         flank = drive.flank(p.member)([list(p.parameters.values())])
@@ -57,7 +57,7 @@ def test_undercut_points_are_singular_and_lie_off_the_flanks_of_the_packaged_des
 
 def test_cone_is_singular_at_its_apex_on_the_tool_axis():
     drive = Drive.load(NAMES[0])
-    (apex,) = (p for p in undercut(drive, 2) if p.member == "wheel")
+    (apex,) = (p for p in drive.limits(Request(grid=2)).undercut if p.member == "wheel")
     expected = -drive.design.value("head_cutter_radius_mm") / np.sin(drive.design.value("blade_angle_deg"))
     assert apex.parameters["u_gear"] == pytest.approx(expected, rel=1e-12)
 

@@ -9,15 +9,22 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.limits import spherical as limits
+from meshwright.limits.least_teeth import least_teeth
 from meshwright.limits.results import Request
+from meshwright.limits.undercut import search_range, singular_in_section
 from tests.independent.spherical import Gear
+
+
+def undercut_line(drive, sections):
+    """Edge position, mm, at which the pinion's flank is singular in each section."""
+    ends = search_range(drive, "pinion")
+    return [l for z in sections for l in singular_in_section(drive.flank("pinion"), ends, z)]
 
 
 def test_all_values_of_table_2_3(reference):
     table = reference("spherical")["table_2_3"]
     sections, printed = np.array(table["rows"]).T
-    found = limits.undercut_line(Drive.load("spherical-table-2-3"), "pinion", sections)
+    found = undercut_line(Drive.load("spherical-table-2-3"), sections)
     assert found == pytest.approx(printed, abs=table["tolerance"])
 
 
@@ -32,16 +39,16 @@ def test_edge_ends_where_the_report_says(reference):
 def test_least_teeth_of_the_report():
     """Concave 14.5° from 32 teeth, convex 20° from 24 with R = m T/2. Convex 14.5° needs 39 with that R, not the
     36 of the report, which states no radius there."""
-    assert limits.least_teeth(Drive.load("spherical-table-2-2-concave-14-5"), "pinion") == 32
-    assert limits.least_teeth(Drive.load("spherical-table-2-2-convex-20"), "pinion") == 24
-    assert limits.least_teeth(Drive.load("spherical-table-2-2-convex-14-5"), "pinion") == 39
+    assert least_teeth(Drive.load("spherical-table-2-2-concave-14-5"), "pinion") == 32
+    assert least_teeth(Drive.load("spherical-table-2-2-convex-20"), "pinion") == 24
+    assert least_teeth(Drive.load("spherical-table-2-2-convex-14-5"), "pinion") == 39
 
 
 @pytest.mark.parametrize("radius", [50.0, 90.0, 1e6])
 def test_the_least_teeth_of_a_concave_gear_do_not_depend_on_its_sphere(pair, radius):
     drive = pair("concave", "spur", pressure_angle_deg=14.5, pinion_teeth=32, pinion_sphere_radius_mm=radius)
-    assert limits.least_teeth(drive, "pinion") == 32
-    assert limits.least_teeth(drive, "wheel") == math.ceil(2 / math.sin(math.radians(14.5)) ** 2)
+    assert least_teeth(drive, "pinion") == 32
+    assert least_teeth(drive, "wheel") == math.ceil(2 / math.sin(math.radians(14.5)) ** 2)
 
 
 @pytest.mark.parametrize("flank", ["left", "right"])
@@ -52,7 +59,7 @@ def test_undercut_line_agrees_with_fifty_digits(pair, form, radius, flank):
     radii = {"pinion_sphere_radius_mm": radius} if radius else {}
     drive = pair(form, "spur", flank=flank, pinion_teeth=14, **radii)
     sections = np.linspace(-7.5, 7.5, 7)
-    found = limits.undercut_line(drive, "pinion", sections)
+    found = undercut_line(drive, sections)
     with mpmath.workdps(50):
         gear = Gear(4, 14, mpmath.radians(20), form, radius and mpmath.mpf(radius), 1 if flank == "left" else -1)
         exact = [float(gear.undercut(mpmath.mpf(z))) for z in sections]
@@ -61,7 +68,7 @@ def test_undercut_line_agrees_with_fifty_digits(pair, form, radius, flank):
 
 def test_the_gear_is_singular_on_its_undercut_line():
     drive = Drive.load("spherical-table-2-3")
-    entries = limits.limits(drive, Request(grid=5)).undercut
+    entries = drive.limits(Request(grid=5)).undercut
     pinion = [entry for entry in entries if entry.member == "pinion"]
     assert [entry.point[2] for entry in pinion] == pytest.approx([-10, -5, 0, 5, 10], abs=1e-12)
     assert all(entry.on_flank for entry in pinion)

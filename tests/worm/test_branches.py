@@ -70,7 +70,7 @@ def test_a_solution_on_the_spurious_sheet_is_flagged_and_never_among_the_contact
     """Beyond n_x = 0 every equation still holds; the wheel's flank does not lie there."""
     drive = Drive.from_tables(plain(profile, hob_pitch_radius_mm=21.0))
     flank = drive.flank("wheel")
-    t = float(drive.function("profile_range_hob")()["pitch_point"])
+    t = float(drive.function("profile_range_tool")()["pitch_point"])
     inside, beyond = (flank([[t, psi]]).margins["spurious_sheet"][0] for psi in (0.3, 0.3 + np.pi))
     assert inside > 0 > beyond
     for angle in np.radians([-40.0, 0.0, 40.0]):

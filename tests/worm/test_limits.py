@@ -32,7 +32,7 @@ def _rack(drive):
 def _places(drive, count=6):
     """Random (t, Ψ) on the flank, from the radii of the profile."""
     rng = np.random.default_rng(7)
-    span = drive.function("profile_range_hob")()
+    span = drive.function("profile_range_tool")()
     t = span["pitch_point"] + span["scale"] * rng.uniform(-0.3, 0.3, count)
     return t, rng.uniform(-0.3, 0.3, count)
 
@@ -44,7 +44,7 @@ def test_generated_contact_is_the_rack_form_of_the_paper(profile, flank):
     drive = _drive(profile, flank=flank)
     p, ratio, pitch_line, A = _rack(drive)
     for t, psi in zip(*_places(drive), strict=True):
-        section, at = drive.function("profile_hob")(t), drive.function("generation")(t, psi)
+        section, at = drive.function("profile_tool")(t), drive.function("generation")(t, psi)
         (xi, eta, zeta), (n_e, n_1, n_k) = section["point"], section["normal"]
         c, s = np.cos(psi), np.sin(psi)
         x, y, n_x = xi * c - eta * s, xi * s + eta * c, n_e * c - n_1 * s
@@ -62,7 +62,7 @@ def test_generated_contact_is_the_rack_form_of_the_paper(profile, flank):
 @pytest.mark.parametrize("profile", PROFILES)
 def test_a_worm_point_touches_twice_a_revolution_and_once_at_a_second_type_limit(profile, flank):
     drive = _drive(profile, flank=flank)
-    contacts, generation = drive.function("worm_point"), drive.function("generation")
+    contacts, generation = drive.function("tool_point"), drive.function("generation")
     for t, psi in zip(*_places(drive), strict=True):
         both = contacts(t, generation(t, psi)["psi_hob"])["psi_fixed_hob"]
         assert np.abs(np.exp(1j * both) - np.exp(1j * psi)).min() < 1e-7
@@ -108,7 +108,7 @@ def test_second_type_limits_of_an_involute_worm_are_those_of_its_generators(flan
     """cos ψ = r_b/R1j for the generator's own angle, at every radius."""
     drive = _drive("ZI", flank=flank)
     _, _, pitch_line, _ = _rack(drive)
-    base = drive.function("profile_range_hob")()["lower_end"]
+    base = drive.function("profile_range_tool")()["lower_end"]
     found = drive.limits(Request(radii=(17.0, 20.0, 23.0))).second_type
     assert len(found) == 6
     for c in found:
@@ -132,7 +132,7 @@ def test_first_type_limits_are_singular_points_of_the_wheel(profile, flank):
 def _line_of_action(drive, contact, offset, step=1e-6):
     """Unit tangent (x, z) of the line of action in the section y = ``offset``, by central differences."""
     t = contact.parameters["t_hob"]
-    h = step * float(drive.function("profile_range_hob")()["scale"])
+    h = step * float(drive.function("profile_range_tool")()["scale"])
     ends = []
     for q in (t - h, t + h):
         psi = drive.function("section")(q, offset)["psi_fixed_hob"]

@@ -28,8 +28,8 @@ def _sizes(drive):
 
 def _parameters(drive, radii):
     """Profile parameters at the given radii, by the secant rule on the generated profile."""
-    profile = drive.function("profile_worm")
-    span = {key: float(v) for key, v in drive.function("profile_range_worm")().items()}
+    profile = drive.function("profile_pinion")
+    span = {key: float(v) for key, v in drive.function("profile_range_pinion")().items()}
 
     def radius(t):
         return np.hypot(*np.moveaxis(profile(t)["point"][..., :2], -1, 0))
@@ -48,7 +48,7 @@ def _parameters(drive, radii):
 
 def _axial(drive, radii=RADII):
     """Axial section f(ρ): height of the profile carried by the screw into the half plane y = 0."""
-    return drive.function("profile_worm")(_parameters(drive, radii))["axial"]
+    return drive.function("profile_pinion")(_parameters(drive, radii))["axial"]
 
 
 def _bend(points):
@@ -80,7 +80,7 @@ def _normal_section(drive):
     size = _sizes(drive)
     points = []
     for t in _parameters(drive, RADII):
-        x, y, z = drive.function("profile_worm")(t)["point"]
+        x, y, z = drive.function("profile_pinion")(t)["point"]
         psi = 0.0
         for _ in range(60):  # the plane is y cos(lead) + z sin(lead) = 0
             c, s = np.cos(psi), np.sin(psi)
@@ -97,7 +97,7 @@ def test_zi_is_straight_in_the_plane_that_touches_the_base_cylinder(flank):
     drive = _drive("ZI", flank=flank)
     size = _sizes(drive)
     base = size["r"] / np.sqrt(1 + (np.tan(size["alpha"]) / np.sin(size["lead"])) ** 2)
-    assert drive.function("profile_range_worm")()["lower_end"] == pytest.approx(base, abs=1e-12)
+    assert drive.function("profile_range_pinion")()["lower_end"] == pytest.approx(base, abs=1e-12)
     f = _axial(drive)
     # carried into the plane x = base on the side on which the generator lies
     angle = size["s"] * np.arccos(base / RADII)
@@ -138,7 +138,7 @@ def test_zk_and_zi_of_equal_data_touch_along_one_helix_whatever_the_disc(flank, 
     helix = np.hypot(
         size["r"] - half * np.sin(a) * np.cos(a), half * np.cos(a) ** 2 * np.sin(size["lead"])
     )
-    ground, straight = zk.function("profile_worm")(0.0), zi.function("profile_worm")(helix)
+    ground, straight = zk.function("profile_pinion")(0.0), zi.function("profile_pinion")(helix)
     assert np.hypot(*ground["point"][:2]) == pytest.approx(helix, abs=1e-12)
     assert ground["axial"] == pytest.approx(float(straight["axial"]), abs=1e-12)
     turn = np.arctan2(ground["point"][1], ground["point"][0])
@@ -152,7 +152,7 @@ def test_zk_and_zi_of_equal_data_touch_along_one_helix_whatever_the_disc(flank, 
 def test_every_form_is_a_helicoid(profile, flank):
     """The normal resists no motion in the flank's own screw: n·(k × r + p k) = 0."""
     drive = _drive(profile, flank=flank)
-    at = drive.function("profile_worm")(_parameters(drive, RADII))
+    at = drive.function("profile_pinion")(_parameters(drive, RADII))
     (x, y, _), (a, b, c) = np.moveaxis(at["point"], -1, 0), np.moveaxis(at["normal"], -1, 0)
     assert np.abs(-a * y + b * x + _sizes(drive)["p"] * c).max() < 1e-13
 

@@ -24,3 +24,7 @@ class DesignError(ValueError):
 
 class UsageError(ValueError):
     """A command line that cannot be run."""
+
+
+class LibraryError(RuntimeError):
+    """A compiled library is missing, cannot be made or does not fit this package."""

@@ -1,21 +1,19 @@
-"""The compiled library, its interface read from its own headers."""
+"""The compiled core library, its interface read from its own headers, and the drives' objects, loaded on first use."""
 
+import ctypes
 import re
 import threading
 from functools import cache
-from pathlib import Path
 
 import cffi
 
-SHIPPED = Path(__file__).parent.parent / "_generated"
+from meshwright.base.drives import SHIPPED, folders, object_of
+from meshwright.base.errors import LibraryError
+
 ABI = 1
 
 ffi = cffi.FFI()
 _loading, _thread = threading.Lock(), threading.local()
-
-
-class LibraryError(RuntimeError):
-    """The compiled library is missing or does not fit this package."""
 
 
 def _interface():
@@ -86,8 +84,21 @@ def pointer(array, kind="double[]"):
 
 
 def model(name):
-    """The model table of a drive."""
-    found = library().mw_find(name.encode())
-    if found == ffi.NULL:
-        raise LibraryError(f"the compiled library has no drive {name!r}: run `make generate build`")
+    """The model table of a drive, from its own shared object."""
+    library()
+    with _loading:
+        return _model(name, folders())
+
+
+@cache
+def _model(name, places):
+    path = object_of(name)
+    try:
+        table = getattr(ctypes.CDLL(str(path)), f"mw_drive_{name}")
+    except (OSError, AttributeError) as error:
+        raise LibraryError(f"{path} is not the object of the drive {name} ({error}): build it again") from error
+    table.restype = ctypes.c_void_p
+    found = ffi.cast("const mw_model *", table())
+    if found.abi != ABI:
+        raise LibraryError(f"{path} has ABI {found.abi}, this package needs ABI {ABI}: build it again")
     return found

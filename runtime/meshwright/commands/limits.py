@@ -13,7 +13,7 @@ MOST_LINES = 10_000
 def add_arguments(parser):
     common.add_design(parser)
     parser.add_argument("--section-y-mm", type=common.number, metavar="C", help="section y = C of the rack and pinion")
-    parser.add_argument("--radius-mm", type=common.radii, default=(), metavar="R1,R2,…", help="radii on the worm")
+    parser.add_argument("--radius-mm", type=common.radii, default=(), metavar="R1,R2,…", help="radii on pinion or tool")
     parser.add_argument("--axial-mm", type=common.numbers, default=(), metavar="Z1,Z2,…", help="axial positions")
     parser.add_argument("--grid", type=common.count, default=15, metavar="N", help="lines of a searched flank")
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.limits/1)")

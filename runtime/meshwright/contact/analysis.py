@@ -21,6 +21,7 @@ _CONTACT = np.dtype(
     [
         ("point", "f8", 3), ("normal", "f8", 3), ("curvature_min", "f8"), ("curvature_max", "f8"), ("major", "f8", 3),
         ("distance", "f8"), ("misfit", "f8"), ("line", "i4"), ("flags", "u4"),
+        ("lever_pinion", "f8"), ("lever_wheel", "f8"), ("ratio", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -188,6 +189,8 @@ class _Points:
             },
             curvatures=curvatures[rows],
             major=flip * self._only(self.contacts["major"])[rows],
+            lever_arms={b["name"]: self._only(self.contacts[f"lever_{b['name']}"])[rows] for b in bodies},
+            instantaneous_ratio=self._only(self.contacts["ratio"])[rows],
             semi_axes=semi_axes[rows],
             flags=tuple(flags[k] for k in rows),
             margins={

@@ -5,17 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import library, pointer
-from meshwright.base.roots import bracketed
 
 #: Steps along a branch, in natural sizes of the unknowns and radians of the input angle, and how many each way.
 STEP, STEPS = 0.1, 150
-
-#: A fold is located to this length along the branch, in the same measure; the input angle is stationary
-#: there.
-FOLD_TOLERANCE = 1e-8
-
-#: A fold is one only if dφ/darclength there is this much smaller than beside it.
-FLAT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -57,18 +49,25 @@ def follow(drive, angle, unknowns, step=STEP, count=STEPS):
     return Branch(angles[:n], x[:n], slopes[:n], determinants[:n])
 
 
-def turning_point(drive, branch, k, step):
-    """(input angle, unknowns) of the fold on step k of a branch followed by steps of this size; None if it is lost."""
-    sense, at_ends = np.sign(branch.slopes[k]), branch.slopes[k : k + 2]
+def turning_point(drive, branch, k):
+    """(input angle, unknowns) of the fold on step k of a branch; None if there is none."""
+    return _singular(drive, branch, k, False, branch.slopes)
 
-    def after(length):
-        return follow(drive, branch.angles[k], branch.unknowns[k], sense * length, 1)
 
-    length = bracketed(lambda at: after(at).slopes[-1], 0.0, abs(step), FOLD_TOLERANCE, tuple(at_ends))
-    found = after(length)
-    if abs(found.slopes[-1]) > FLAT * np.abs(at_ends).max():
-        return None
-    return found.angles[-1], found.unknowns[-1]
+def crossing_point(drive, branch, k):
+    """(input angle, unknowns) of where another branch crosses on step k of a branch; None if none does."""
+    return _singular(drive, branch, k, True, branch.determinants)
+
+
+def _singular(drive, branch, k, crossing, indicator):
+    """The singular point on step k, on which the ``indicator`` (N,) changes sign, by its extended system."""
+    share = indicator[k] / (indicator[k] - indicator[k + 1])
+    angle, unknowns = (a[k] + share * (a[k + 1] - a[k]) for a in (branch.angles, branch.unknowns))
+    place, x = np.array([angle]), np.ascontiguousarray(unknowns)
+    found = library().mw_branch_point(
+        drive.model, pointer(drive.state(angle)), int(crossing), pointer(place), pointer(x)
+    )
+    return (float(place[0]), x) if found >= 0 else None
 
 
 def fold_angle(path, side):
@@ -77,7 +76,7 @@ def fold_angle(path, side):
     branch = follow(drive, path.angles[side], path.unknowns[side], sense * STEP, STEPS)
     if not len(branch.turns):
         return None
-    found = turning_point(drive, branch, branch.turns[0], STEP)
+    found = turning_point(drive, branch, branch.turns[0])
     if found is None or abs(found[0] - path.angles[side]) > path.spacing:
         return None
     return float(found[0])

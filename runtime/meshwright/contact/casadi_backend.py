@@ -8,12 +8,14 @@ from functools import cache
 
 import numpy as np
 
-from meshwright.base.library import SHIPPED, callback, ffi, model
+from meshwright.base.drives import folder_of
+from meshwright.base.library import callback, ffi, model
 from meshwright.design import description as metadata
 
 #: Entries of the model table that are replaced; each is the name of a method of :class:`_Arithmetic`.
 REPLACED = (
-    "setup", "set_phi", "eval", "step", "scale", "guess", "start_scale", "start_eval", "start_solution", "observe",
+    "setup", "set_phi", "eval", "step", "along", "scale", "guess", "start_scale", "start_eval", "start_solution",
+    "observe",
 )  # fmt: skip
 
 
@@ -26,9 +28,10 @@ def model_of(description):
 def _table(name):
     """A copy of the compiled model table with the arithmetic replaced; returns it with what must stay alive."""
     compiled = model(name)
-    arithmetic = _Arithmetic(metadata.drives()[name], compiled)
+    arithmetic = _Arithmetic(metadata.described(name), compiled)
     table = ffi.new("mw_model *", compiled[0])
     table.ns = arithmetic.parameters + 1
+    table.kernels = ffi.NULL  # lanes and tangents are of the compiled arithmetic
     callbacks = {key: callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
     for key, function in callbacks.items():
         setattr(table, key, function)
@@ -45,7 +48,7 @@ class _Arithmetic:
     def __init__(self, description, compiled):
         import casadi
 
-        self.values = casadi.Function.load(str(SHIPPED / f"{description['name']}.casadi"))
+        self.values = casadi.Function.load(str(folder_of(description["name"]) / f"{description['name']}.casadi"))
         self.names = self.values.name_out()
         self.unknowns, self.parameters = len(description["unknowns"]), len(description["parameters"])
         self.observed = compiled.no
@@ -54,6 +57,9 @@ class _Arithmetic:
         out = dict(zip(self.names, self.values(p, phi, x), strict=True))
         y = casadi.vertcat(*(x[k] for k in self.columns))
         self.contact = casadi.Function("contact", [p, phi, x], _with_jacobian(casadi, out["residual"], x))
+        v = casadi.SX.sym("v", self.unknowns + 1)
+        derivatives = _along(casadi, out["residual"], casadi.vertcat(x, phi), v)
+        self.directional = casadi.Function("directional", [p, phi, x, v], derivatives)
         self.start = casadi.Function("start", [p, phi, x], _with_jacobian(casadi, out["start_residual"], y))
 
     def setup(self, p, s):
@@ -76,6 +82,13 @@ class _Arithmetic:
             return float("nan")
         values -= change
         return float(np.sum(np.abs(change / self._value("scale", s, values))))
+
+    def along(self, s, phi, x, direction, first, second):
+        parameters, _ = self._inputs(s)
+        derivatives = self.directional(parameters, phi, _numpy(x, self.unknowns), _numpy(direction, self.unknowns + 1))
+        for place, values in zip((first, second), derivatives, strict=True):
+            if place != ffi.NULL:
+                _numpy(place, self.unknowns)[:] = np.asarray(values).ravel()
 
     def scale(self, s, x):
         _numpy(x, self.unknowns)[:] = self._value("scale", s)
@@ -115,6 +128,12 @@ class _Arithmetic:
         _numpy(residual, values.numel())[:] = np.asarray(values).ravel()
         if jacobian != ffi.NULL:
             _numpy(jacobian, slopes.numel())[:] = np.asarray(slopes).ravel()
+
+
+def _along(casadi, residual, y, direction):
+    """First and second derivative of the residual along a direction of y = (unknowns, input angle)."""
+    first = casadi.jtimes(residual, y, direction)
+    return [first, casadi.jtimes(first, y, direction)]
 
 
 def _with_jacobian(casadi, residual, unknowns):

@@ -25,6 +25,27 @@ class Function:
                 return cls(drive, function, model(description["name"]).functions[k])
         raise KeyError(f"the drive {description['name']} has no function {name!r}")
 
+    @property
+    def arguments(self):
+        """Names of the arguments."""
+        return tuple(argument["name"] for argument in self.description["arguments"])
+
+    @property
+    def results(self):
+        """Names of the results."""
+        return tuple(output["name"] for output in self.description["outputs"])
+
+    @property
+    def frames(self):
+        """Frame of each result by its name."""
+        return {output["name"]: output["frame"] for output in self.description["outputs"]}
+
+    @property
+    def recovered(self):
+        """Results that are parameters which the derivation has removed, in the order of the wheel's description."""
+        known = [name for body in self.drive.design.description["bodies"] for name in body["recovered"]]
+        return tuple(name for name in known if name in self.results)
+
     @cached_property
     def state(self):
         """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
@@ -50,3 +71,14 @@ def _values(rows, output, shape):
     if size == 1:
         return rows[:, at].reshape(shape)
     return rows[:, at : at + size].reshape(*shape, size)
+
+
+def has(drive, name):
+    """Whether the drive offers the function ``name``."""
+    return any(function["name"] == name for function in drive.design.description["functions"])
+
+
+def offered(drive, prefix):
+    """What follows ``prefix`` in the names of the drive's functions that begin with it."""
+    names = (function["name"] for function in drive.design.description["functions"])
+    return [name.removeprefix(prefix) for name in names if name.startswith(prefix)]

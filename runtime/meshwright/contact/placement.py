@@ -1,26 +1,23 @@
-"""Where the members stand: body frames in the fixed frame, read off any point of their flanks.
-
-A flank's point, normal and first tangent are known in its body frame (from the flank itself) and in the fixed frame
-(from the observation); the rigid motion between the two is the placement. No drive's motion is written down a
-second time.
-"""
+"""Where the members stand: their body frames and axes of rotation in the fixed frame, from the drive's own motions."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import pointer
+from meshwright.contact.functions import Function
 
 
 @dataclass(frozen=True)
 class Placements:
     """Body to fixed frame at N input angles: 4×4 matrices by member, (N, 4, 4), mm; NaN where nothing is solved.
 
-    Right-hand drive, whatever the design's hand, like the flanks.
+    ``axes`` are unit directions and points, (N, 3) each, of the axis about which a growing angle of its own turns each
+    member, misalignments included. Right-hand drive, whatever the design's hand, like the flanks.
     """
 
     angles: np.ndarray
     matrices: dict[str, np.ndarray]
+    axes: dict[str, tuple[np.ndarray, np.ndarray]]
 
 
 def placements(drive, angles):
@@ -34,34 +31,23 @@ def placements_at(drive, angles, unknowns):
     """:class:`Placements` of both members at input angles (N,) with the wheel angle, whether in contact or not, of
     ``unknowns`` (N, nx).
     """
-    matrices = {}
-    for number, body in enumerate(drive.design.description["bodies"]):
-        at_contact = drive.flank(body["name"])(unknowns[:, body["unknowns"]])
-        in_body = _frames(at_contact.points, at_contact.normals, at_contact.tangents[:, 0])
-        in_fixed = _frames(*_observed(drive, angles, unknowns, number, body))
-        matrices[body["name"]] = in_fixed @ inverse(in_body)
-    return Placements(np.asarray(angles), matrices)
+    errors = np.asarray(unknowns)[:, drive.design.description["error"]]
+    return placed(drive, angles, drive.ratio * np.asarray(angles) + errors)
 
 
-def _observed(drive, angles, unknowns, number, body):
-    """Point, outward normal and first tangent of one member in the fixed frame, each (N, 3)."""
-    observed = np.full((len(angles), drive.model.no), np.nan)
-    for k, (angle, x) in enumerate(zip(angles, unknowns, strict=True)):
-        if np.all(np.isfinite(x)):
-            state, solution = drive.state(angle), np.ascontiguousarray(x)
-            drive.model.observe(*(pointer(a) for a in (state, solution, observed[k])))
-    place, tangent = 6 * number, body["at"]
-    return observed[:, place : place + 3], observed[:, place + 3 : place + 6], observed[:, tangent : tangent + 3]
-
-
-def _frames(points, normals, tangents):
-    """Right-handed orthonormal frames (N, 4, 4) with origin at the points and first axis along the normals."""
-    along = tangents - normals * np.sum(tangents * normals, axis=1, keepdims=True)
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
-    frames = np.zeros((len(points), 4, 4))
-    frames[:, :3, 0], frames[:, :3, 1], frames[:, :3, 2] = normals, along, np.cross(normals, along)
-    frames[:, :3, 3], frames[:, 3, 3] = points, 1.0
-    return frames
+def placed(drive, pinion_angles, wheel_angles):
+    """:class:`Placements` of both members turned to these angles (N,), rad."""
+    pinion_angles, wheel_angles = np.broadcast_arrays(pinion_angles, wheel_angles)
+    found = Function.of(drive, "placement")(pinion_angles, wheel_angles)
+    lost = ~np.isfinite(pinion_angles + wheel_angles)
+    matrices, axes = {}, {}
+    for body in drive.design.description["bodies"]:
+        name = body["name"]
+        matrix = np.zeros((len(lost), 4, 4))
+        matrix[:, :3], matrix[:, 3, 3] = found[f"placement_{name}"].reshape(-1, 3, 4), 1.0
+        matrices[name] = np.where(lost[:, None, None], np.nan, matrix)
+        axes[name] = found[f"axis_{name}"], found[f"axis_point_{name}"]
+    return Placements(pinion_angles, matrices, axes)
 
 
 def inverse(motions):

@@ -26,9 +26,11 @@ class TCA:
 
     Angles in rad, lengths in mm. ``points``, ``normals`` (out of the pinion) and ``major`` in the fixed frame,
     ``body_points[name]`` in the frame of each body: (N, 3). ``unknowns[name]``: (N,). ``curvatures``: (N, 2), relative,
-    smaller first, 1/mm. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
-    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of the
-    right-hand model in its own order, NaN where there is no solution.
+    smaller first, 1/mm. ``lever_arms[name]``: (N,), velocity of a member's point along the normal for a unit velocity
+    of its own angle, mm; ``instantaneous_ratio`` (N,): d(wheel angle)/d(pinion angle), the pinion's lever over the
+    wheel's. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
+    ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of
+    the right-hand model in its own order, NaN where there is no solution.
     """
 
     angles: np.ndarray
@@ -46,6 +48,8 @@ class TCA:
     body_points: dict[str, np.ndarray]
     curvatures: np.ndarray
     major: np.ndarray
+    lever_arms: dict[str, np.ndarray]
+    instantaneous_ratio: np.ndarray
     semi_axes: np.ndarray
     flags: tuple[tuple[str, ...], ...]
     margins: dict[str, np.ndarray]
@@ -127,6 +131,8 @@ class TCA:
                 "semi_major_mm": _number(self.semi_axes[k, 0]),
                 "semi_minor_mm": _number(self.semi_axes[k, 1]),
             },
+            "lever_arms_mm": {name: _number(arms[k]) for name, arms in self.lever_arms.items()},
+            "instantaneous_ratio": _number(self.instantaneous_ratio[k]),
             "flags": list(self.flags[k]),
         }
 

@@ -1,19 +1,15 @@
 """Backlash between the two flanks of a tooth: how far the wheel can turn while the pinion stands."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.contact.placement import placements
+from meshwright.contact.placement import placed
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import ROUND_OFF, envelopes
 
 #: Samples of one pitch.
 SAMPLES = 64
-
-#: Turn of the pinion by which the sense of the members' rotation is read off, rad.
-TURN = 0.01
 
 
 def backlash(drive):
@@ -65,38 +61,13 @@ def _offsets(here, there):
     """What to add to pinion angles of one flank to get the other's for the same stand of the body, and to the other's
     wheel angles to get the first one's.
     """
-    first, second = _stand(here), _stand(there)
-    pinion = -_between(first, second, "pinion") / first.senses["pinion"]
-    return pinion, _between(first, second, "wheel") / first.senses["wheel"]
+    first, second = (placed(mesh.drive, [0.0], [0.0]) for mesh in (here, there))
+    pinion, wheel = (_turn(first, second, name) for name in ("pinion", "wheel"))
+    return -pinion, wheel
 
 
-@dataclass(frozen=True)
-class _Stand:
-    """Placements, input angles and senses of rotation about their z axes of the bodies by member, at one solution."""
-
-    matrices: dict
-    angles: dict
-    senses: dict
-
-
-def _stand(mesh):
-    """The bodies at the stored solution nearest to angle 0; a second one nearby tells the senses."""
-    path = mesh.window.path
-    start = path.angles[np.argmin(np.abs(path.angles))]
-    at = np.array([start, start + TURN])
-    placed = placements(mesh.drive, at).matrices
-    angles = {"pinion": at, "wheel": mesh.drive.ratio * at + path.errors(at)}
-    senses = {k: math.copysign(1.0, _turn(*m) * (angles[k][1] - angles[k][0])) for k, m in placed.items()}
-    return _Stand({k: m[0] for k, m in placed.items()}, {k: a[0] for k, a in angles.items()}, senses)
-
-
-def _between(first, second, member):
-    """Angle about the body's axis from one flank's zero to the other's, in the sense of its frame."""
-    turned = _turn(first.matrices[member], second.matrices[member])
-    return turned - first.senses[member] * (second.angles[member] - first.angles[member])
-
-
-def _turn(first, second):
-    """Angle about z that takes one placement of a body into another."""
-    turned = first[:3, :3].T @ second[:3, :3]
-    return math.atan2(turned[1, 0], turned[0, 0])
+def _turn(first, second, member):
+    """Angle about a member's axis, in the sense in which its angle grows, from one flank's zero to the other's."""
+    turned = first.matrices[member][0, :3, :3].T @ second.matrices[member][0, :3, :3]
+    direction, _ = first.axes[member]
+    return math.atan2(turned[1, 0], turned[0, 0]) * math.copysign(1.0, direction[0] @ first.matrices[member][0, :3, 2])

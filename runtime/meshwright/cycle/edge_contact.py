@@ -186,9 +186,9 @@ class _Equations:
         body = self.bodies[self.edge]
         k, at = body["parameters"], body["at"]
         slopes = [self._limit_slopes(angle, x)]
-        tangents = o[at : at + 6 * len(k)].reshape(len(k), 6)[:, :3]
+        tangents = o[at : at + 3 * len(k)].reshape(len(k), 3)
         if body["conditions"]:
-            slopes.append(o[at + 6 * len(k) : at + 7 * len(k)])
+            slopes.append(o[at + 3 * len(k) : at + 4 * len(k)])
         first = slopes[0]
         free = np.array([-first[1], first[0]]) if len(slopes) == 1 else np.cross(*slopes)
         return free @ tangents

@@ -21,9 +21,6 @@ TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
 #: A path that ends in a fold is followed up to this part of a pitch before it, and what is between counts as its end.
 SHORT_OF_FOLD = 1e-6
 
-#: Half the angle by which a member is turned to read off the velocity of rotation: (r(+h) − r(−h))/(2 sin h) is exact.
-TURN = 0.5
-
 
 @dataclass(frozen=True)
 class Path:
@@ -128,26 +125,16 @@ class Path:
 
         The normal points out of the pinion: with a positive lever the gap grows with the wheel angle.
         """
-        angles = np.atleast_1d(np.asarray(angles, dtype=float))
-        x = self.solve(angles)
-        turned = [self._wheel_turned(angles, x, h) for h in (TURN, -TURN)]
-        return np.sum((turned[0] - turned[1]) * self._normals(angles, x), axis=1) / (2.0 * math.sin(TURN))
+        return self._observed("lever_arm_wheel", angles)
 
     def error_slopes(self, angles):
         """d(transmission error)/d(input angle): the flanks' points move alike along the common normal."""
-        angles = np.atleast_1d(np.asarray(angles, dtype=float))
-        x = self.solve(angles)
-        turned = [self.observe(angles + h, x)[:, 0:3] for h in (TURN, -TURN)]
-        lever = np.sum((turned[0] - turned[1]) * self._normals(angles, x), axis=1) / (2.0 * math.sin(TURN))
-        return lever / self.levers(angles) - self.drive.ratio
+        return self._observed("instantaneous_ratio", angles) - self.drive.ratio
 
-    def _wheel_turned(self, angles, unknowns, by):
-        shifted = unknowns.copy()
-        shifted[:, self.error_index] += by
-        return self.observe(angles, shifted)[:, 6:9]
-
-    def _normals(self, angles, unknowns):
-        return self.observe(angles, unknowns)[:, 3:6]
+    def _observed(self, name, angles):
+        """A named number of the observation at input angles: (M,)."""
+        outputs = self.drive.design.description["outputs"]
+        return self.observe(angles)[:, next(o["offset"] for o in outputs if o["name"] == name)]
 
     @cached_property
     def error_index(self):

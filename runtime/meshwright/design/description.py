@@ -1,52 +1,110 @@
-"""The generated descriptions of the drives: what keys a family has, what each number means."""
+"""The generated descriptions of the drives: what keys a family has, what each number means.
+
+A family is known from the tables that the compiler writes and from the descriptions in folders of drives; the
+description of a drive that is in none of them is made when it is first asked for (:mod:`meshwright.base.drives`).
+"""
 
 import json
+from dataclasses import dataclass
 from functools import cache
 
-from meshwright.base.library import SHIPPED
+from meshwright.base.drives import SHIPPED, folder_of, folders
+from meshwright.base.errors import LibraryError
 
 
-@cache
-def drives():
-    """Every drive's description by name."""
-    paths = sorted(SHIPPED.glob("*.json"))
-    described = (json.loads(path.read_text(encoding="utf-8")) for path in paths)
-    return {d["name"]: d for d in described if d.get("schema") == "meshwright.drive/1"}
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A family of drives: its keys, those of all its drives together, and what words choose which drive.
 
-
-def families():
-    """The descriptions of each family's drives: family name → list."""
-    grouped = {}
-    for description in drives().values():
-        grouped.setdefault(description["family"], []).append(description)
-    return grouped
-
-
-@cache
-def parameters(family):
-    """The parameters of a family's drives, each once; ``required`` where every one of its drives requires it.
-
-    ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. A drive's own list is
-    that of its parameter vector: it has the keys of its tools alone.
+    ``parameters`` are described as in a drive's own description, each once; ``required`` where every drive requires it,
+    ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
+    key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows.
+    ``handed``: it has a left hand.
     """
-    listed, drives_of = {}, families()[family]
-    for p in (p for description in drives_of for p in description["parameters"]):
-        listed.setdefault((p["table"], p["key"]), []).append(p)
-    return [_joint(place, found, len(found) == len(drives_of)) for place, found in listed.items()]
+
+    name: str
+    parameters: list
+    variants: dict
+    variant_defaults: dict
+    handed: bool
+
+    @classmethod
+    def of(cls, name, drives):
+        """The family of these drives (parts of descriptions)."""
+        named = {drive["name"]: drive for drive in reversed(drives)}  # of drives of one name the first counts
+        listed, variants, defaults = {}, {}, {}
+        for drive in dict.fromkeys(drive["name"] for drive in drives):
+            variants[drive] = named[drive]["variant"]
+            defaults |= named[drive]["variant_defaults"]
+            for parameter in named[drive]["parameters"]:
+                listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
+        parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
+        return cls(name, parameters, variants, defaults, any(drive["handed"] for drive in named.values()))
 
 
-def _joint(place, found, everywhere):
+def _joint(family, place, found, everywhere):
     """One entry for what the drives of a family say of a key."""
     shared = [{k: v for k, v in p.items() if k not in ("tools", "required")} for p in found]
     if any(p != shared[0] for p in shared):
-        raise ValueError(f"the drives of a family disagree about the key {'.'.join(place)}")
+        raise LibraryError(
+            f"the drives of the family {family} disagree about the key {'.'.join(place)}: derive them again, or give "
+            "one of them another family"
+        )
     tools = sorted({word for p in found for word in p["tools"]})
     return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
 
 
+def families():
+    """Every family by name."""
+    return _families(folders())
+
+
+@cache
+def _families(places):
+    grouped = {}
+    for place in places:
+        for drive in _drives_in(place):
+            grouped.setdefault(drive["family"], []).append(drive)
+    return {name: Family.of(name, drives) for name, drives in grouped.items()}
+
+
+def _drives_in(folder):
+    """What is known of each drive of a folder: of all that the table of families names, where there is one."""
+    table = folder / "families.json"
+    if table.exists():
+        for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
+            for drive in family["drives"]:
+                yield drive | {"parameters": [family["parameters"][k] for k in drive["parameters"]]}
+    elif folder == SHIPPED:
+        raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
+    else:
+        described = (json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json")))
+        yield from (d for d in described if d.get("schema") == "meshwright.drive/1")
+
+
+def described(name):
+    """The description of a drive."""
+    return _described(name, folders())
+
+
+@cache
+def _described(name, places):
+    return json.loads((folder_of(name) / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def parameters(family):
+    """The parameters of a family: see :class:`Family`."""
+    return families()[family].parameters
+
+
+def drives():
+    """The names of all drives."""
+    return [name for family in families().values() for name in family.variants]
+
+
 def choose(family, words):
     """The drive of a family for the design words that choose a variant (for example the flank forms)."""
-    for description in families()[family]:
-        if all(words[key] in allowed for key, allowed in description["variant"].items()):
-            return description
+    for name, variant in families()[family].variants.items():
+        if all(words[key] in allowed for key, allowed in variant.items()):
+            return described(name)
     raise KeyError(words)

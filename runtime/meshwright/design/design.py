@@ -145,6 +145,12 @@ class Design:
             if p["table"] == "flank"
         )
 
+    @property
+    def other_flank(self):
+        """The word of the opposite flank."""
+        words = next(p["choices"] for p in self.description["parameters"] if p["table"] == "flank")
+        return next(word for word in words if word != self.tables["flank"])
+
     def value(self, key, table="design"):
         """A parameter in inner units by its design key; NaN if the design leaves it open or its tools do not use it."""
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
@@ -276,9 +282,8 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    descriptions = metadata.families()[family]
     words = checked["design"]
-    for key, source in descriptions[0]["variant_defaults"].items():
+    for key, source in metadata.families()[family].variant_defaults.items():
         if words[key] is None:
             words[key] = words[source]
     return metadata.choose(family, words)
@@ -396,9 +401,16 @@ def _sizes(c, parameters):
 
 
 def _guard_error(guard, checked):
-    given = {key: checked["design"].get(key) for key in guard["keys"]}
+    places = {key: _place(key, checked) for key in guard["keys"]}
+    given = {key: checked[table].get(key) for key, table in places.items()}
     shown = {key: value for key, value in given.items() if value is not None}
     first = next(iter(shown or given))
     others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(f"design.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+    return DesignError(f"{places[first]}.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+
+
+def _place(key, checked):
+    """The table of a key: the design's if that has it."""
+    tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
+    return next((name for name in tables if key in checked[name]), "design")

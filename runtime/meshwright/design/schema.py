@@ -13,7 +13,7 @@ HAND = Literal["right", "left"]
 
 #: Magnitudes beyond which a number of a design, in the unit of its key, is taken for a mistake: nothing that is made
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
-LARGEST = {"mm": 1e5, "um": 1e6, "deg": 360.0, "": 1e5}
+LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
 
 def _field(parameter):
@@ -55,42 +55,42 @@ def _material_fields():
     }
 
 
-def _variant_fields(descriptions):
+def _variant_fields(family):
     """Keys whose words choose the drive within the family."""
     words = {}
-    for description in descriptions:
-        for key, allowed in description["variant"].items():
+    for variant in family.variants.values():
+        for key, allowed in variant.items():
             words.setdefault(key, {}).update(dict.fromkeys(allowed))
-    defaults = descriptions[0]["variant_defaults"]
-    return {
-        key: (Literal[tuple(allowed)] | None, None) if key in defaults else (Literal[tuple(allowed)], ...)
-        for key, allowed in words.items()
-    }
+    kinds = {key: Literal[tuple(allowed)] for key, allowed in words.items()}
+    return {key: (kind | None, None) if key in family.variant_defaults else (kind, ...) for key, kind in kinds.items()}
+
+
+def design_model(family):
+    """The pydantic model of a family's design file."""
+    return _design_model(metadata.families()[family])
 
 
 @cache
-def design_model(family):
-    """The pydantic model of a family's design file."""
-    descriptions = metadata.families()[family]
+def _design_model(family):
     tables = {}
-    for parameter in metadata.parameters(family):
+    for parameter in family.parameters:
         if parameter["table"] != "flank":
             tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
-    tables["design"] |= _variant_fields(descriptions)
-    if descriptions[0]["handed"]:
+    tables["design"] |= _variant_fields(family)
+    if family.handed:
         tables["design"]["hand"] = (HAND, "right")
     tables["material"] = _material_fields()
     models = {
-        name: create_model(f"{family}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
+        name: create_model(f"{family.name}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
     }
-    flanks = next(p for p in metadata.parameters(family) if p["table"] == "flank")["choices"]
+    flanks = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     others = {
         name: (model, Field(default_factory=model)) for name, model in models.items() if name != "design"
     }
     return create_model(
-        family,
+        family.name,
         __config__=_STRICT,
-        drive=(Literal[family], ...),
+        drive=(Literal[family.name], ...),
         name=(Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$")], ""),
         flank=(Literal[tuple(flanks)], next(iter(flanks))),
         design=(models["design"], ...),

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
-from meshwright.contact.placement import placements
+from meshwright.contact.placement import placed
 from meshwright.cycle.contact_ratio import ContactRatio
 from meshwright.drive import Drive
 from meshwright.fe import cylindrical_worm, face_worm, spherical
@@ -23,7 +23,6 @@ from meshwright.fe.tooth import Teeth
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
 _RIM_MODULES = 4.5
-_PROBE_ANGLE = 1e-3
 _STEP_PITCHES = 0.25
 
 MemberName = Literal["pinion", "wheel"]
@@ -112,18 +111,14 @@ def _touch(drive: Drive, angle: float) -> Touch | None:
 
 
 def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) -> Member:
-    """Placement from two solved contacts: the body turns about its own z axis between them."""
-    angles = np.array([0.0, _PROBE_ANGLE])
-    found = drive.tca(angles)
-    turned = angles if name == "pinion" else found.wheel_angles
-    start, end = placements(drive, angles).matrices[name]
-    if not np.all(np.isfinite([start, end])):
+    """The member in its placement, turning about its own z axis."""
+    if not np.all(np.isfinite(drive.tca([0.0]).wheel_angles)):
         raise DesignError(
             "design", drive.design.tables["name"], "no contact at a pinion angle of 0", "check the design"
         )
-    step = start[:3, :3].T @ end[:3, :3]
-    turning = 1 if (step[1, 0] > 0.0) == (turned[1] > turned[0]) else -1
-    zero = start @ about_z(-turning * turned[0])
+    stand = placed(drive, [0.0], [0.0])
+    zero, direction = stand.matrices[name][0], stand.axes[name][0][0]
+    turning = 1 if direction @ zero[:3, 2] > 0.0 else -1
 
     def pose(angle: float) -> Floats:
         return zero @ about_z(turning * angle)

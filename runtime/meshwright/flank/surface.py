@@ -27,6 +27,19 @@ class FlankPoints:
     conditions: np.ndarray
 
 
+@dataclass(frozen=True)
+class FlankCurvature:
+    """Curvature of a flank along its outward normal at N points, 1/mm, negative where it is convex.
+
+    ``second_form`` (N, 2, 2) in the orthonormal ``basis`` (N, 2, 3) of the tangent plane, body frame; ``principal``
+    (N, 2) curvatures, the smaller first.
+    """
+
+    basis: np.ndarray
+    second_form: np.ndarray
+    principal: np.ndarray
+
+
 @dataclass(frozen=True, repr=False)
 class Flank:
     """The flank of one member of a drive; call it with parameters (…, k)."""
@@ -69,6 +82,21 @@ class Flank:
     def parameters(self):
         """Names of the surface parameters."""
         return tuple(self.body["parameters"])
+
+    def curvature(self, parameters):
+        """:class:`FlankCurvature` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
+        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        outputs = {o["name"]: slice(o["offset"], o["offset"] + o["size"]) for o in self.body["curvature"]}
+        rows = np.empty((len(q), max(at.stop for at in outputs.values())))
+        library().mw_flank(
+            self.pointer.curvature, q.shape[1], rows.shape[1], pointer(self.state), pointer(q), len(q), pointer(rows)
+        )
+        form = rows[:, outputs["second_form"]]
+        return FlankCurvature(
+            basis=rows[:, outputs["tangent_basis"]].reshape(-1, 2, 3),
+            second_form=form[:, [0, 1, 1, 2]].reshape(-1, 2, 2),
+            principal=rows[:, outputs["curvature"]],
+        )
 
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""

@@ -1,39 +1,43 @@
 """Limits of a drive: undercut, edges of regression, limit points of contact, meshing axes, branches.
 
-A family adds its limits as a module with ``limits(drive, request) -> Limits``, listed in :data:`FAMILIES`; the
-generated flank functions (with their singular function and margins) and the drive's own generated functions are
-all it needs. Families whose tooth pairs may touch at several points at once add a search to :data:`SEARCHES`.
+Every analysis here rests on functions that a drive offers by name (``derive.language.functions``), and applies to every
+drive that offers them.
 """
 
-from meshwright.base.errors import UsageError
-from meshwright.limits import contacts, cylindrical_worm, face_worm, spherical
+from dataclasses import replace
+
+from meshwright.contact import functions
+from meshwright.limits import clearance, contacts, rack
+from meshwright.limits.branches import branch_points
+from meshwright.limits.least_teeth import least_teeth
 from meshwright.limits.results import Limits, Request
+from meshwright.limits.thickness import tip_thicknesses
+from meshwright.limits.undercut import undercut_lines
 
-FAMILIES = {
-    "cylindrical-worm": cylindrical_worm.limits,
-    "face-worm": face_worm.limits,
-    "spherical": spherical.limits,
-}
-SEARCHES = {"cylindrical-worm": contacts.contacts}
-
-__all__ = ["FAMILIES", "Limits", "Request", "contacts_of", "limits_of"]
+__all__ = ["Limits", "Request", "contacts_of", "limits_of"]
 
 
 def limits_of(drive, request=None):
-    """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad."""
-    request, family = request or Request(), drive.design.family
-    if family != "cylindrical-worm" and (request.section_y is not None or request.radii):
-        raise UsageError(f"drive = {family!r}: sections and radii are those of a cylindrical worm; leave them out")
-    return _of_family(drive, FAMILIES, "limits")(drive, request)
+    """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad.
+
+    Raises :class:`~meshwright.base.errors.UsageError` for sections or radii of a drive that has none.
+    """
+    request = request or Request()
+    generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
+    searched = drive.design.description["least_teeth"]
+    found = Limits(
+        undercut=undercut_lines(drive, request),
+        branch_points=branch_points(drive),
+        tip_thickness=tip_thicknesses(drive),
+        least_teeth={member: least_teeth(drive, member) for member in searched} or None,
+        tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
+        **generated,
+    )
+    mirror = drive.design.mirror
+    names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
+    return replace(found, **{name: tuple(entry.seen_in(mirror) for entry in getattr(found, name)) for name in names})
 
 
 def contacts_of(drive, angle):
     """Every contact of a pair at a pinion angle, rad: a :class:`~meshwright.contact.results.TCA`, one row each."""
-    return _of_family(drive, SEARCHES, "a search for all contacts")(drive, angle)
-
-
-def _of_family(drive, table, what):
-    family = drive.design.family
-    if family not in table:
-        raise UsageError(f"drive = {family!r}: {what} not available; families that have it: {', '.join(table)}")
-    return table[family]
+    return contacts.contacts(drive, angle)

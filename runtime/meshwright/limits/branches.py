@@ -3,15 +3,11 @@
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
-from meshwright.contact.branch import STEP, follow, turning_point
+from meshwright.contact.branch import STEP, crossing_point, follow, turning_point
 from meshwright.limits.results import BranchPoint
-from meshwright.limits.zeros import zeros
 
 #: A branch is followed this many pitches from where it starts.
 PITCHES = 2.5
-
-#: Fine steps into which a step is divided to locate a branch point on it.
-FINENESS = 8
 
 
 def branch_points(drive):
@@ -23,7 +19,7 @@ def branch_points(drive):
     found = []
     for step in (STEP, -STEP):
         branch = _regular_part(drive, follow(drive, angle, unknowns, step), angle)
-        found += [_located(drive, branch, k, step) for k in np.union1d(branch.turns, branch.crossings)]
+        found += [_located(drive, branch, k) for k in np.union1d(branch.turns, branch.crossings)]
     return tuple(sorted((point for point in found if point), key=lambda point: point.angle))
 
 
@@ -45,7 +41,7 @@ def _observed(drive, angle, x):
 
 
 def _regular_part(drive, branch, angle):
-    """The branch up to where it leaves the wheel's or the worm's regular sheet or the angles of interest."""
+    """The branch up to where it leaves the regular sheet of either member or the angles of interest."""
     bodies = drive.design.description["bodies"]
     sheets = [b["regular"] for b in bodies]
     sheets += [b["margin"] + i for b in bodies for i, m in enumerate(b["margins"]) if m["flag"] == "spurious_sheet"]
@@ -56,50 +52,14 @@ def _regular_part(drive, branch, angle):
     return branch
 
 
-def _located(drive, branch, k, step):
+def _located(drive, branch, k):
     """The branch point on step k; None if it cannot be located."""
     if k not in branch.crossings:
-        kind, place = "fold", turning_point(drive, branch, k, step)
+        kind, place = "fold", turning_point(drive, branch, k)
     else:
-        kind, place = "pitchfork" if k in branch.turns else "crossing", _crossing(drive, branch, k, step)
+        kind, place = "pitchfork" if k in branch.turns else "crossing", crossing_point(drive, branch, k)
     if place is None:
         return None
     angle, x = place
     o, _ = _observed(drive, float(angle), x)
     return BranchPoint(float(angle), kind, o[0:3].copy())
-
-
-def _crossing(drive, branch, k, step):
-    """(input angle, unknowns) of a crossing, by interpolation of fine steps on both sides of it.
-
-    The equations for a point are singular there, beside it they are not: so no point is solved there.
-    """
-    sense = np.sign(branch.slopes[k])
-    fine = follow(drive, branch.angles[k], branch.unknowns[k], sense * abs(step) / FINENESS, 2 * FINENESS)
-    if not len(fine.crossings):
-        return None
-    first = fine.crossings[0]
-    near = slice(max(first - 2, 0), first + 4)
-    curve = np.column_stack([fine.unknowns, fine.angles])[near]
-    along = (curve - curve[0]) @ _direction(curve, drive)
-    at = _interpolated(along, curve, _interpolated_zero(along, fine.determinants[near]))
-    return at[-1], at[:-1]
-
-
-def _direction(curve, drive):
-    """Unit chord of a stretch of branch, in natural sizes; distance along it is the parameter of interpolation."""
-    scale = np.ones(curve.shape[1])
-    drive.model.scale(pointer(drive.state()), pointer(scale))
-    chord = (curve[-1] - curve[0]) / scale
-    return chord / np.linalg.norm(chord) / scale
-
-
-def _interpolated(places, values, at):
-    """Values of the polynomials through ``values`` (N, …) at ``places`` (N,), at one place."""
-    weights = [np.prod([(at - q) / (p - q) for q in places if q != p]) for p in places]
-    return np.tensordot(weights, values, axes=1)
-
-
-def _interpolated_zero(places, values):
-    """Place where the polynomial through values of changing sign is zero."""
-    return zeros(lambda at: np.array([_interpolated(places, values, p) for p in at]), places)[0]

@@ -1,10 +1,12 @@
-"""All contacts of one tooth pair of a cylindrical worm drive at one angle, sought over the whole sheet of the wheel."""
+"""All contacts of one tooth pair at one angle, sought over the whole sheet of a wheel that a helicoid generates."""
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer
-from meshwright.contact import analysis
+from meshwright.contact import analysis, functions
 from meshwright.limits.profile import Profile
+from meshwright.limits.rack import sizes
 
 #: Lines Ψ = constant on which contacts are sought, and profile points on each.
 LINES, POINTS = 41, 120
@@ -25,8 +27,10 @@ def contacts(drive, angle):
     Solutions on the spurious sheet, where the wheel's flank does not lie, are rejected; points that bodies cannot
     make keep their flags. Rows are in ascending order of the rack angle Ψ.
     """
+    if not functions.has(drive, "generation"):
+        raise UsageError("all contacts: no member of this drive is generated as rack and pinion; leave it out")
     angle = drive.design.mirror.sign * angle
-    lines, found = np.linspace(*Profile(drive, "hob").sheet(), LINES), []
+    lines, found = np.linspace(*Profile(drive, "tool").sheet(), LINES), []
     for _ in range(2):
         found = _distinct(drive, [*found, *_solutions(drive, angle, lines)])
         places = np.array([_on_wheel(drive, x)[1] for x in found])
@@ -46,30 +50,31 @@ def _solutions(drive, angle, lines):
 
 
 def _seeds(drive, angle, lines):
-    """Starts (nx,): points of the hob's flank at the right cutting angle, and the worm's flank at the same depth.
+    """Starts (nx,): points of the tool's flank at the right cutting angle, and the pinion's flank at the same depth.
 
-    The hob replaces the worm but for its size: equal depth below the reference cylinder, equal polar angle.
+    The tool replaces the pinion but for its size: equal depth below the reference cylinder, equal polar angle.
     """
-    value = drive.design.value
-    hob, worm = Profile(drive, "hob"), Profile(drive, "worm")
-    oversize = value("hob_pitch_radius_mm") - value("worm_pitch_radius_mm")
-    cutting_angle = angle * value("worm_threads") / value("hob_threads")
-    t_hob = hob.samples(value("hob_pitch_radius_mm") + DEPTH * value("normal_module_mm"), POINTS)
-    t_worm = worm.samples(value("worm_pitch_radius_mm") + DEPTH * value("normal_module_mm"), POINTS)
-    worm_radius, worm_point = worm.radius(t_worm), worm(t_worm)["point"]
-    worm_angle = np.unwrap(np.arctan2(worm_point[:, 1], worm_point[:, 0]))
+    have = sizes(drive)
+    tool, pinion = Profile(drive, "tool"), Profile(drive, "pinion")
+    cutting_angle = angle * have["turns"]
+    t_tool = tool.samples(have["reference_radius_tool"] + DEPTH * have["module"], POINTS)
+    t_pinion = pinion.samples(have["reference_radius_pinion"] + DEPTH * have["module"], POINTS)
+    pinion_radius, pinion_point = pinion.radius(t_pinion), pinion(t_pinion)["point"]
+    pinion_angle = np.unwrap(np.arctan2(pinion_point[:, 1], pinion_point[:, 0]))
     generation = drive.function("generation")
+    _, turn_of_tool = generation.recovered
     for psi in lines:
-        at = generation(t_hob, psi)
-        ahead = at["phi_hob"] - cutting_angle
+        at = generation(t_tool, psi)
+        ahead = at[turn_of_tool] - cutting_angle
         with np.errstate(invalid="ignore"):
             crossings = np.flatnonzero(ahead[:-1] * ahead[1:] <= 0.0)
         for k in crossings:
             share = ahead[k] / (ahead[k] - ahead[k + 1])
             x, y, _ = at["point"][k] + share * (at["point"][k + 1] - at["point"][k])
-            depth = np.hypot(x, y) - oversize
-            turn = np.arctan2(y, x) - angle - np.interp(depth, worm_radius, worm_angle)
-            yield np.interp(depth, worm_radius, t_worm), turn, t_hob[k] + share * (t_hob[k + 1] - t_hob[k]), psi, 0.0
+            depth = np.hypot(x, y) - have["oversize"]
+            turn = np.arctan2(y, x) - angle - np.interp(depth, pinion_radius, pinion_angle)
+            along = t_tool[k] + share * (t_tool[k + 1] - t_tool[k])
+            yield np.interp(depth, pinion_radius, t_pinion), turn, along, psi, 0.0
 
 
 def _refined(drive, angle, seed):

@@ -1,4 +1,4 @@
-"""The profile of a worm or hob over its whole regular length, from the generated profile functions."""
+"""The profile of a helicoid over its whole regular length, from the generated profile functions."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,21 +16,31 @@ SHEET_SHARE = 0.98
 
 @dataclass(frozen=True)
 class Profile:
-    """Profile parameters of the ``"worm"`` or ``"hob"`` of a drive, on the branch of the pitch point.
+    """Profile parameters of the ``"pinion"`` of a drive or of its ``"tool"``, on the branch of the pitch point.
 
     The radius grows from :attr:`lower` to :attr:`upper`.
     """
 
     drive: object
-    name: str
+    role: str
 
     @cached_property
     def _function(self):
-        return self.drive.function(f"profile_{self.name}")
+        return self.drive.function(f"profile_{self.role}")
+
+    @property
+    def name(self):
+        """What the drive calls the body."""
+        return self._function.frames["point"]
+
+    @property
+    def parameter(self):
+        """Name of the profile parameter."""
+        return self._function.arguments[0]
 
     @cached_property
     def _range(self):
-        return {key: float(v) for key, v in self.drive.function(f"profile_range_{self.name}")().items()}
+        return {key: float(v) for key, v in self.drive.function(f"profile_range_{self.role}")().items()}
 
     @property
     def pitch_point(self):

@@ -4,12 +4,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from meshwright.limits.head_cutter import Judgement
+from meshwright.limits.clearance import Judgement
 
 
 @dataclass(frozen=True)
 class Request:
-    """What to compute beside the default: a section y = C, radii on the worm, axial positions, fineness of grids."""
+    """What to compute beside the default: a section y = C, radii on the pinion, axial positions, fineness of grids."""
 
     section_y: float | None = None
     radii: tuple[float, ...] = ()
@@ -47,8 +47,8 @@ class SurfaceLimit:
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """A contact in generation: ``point`` and ``normal`` (out of the worm) (3,) fixed frame, ``wheel_point`` (3,)
-    wheel frame, ``angle`` of the worm or hob."""
+    """A contact in generation: ``point`` and ``normal`` (out of the pinion) (3,) fixed frame, ``wheel_point`` (3,)
+    wheel frame, ``angle`` of the tool; ``body``: what the drive calls the pinion."""
 
     point: np.ndarray
     normal: np.ndarray
@@ -56,11 +56,12 @@ class ContactPoint:
     angle: float
     parameters: dict[str, float]
     wheel_radius: float
+    body: str
     flags: tuple[str, ...] = ()
 
     @property
     def radius(self):
-        """Distance from the worm axis."""
+        """Distance from the tool's axis."""
         return float(np.hypot(self.point[0], self.point[1]))
 
     def seen_in(self, mirror):
@@ -90,7 +91,7 @@ class ContactPoint:
         """Plain data as a point of a section profile."""
         return {
             "radius_mm": self.radius,
-            "worm_point_mm": self.point.tolist(),
+            f"{self.body}_point_mm": self.point.tolist(),
             "normal": self.normal.tolist(),
             "pinion_angle_deg": float(np.degrees(self.angle)),
             "wheel_point_mm": self.wheel_point.tolist(),
@@ -107,7 +108,7 @@ class Axis:
 
     @property
     def inclination(self):
-        """Angle to the worm axis, 0 to 90°, rad."""
+        """Angle to the tool's axis, 0 to 90°, rad."""
         return float(np.arctan2(np.hypot(self.direction[0], self.direction[1]), abs(self.direction[2])))
 
     def seen_in(self, mirror):
@@ -165,7 +166,8 @@ class Thickness:
 class Limits:
     """Everything that bounds a drive; see the classes above. Only helicoids may have meshing ``axes``.
 
-    ``head_cutter`` is the :class:`~meshwright.limits.head_cutter.Judgement` of a drive whose gear a head-cutter copies.
+    ``tool_clearance`` is the :class:`~meshwright.limits.clearance.Judgement` of a drive whose tool must clear its
+    teeth; in plain data it goes by the tool's name.
     """
 
     undercut: tuple[SurfaceLimit, ...] = ()
@@ -178,10 +180,11 @@ class Limits:
     branch_points: tuple[BranchPoint, ...] = ()
     tip_thickness: tuple[Thickness, ...] = ()
     least_teeth: dict[str, int] | None = None
-    head_cutter: Judgement | None = None
+    tool_clearance: Judgement | None = None
 
     def plain(self):
         """The lists of the ``meshwright.limits/1`` schema."""
+        judged = {self.tool_clearance.name: self.tool_clearance.plain()} if self.tool_clearance else {}
         return {
             "undercut": [u.plain() for u in self.undercut],
             "regression": [r.plain() for r in self.regression],
@@ -193,5 +196,4 @@ class Limits:
             "branch_points": [b.plain() for b in self.branch_points],
             "tip_thickness": [t.plain() for t in self.tip_thickness],
             "least_teeth_without_undercut": self.least_teeth,
-            "head_cutter": self.head_cutter and self.head_cutter.plain(),
-        }
+        } | judged

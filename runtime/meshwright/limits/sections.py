@@ -1,25 +1,23 @@
-"""Plane sections of a right-angle worm drive: the profiles of its rack and its pinion in the plane y = C."""
+"""Plane sections of a drive whose wheel is generated as rack and pinion: the profiles of both in the plane y = C."""
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.grids import Grid
-from meshwright.limits.cylindrical_worm import need_right_angle, section_radii
 from meshwright.limits.profile import Profile
+from meshwright.limits.rack import need_right_angle, section_radii
 
 
 def section(drive, member, offset, count):
     """:class:`~meshwright.flank.grids.Grid` of count × 1 points of a member's flank in the plane y = ``offset``, mm.
 
-    The worm is cut at angle 0, where its frame is the fixed frame; the wheel's profile is the one that the hob's
+    The pinion is cut at angle 0, where its frame is the fixed frame; the wheel's profile is the one that the tool's
     section generates, in the wheel's plane z = ``offset`` (−``offset`` on a left-hand drive: every frame is mirrored).
-    In order of growing radius on the worm or hob.
+    In order of growing radius on the pinion or tool.
     """
-    if drive.design.family != "cylindrical-worm":
-        raise UsageError(f"--section: a {drive.design.family} drive has no sections that mesh as planar pairs")
     need_right_angle(drive)
     mirror = drive.design.mirror.sign
-    profile = Profile(drive, "worm" if member == "pinion" else "hob")
+    profile = Profile(drive, "pinion" if member == "pinion" else "tool")
     t = np.array([profile.at_radius(r) for r in section_radii(drive, profile, count)], dtype=float)
     point = profile(t)["point"]
     with np.errstate(invalid="ignore"):

@@ -2,43 +2,47 @@
 
 import numpy as np
 
+from meshwright.contact import functions
 from meshwright.limits.profile import Profile
+from meshwright.limits.rack import sizes
 from meshwright.limits.results import Thickness
 from meshwright.limits.zeros import zeros
 
 
 def tip_thicknesses(drive):
-    """Thickness of worm and wheel at the tips that the design gives; nothing for a tip that it leaves open."""
-    return (*_worm(drive), *_wheel(drive))
+    """Thickness of pinion and wheel at the tips that the design gives; nothing for a tip that it leaves open.
+
+    Of drives whose wheel is generated as rack and pinion.
+    """
+    if not functions.has(drive, "generation"):
+        return ()
+    have = sizes(drive)
+    return (*_pinion(drive, have), *_wheel(drive, have))
 
 
-def _worm(drive):
+def _pinion(drive, have):
     """Axial thickness of the thread: axial distance of the threads less the groove, f(ρ) on either side of it."""
-    tip = drive.design.value("worm_tip_radius_mm", "blank")
+    tip = have["tip_radius_pinion"]
     if not np.isfinite(tip):
         return
-    profile = Profile(drive, "worm")
-    lead = drive.design.sizes["lead_worm_mm"]
-    threads = drive.design.value("worm_threads")
+    profile = Profile(drive, "pinion")
 
     def thickness(t):
-        return lead / threads - 2 * drive.design.flank * profile(t)["axial"]
+        return have["axial_pitch_pinion"] - 2 * drive.design.flank * profile(t)["axial"]
 
     if (at_tip := profile.at_radius(tip)) is None:
         return
-    pointed = zeros(thickness, profile.samples(2 * drive.design.value("worm_pitch_radius_mm")))
+    pointed = zeros(thickness, profile.samples(2 * have["reference_radius_pinion"]))
     radius = float(profile.radius(pointed[0])) if pointed else None
     yield Thickness("pinion", tip, float(thickness(at_tip)), radius)
 
 
-def _wheel(drive):
+def _wheel(drive, have):
     """Thickness of the wheel tooth in its middle plane z = 0, along the arc, between its two flanks."""
-    blank = [drive.design.value(f"wheel_{end}_radius_mm", "blank") for end in ("tip", "throat")]
-    tips = [value for value in blank if np.isfinite(value)]
+    tips = [have[name] for name in ("tip_radius_wheel", "throat_radius_wheel") if np.isfinite(have[name])]
     if not tips:
         return
-    other = drive.with_(flank="left" if drive.design.flank > 0 else "right")
-    sides = [_middle_section(side) for side in (drive, other)]
+    sides = [_middle_section(side) for side in (drive, drive.with_(flank=drive.design.other_flank))]
     if any(side is None for side in sides):
         return
     tip = min(tips)
@@ -56,9 +60,9 @@ def _wheel(drive):
 
 def _middle_section(drive):
     """Radius and polar angle (N,), from the tooth's middle, of the wheel's flank in its plane z = 0; None if empty."""
-    flank, profile = drive.flank("wheel"), Profile(drive, "hob")
+    flank, profile = drive.flank("wheel"), Profile(drive, "tool")
     found = []
-    for t in profile.samples(1.5 * drive.design.value("hob_pitch_radius_mm"), 80):
+    for t in profile.samples(1.5 * sizes(drive)["reference_radius_tool"], 80):
         psi = 0.0
         for _ in range(8):
             at = flank([[t, psi]])

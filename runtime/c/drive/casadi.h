@@ -1,4 +1,4 @@
-/* Entries for casadi.external(name, library), with derivatives.  SPDX-License-Identifier: MIT-0
+/* Entries of the drive MW_DRIVE for casadi.external(name, object), with derivatives.  SPDX-License-Identifier: MIT-0
  *
  * <drive>_complete: given -> p, the parameters of a design (NaN: open) completed by rules and design systems.
  * <drive>_contact: (p, phi, start) -> x, the contact near start at complete parameters p.
@@ -83,10 +83,9 @@ static const char *const contact_slopes[] = { "jac_x_p", "jac_x_phi", "jac_x_sta
     enum { name##_ins = sizeof name##_in / sizeof name##_in[0], name##_outs = sizeof name##_out / sizeof name##_out[0] }; \
     int name(const double **arg, double **res, casadi_int *iw, double *w, int mem) \
     { \
-        const mw_model *m = mw_find(#drive); \
         (void)iw; \
         (void)mem; \
-        return m ? call(m, arg, res, w) : 1; \
+        return call(&drive##_model, arg, res, w); \
     } \
     casadi_int name##_n_in(void) { return name##_ins; } \
     casadi_int name##_n_out(void) { return name##_outs; } \
@@ -121,4 +120,6 @@ static const char *const contact_slopes[] = { "jac_x_p", "jac_x_phi", "jac_x_sta
     MW_ENTRY(drive##_contact, drive, contact, contact_in, contact_out, ns) \
     MW_ENTRY(jac_##drive##_contact, drive, contact_jacobian, contact_in, contact_slopes, ns)
 
-#include "casadi_models.h"
+#define MW_CASADI_OF(drive) MW_CASADI(drive, drive##_NP, drive##_NS, drive##_NX)
+#define MW_CASADI_HERE(drive) MW_CASADI_OF(drive)
+MW_CASADI_HERE(MW_DRIVE)

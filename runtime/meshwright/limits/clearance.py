@@ -1,8 +1,8 @@
-"""Interference of a head-cutter with the teeth beside the space that it cuts, and the tilt that avoids it.
+"""Interference of a tool of revolution with the teeth beside the space that it cuts, and the tilt that avoids it.
 
-The blades turn about the tool axis and pass over the gear twice: through the space being cut and, across the tool,
-over finished teeth. There the blades must stay above the tips. Source: 001_d957fec2e26e51c5.txt, sections 2 and 3,
-Fig. 9, where this is judged by eye. The back of the blade, whose width the source does not give, is left out.
+The blades turn about the tool axis and pass over the wheel twice: through the space being cut and, across the tool,
+over finished teeth. There the blades must stay above the tips. The back of the blade is left out. Applies to drives
+that say which tool must clear (``derive.language.functions.ToolClearance``).
 """
 
 import math
@@ -11,8 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
-
-TILT_KEY = "head_cutter_tilt_change_deg"
 
 #: Samples around the tool, along the profile, and around the tool again on each closer look at the worst place.
 AROUND, ALONG, CLOSER, LOOKS = 720, 16, 41, 3
@@ -25,7 +23,7 @@ STEP, FARTHEST, RESOLUTION = 1.0, 60.0, 1e-4
 class Clearance:
     """Smallest height of the blades above the tooth tips across the tool, mm; negative where they cut into teeth.
 
-    ``point`` (3,) is the point of the blades, gear frame, at the tool's rotation ``angle`` (rad). If the blades do not
+    ``point`` (3,) is the point of the blades, wheel frame, at the tool's rotation ``angle`` (rad). If the blades do not
     pass over the face there, the height is infinite.
     """
 
@@ -47,8 +45,9 @@ class LeastTilt:
 
 @dataclass(frozen=True)
 class Judgement:
-    """Whether a head-cutter at ``tilt`` (rad) clears the teeth across the tool, and the least tilt that does."""
+    """Whether the tool ``name`` at ``tilt`` (rad) clears the teeth across it, and the least tilt that does."""
 
+    name: str
     tilt: float
     clearance: Clearance
     least: LeastTilt
@@ -72,15 +71,25 @@ def _number(value):
 
 
 def judged(drive):
-    """The :class:`Judgement` of the head-cutter of a face worm drive."""
-    tilt = math.radians(drive.design.sizes["head_cutter_tilt_deg"])
-    return Judgement(tilt, clearance(drive), least_tilt(drive))
+    """The :class:`Judgement` of the drive's tool."""
+    return Judgement(_tool(drive)["name"], _tilt(drive), clearance(drive), least_tilt(drive))
+
+
+def _tool(drive):
+    tool = drive.design.description["tool_clearance"]
+    if tool is None:
+        raise UsageError(f"a {drive.design.family} drive has no tool that passes over finished teeth")
+    return tool
+
+
+def _tilt(drive):
+    """Tilt of the tool's axis, rad."""
+    return math.radians(drive.design.sizes[_tool(drive)["tilt_size"]])
 
 
 def clearance(drive):
-    """:class:`Clearance` of the head-cutter of a face worm drive."""
-    if drive.design.family != "face-worm":
-        raise UsageError(f"a {drive.design.family} drive has no head-cutter")
+    """:class:`Clearance` of the drive's tool."""
+    _tool(drive)
     angles = np.linspace(-math.pi, math.pi, AROUND, endpoint=False)
     for _ in range(LOOKS):
         points, heights = _across(drive, angles)
@@ -94,15 +103,14 @@ def clearance(drive):
 
 def least_tilt(drive):
     """:class:`LeastTilt`: from the placement towards less tilt while the blades clear, else towards more."""
-    start = math.degrees(drive.design.value(TILT_KEY))
+    start = math.degrees(drive.design.value(_tool(drive)["tilt_key"]))
     clear = clearance(drive).height > 0
     sign = -1.0 if clear else 1.0
     for k in range(int(FARTHEST / STEP)):
         near, far = start + sign * k * STEP, start + sign * (k + 1) * STEP
         if (clearance(_tilted(drive, far)).height > 0) != clear:
             found = _bisected(drive, near, far, clear)
-            tilt = _tilted(drive, found).design.sizes["head_cutter_tilt_deg"]
-            return LeastTilt(math.radians(tilt), math.radians(found))
+            return LeastTilt(_tilt(_tilted(drive, found)), math.radians(found))
     return LeastTilt(math.nan, math.nan)
 
 
@@ -118,35 +126,33 @@ def _bisected(drive, near, far, clear):
 
 
 def _tilted(drive, change):
-    return drive.with_(design={TILT_KEY: change})
+    return drive.with_(design={_tool(drive)["tilt_key"]: change})
 
 
 def _across(drive, angles):
     """Points (ALONG, N, 3) of the blades at angles (N,) around the tool, and their heights above the tips (ALONG, N).
 
     Infinite where a blade is not over the face, or is in the space being cut: the half of its way round on which its
-    distance from the gear axis changes in the same sense as at the pitch point.
+    distance from the wheel axis changes in the same sense as at the pitch point.
     """
-    sizes = drive.design.sizes
-    rounding = np.linspace(0.0, math.radians(sizes["fillet_angle_deg"]), ALONG // 2, endpoint=False)
-    edge = np.linspace(sizes["flank_root_mm"], tip_place(drive), ALONG - ALONG // 2)
+    sizes = _sizes(drive)
+    rounding = np.linspace(0.0, sizes["fillet_end"], ALONG // 2, endpoint=False)
+    edge = np.linspace(sizes["edge_root"], sizes["edge_tip"], ALONG - ALONG // 2)
     parts = [_swept(drive, "fillet", rounding, angles), _swept(drive, "flank", edge, angles)]
     points, own = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     radius = np.hypot(points[..., 0], points[..., 1])
-    inner, outer = (drive.design.value(f"gear_{end}_radius_mm") for end in ("inner", "outer"))
-    over_teeth = ~own & (radius > inner) & (radius < outer)
+    over_teeth = ~own & (radius > sizes["inner"]) & (radius < sizes["outer"])
     return points, np.where(over_teeth, points[..., 2] - np.interp(radius, *_tips(drive)), np.inf)
 
 
-def tip_place(drive):
-    """u of the gear's flank at the tip."""
-    return drive.design.value("gear_addendum_mm", "blank") / math.cos(drive.design.value("blade_angle_deg"))
+def _sizes(drive):
+    return {name: float(value) for name, value in drive.function("tool_clearance")().items()}
 
 
 def _tips(drive):
     """Radii, ascending, and heights of the tooth tips: the tip line of the tooth that is being cut."""
     angles = np.linspace(-math.pi, math.pi, AROUND, endpoint=False)
-    points, own = _swept(drive, "flank", [tip_place(drive)], angles)
+    points, own = _swept(drive, "flank", [_sizes(drive)["edge_tip"]], angles)
     points = points[own]
     radius = np.hypot(points[:, 0], points[:, 1])
     order = np.argsort(radius)
@@ -154,7 +160,7 @@ def _tips(drive):
 
 
 def _swept(drive, region, profile, angles):
-    """Points (M, N, 3) of a region of the gear continued right round the tool, and which are in its own half."""
+    """Points (M, N, 3) of a region of the wheel continued right round the tool, and which are in its own half."""
     grid = np.stack(np.meshgrid(profile, angles, indexing="ij"), axis=-1)
     found = drive.flank("wheel", region)(grid.reshape(-1, 2))
     at_pitch_point = drive.flank("wheel")([[0.0, 0.0]])
@@ -163,5 +169,5 @@ def _swept(drive, region, profile, angles):
 
 
 def _growth(found):
-    """Half the growth of the squared distance from the gear axis with the tool's rotation."""
+    """Half the growth of the squared distance from the wheel axis with the tool's rotation."""
     return np.sum(found.points[:, :2] * found.tangents[:, 1, :2], axis=1)

@@ -1,0 +1,16 @@
+"""Derivatives along a direction: the tangent of every value on a tape, by the chain rule."""
+
+
+class Derivatives:
+    """Tangent nodes on a tape: those of the ``seeds`` (input node → node) are given, all others follow."""
+
+    def __init__(self, tape, seeds):
+        self.tape, self._done = tape, dict(seeds)
+
+    def __call__(self, i):
+        for k in [*self.tape.needed([i], self._done), i]:
+            if k not in self._done:
+                args = self.tape.nodes[k].args
+                known = {a: self._done.get(a, self.tape.constant(0)) for a in args}
+                self._done[k] = self.tape.rule(k, known) if args else self.tape.constant(0)
+        return self._done[i]

@@ -1,0 +1,115 @@
+"""Drives in a folder of their own: derived, compiled and audited, ready for ``meshwright --drives FOLDER``.
+
+A file outside the tree offers, as the families of :mod:`derive.drives` do, ``catalogue()``: name → function that builds
+the drive. What comes out has the form of :mod:`meshwright.base.compile`, with an audit entry beside each description.
+"""
+
+import importlib.util
+import json
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+from derive import compiler
+from derive.audit import check_code
+from derive.files import replace_text
+from derive.language.drive import Drive
+
+
+class FileError(ValueError):
+    """A file that does not define drives; says why."""
+
+
+def catalogue_of(path):
+    """The drives that a file defines: name → function that builds one."""
+    if not path.is_file():
+        raise FileError(f"{path}: no such file; name a Python file that offers catalogue()")
+    spec = importlib.util.spec_from_file_location(f"drives_of_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    sys.path.insert(0, str(path.resolve().parent))
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        raise FileError(f"{path}, line {error.lineno}: {error.msg}; correct the line") from error
+    finally:
+        sys.path.remove(str(path.resolve().parent))
+    if not callable(getattr(module, "catalogue", None)):
+        raise FileError(f"{path}: offers no catalogue(); define one that returns name → function that builds the drive")
+    return module.catalogue()
+
+
+def built(path, name, build):
+    """The drive of a name, which must be the drive's own and fit for C."""
+    drive = build()
+    if not isinstance(drive, Drive):
+        raise FileError(f"{path}: catalogue()[{name!r}] builds a {type(drive).__name__}; build a Drive")
+    if drive.name != name:
+        raise FileError(f"{path}: catalogue()[{name!r}] builds a drive named {drive.name!r}; give both the same name")
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+        raise FileError(f"{path}: the drive's name {name!r} must be small letters, digits and _; rename it")
+    return drive
+
+
+def write(drive, record, folder, log, source=None):
+    """Derive a drive into a folder and compile it; ``source`` is the file that defines it, if it is not of the tree."""
+    from meshwright.base import compile as build
+
+    open_ = {}
+    files = compiler.compile_drive(drive, record, log, open_)
+    header, name = files[f"c/{drive.name}.h"], drive.name
+    with log("audit", name):
+        entry = audit_entry(json.loads(files[f"c/{name}.json"]), open_, header, source)
+    for path, text in files.items():
+        replace_text(folder / _place(path), text)
+    replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
+    with log("compile", name), tempfile.TemporaryDirectory() as objects:
+        build.drives([name], folder, compiler.package(), Path(objects))
+
+
+def _place(path):
+    """Where a folder of drives has a generated file."""
+    kind, name = path.split("/", 1)
+    return f"include/{name}" if kind == "c" and name.endswith(".h") else name
+
+
+def audit_entry(description, open_, header, source):
+    """What is proved for a drive and what is not, as plain data.
+
+    ``proved``: the statements of the audit record behind it, by the functions that rest on them. ``not_proved``:
+    statements that it names and the record does not prove, with the reason. ``checked``: what its generated C was found
+    to be by running it modulo a prime (:mod:`derive.audit.check_code`), with the reason where it is not.
+    ``not_checked``: what nothing here decides.
+    """
+    origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
+    return {
+        "schema": "meshwright.drive-audit/1",
+        "drive": description["name"],
+        "specification_hash": description["specification_hash"],
+        "source": origin,
+        "record": description["root_hash"],
+        "proved": {
+            key: sorted(name for name, keys in description["equations_of"].items() if key in keys)
+            for key in description["equations"]
+        },
+        "not_proved": open_,
+        "checked": _checked(header),
+        "not_checked": [
+            "that the description is the drive that is meant: compare it with a source, or with measured parts",
+            "conversions of keys, rules and derived sizes: their formulas are taken from the description as they are",
+            "start values and limits of the flanks",
+        ],
+    }
+
+
+def _checked(header):
+    """Words → "holds", or why not."""
+    found = {}
+    for words, check in check_code.checks_of(check_code.read_header(header)):
+        try:
+            check_code.attempt(*check)
+            found[words] = "holds"
+        except (check_code.Rejected, LookupError, ValueError) as reason:
+            found[words] = f"does not hold: {reason}"
+    return found

@@ -1,0 +1,39 @@
+"""Which drives a checkout holds and the package ships: those that a packaged design uses.
+
+Read from the designs and from the table of families; as a program, it prints them. Needs the standard library alone.
+"""
+
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+DESIGNS = ROOT / "runtime" / "meshwright" / "designs"
+
+
+def packaged(families, designs=DESIGNS):
+    """Names of the drives that the designs of a folder use, in the order of the table (:mod:`derive.emit.families`)."""
+    used = {_drive_of(families, path) for path in designs.glob("*.toml")}
+    drives = (entry["name"] for family in families["families"].values() for entry in family["drives"])
+    return [name for name in drives if name in used]
+
+
+def _drive_of(families, path):
+    """The drive that a design uses: that of its words, those left out following the word they default to."""
+    design = tomllib.loads(path.read_text(encoding="utf-8"))
+    family = families["families"].get(design["drive"])
+    if family is None:
+        raise LookupError(f"{path}: drive = {design['drive']!r}: there is no such family")
+    words = design["design"]
+    for entry in family["drives"]:
+        variant = entry["variant"]
+        given = {key: words.get(key, words.get(entry["variant_defaults"].get(key))) for key in variant}
+        if all(given[key] in allowed for key, allowed in variant.items()):
+            return entry["name"]
+    raise LookupError(f"{path}: no drive of the family {design['drive']} has the words that this design gives")
+
+
+if __name__ == "__main__":
+    table = json.loads((ROOT / "generated" / "families.json").read_text(encoding="utf-8"))
+    sys.stdout.write(" ".join(packaged(table)) + "\n")

@@ -1,0 +1,41 @@
+/* What a drive's object holds beside its model table: lane kernels and tangents.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_KERNELS_H
+#define MW_KERNELS_H
+
+#include "mw_model.h"
+
+/* A design system's tangents: see the generated sensitivity headers. */
+typedef struct mw_system_tangents {
+    void (*equations)(const double *q, const double *dq, const double *y, const double *dy, double *dR);
+    void (*fill)(const double *q, const double *y, const double *dy, double *known, double *dq);
+} mw_system_tangents;
+
+/* A drive's tangents; systems as many and in the order of the model's. */
+typedef struct mw_tangents {
+    void (*derive)(double *known, const double *p, double *dp);
+    const mw_system_tangents *systems;
+    void (*contact)(const double *p, const double *dp, double phi, double dphi, const double *x, const double *dx,
+                    double *dR, double *dr);
+} mw_tangents;
+
+/* A drive's kernels for one instruction set; number k of lane l is at [k * lanes + l]. See the generated lane headers. */
+typedef struct mw_lane_model {
+    void (*setup)(const double *p, double *s, double *valid);
+    void (*set_phi)(double *s, const double *phi);
+    void (*step)(const double *s, double *x, double *size);
+} mw_lane_model;
+
+/* The instruction sets for which lanes are compiled: that of the compiler's default target, and on x86-64 two wider. */
+typedef enum mw_instruction_set { MW_NATIVE, MW_AVX2, MW_AVX512, MW_INSTRUCTION_SETS } mw_instruction_set;
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define MW_WIDE_LANES
+#endif
+
+/* lanes: NULL for an instruction set that was not compiled. */
+typedef struct mw_kernels {
+    const mw_tangents *tangents;
+    const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
+} mw_kernels;
+
+#endif

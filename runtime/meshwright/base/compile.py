@@ -1,0 +1,234 @@
+"""Compile the core library, which knows no drive, and the object of each drive. Needs the standard library alone.
+
+As a program, ``python compile.py GENERATED FOLDER DRIVE…``: what a checkout and the wheel are built by. ``FOLDER`` is
+then a folder of drives, in this form::
+
+    <drive>.json, <drive>.casadi …          description, CasADi functions
+    include/<drive>.h, _lanes.h, …          generated C
+    <drive>.so, <drive>.stamp               shared object, and from what it was made
+
+The package's own folder holds beside that the table of families, the core library, its headers and, in ``source/``,
+what each drive is compiled from.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+
+CORE = "libmeshwright.so"
+
+#: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
+DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
+DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h")
+PUBLIC_HEADERS = ("meshwright.h", "mw_model.h")
+
+#: Generated headers of a drive.
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h")
+
+FLAGS = (
+    "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",
+    "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror",
+)  # fmt: skip
+
+
+class CompileError(RuntimeError):
+    """There is no C compiler, or it refused a source."""
+
+
+def compiler():
+    """Command of the C compiler: ``CC``, else the system's, else clang from its Python package."""
+    if named := os.environ.get("CC"):
+        return tuple(shlex.split(named))
+    for name in ("cc", "gcc", "clang"):
+        if path := shutil.which(name):
+            return (path,)
+    probe = subprocess.run([sys.executable, "-c", "import ziglang"], capture_output=True)
+    if probe.returncode == 0:
+        return (sys.executable, "-m", "ziglang", "cc")
+    raise CompileError("there is no C compiler: install gcc or clang, or `pip install ziglang`, or name one in CC")
+
+
+def digest(*parts):
+    """SHA-256 of texts and files, each by its length and content."""
+    sum_ = hashlib.sha256()
+    for part in parts:
+        content = part.read_bytes() if isinstance(part, Path) else str(part).encode()
+        sum_.update(b"%d:" % len(content))
+        sum_.update(content)
+    return sum_.hexdigest()
+
+
+@contextmanager
+def replaced(path):
+    """A name beside ``path`` whose file takes its place at the end; after an error it is removed."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    os.close(handle)
+    try:
+        yield Path(temporary)
+        os.chmod(temporary, 0o755 if path.suffix == ".so" else 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _run(command, what):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise CompileError(f"{what} did not compile: {shlex.join(map(str, command))}\n{done.stderr.strip()}")
+
+
+def _reached(source, folders):
+    """The files that a C source includes by name, itself first; names made by macros are not followed."""
+    found, open_ = {}, [source]
+    while open_:
+        path = open_.pop()
+        if path in found:
+            continue
+        found[path] = None
+        for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE):
+            places = (folder / name for folder in (path.parent, *folders))
+            open_ += [place for place in places if place.exists()][:1]
+    return list(found)
+
+
+def _object(command, source, target, folders, defines, more):
+    """Compile one translation unit, unless its object was made from the same text by the same command."""
+    line = (*command, *FLAGS, *(f"-I{folder}" for folder in folders), *defines, "-c", source)
+    key, stamp = digest(*line, *_reached(source, folders), *more), target.with_suffix(".key")
+    if not (target.exists() and stamp.exists() and stamp.read_text() == key):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with replaced(target) as temporary:
+            _run((*line, "-o", temporary), source)
+        stamp.write_text(key)
+    return target, key
+
+
+def _compiled(jobs):
+    """The objects of many units (arguments of :func:`_object`), as many at once as there are processors."""
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 2) as pool:
+        return list(pool.map(lambda job: _object(*job), jobs))
+
+
+def _linked(command, compiled, target, options=(), inputs=""):
+    """Link a shared object beside its stamp: digests of what it was made from and how, and its own."""
+    objects, keys = zip(*compiled, strict=True)
+    key, stamp = digest(*command, *options, *keys), target.with_suffix(".stamp")
+    if sealed(target).get("key") != key:
+        with replaced(target) as temporary:
+            _run((*command, "-shared", *objects, "-o", temporary, *options, "-lm"), target.name)
+            seal = json.dumps({"key": key, "inputs": inputs, "sha256": digest(temporary)})
+        with replaced(stamp) as temporary:
+            temporary.write_text(seal + "\n")
+    return target
+
+
+def sealed(target):
+    """The stamp of a shared object if the object is the one that was written, whole; else nothing."""
+    try:
+        stamp = json.loads(target.with_suffix(".stamp").read_text(encoding="utf-8"))
+        return stamp if stamp["sha256"] == digest(target) else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def core(source, folder, objects):
+    """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS), "source")):
+        for name in names:
+            _copy(source / name, folder / place / name)
+    command = compiler()
+    jobs = [(command, unit, objects / f"{unit.stem}.o", (source,), (), ()) for unit in sorted(source.glob("*.c"))]
+    return _linked(command, _compiled(jobs), folder / CORE, (f"-Wl,-soname,{CORE}",))
+
+
+def drives(names, folder, package, objects):
+    """Compile the objects of drives whose generated headers are in ``folder``; ``package`` holds the core library.
+
+    Each finds the core library where it is now, or beside itself.
+    """
+    command, source = compiler(), package / "source"
+    folders = (folder / "include", source, package / "include")
+    jobs = [
+        (command, source / unit, objects / name / f"{Path(unit).stem}.o", folders, (f"-DMW_DRIVE={name}",),
+         _headers(name, folder))
+        for name in names for unit in DRIVE_UNITS
+    ]  # fmt: skip
+    compiled, each = _compiled(jobs), len(DRIVE_UNITS)
+    options = (f"-L{package}", "-lmeshwright", "-Wl,-rpath,$ORIGIN")
+    if folder.resolve() != package.resolve():
+        options += (f"-Wl,-rpath,{package.resolve()}",)
+    for k, name in enumerate(names):
+        units = compiled[k * each : (k + 1) * each]
+        _linked(command, units, folder / f"{name}.so", options, inputs(name, folder, package))
+
+
+def inputs(name, folder, package):
+    """Digest of the sources of a drive's object and of the place of the core library, whatever compiles them."""
+    return digest(str(package.resolve()), *FLAGS, *shared(package), *_headers(name, folder))
+
+
+def shared(package):
+    """What every drive's object is compiled from beside its own headers."""
+    sources = (package / "source" / unit for unit in (*DRIVE_UNITS, *DRIVE_HEADERS))
+    return [*sources, *(package / "include" / header for header in PUBLIC_HEADERS)]
+
+
+def _headers(name, folder):
+    return [folder / "include" / pattern.format(name) for pattern in GENERATED]
+
+
+def _copy(source, target):
+    """Copy a file, atomically; one that is equal keeps its time."""
+    content = source.read_bytes()
+    if target.exists() and target.read_bytes() == content:
+        return
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with replaced(target) as temporary:
+        temporary.write_bytes(content)
+
+
+def take(names, generated, folder):
+    """Copy the generated files of drives from ``generated`` (c/, casadi/) into a folder of drives."""
+    for name in names:
+        for header in _headers(name, folder):
+            _copy(generated / "c" / header.name, header)
+        _copy(generated / "c" / f"{name}.json", folder / f"{name}.json")
+        systems = json.loads((generated / "c" / f"{name}.json").read_text(encoding="utf-8"))["systems"]
+        for function in (name, *(f"{name}_{system['name']}" for system in systems)):
+            _copy(generated / "casadi" / f"{function}.casadi", folder / f"{function}.casadi")
+
+
+def main(arguments=None):
+    """Exit status 0, or 2 if something does not compile."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("generated", type=Path, help="generated files: c/, casadi/")
+    parser.add_argument("folder", type=Path, help="folder of drives to write")
+    parser.add_argument("drive", nargs="*", help="drives to compile")
+    parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
+    options = parser.parse_args(arguments)
+    source = Path(__file__).resolve().parents[2] / "c"
+    try:
+        core(source, options.folder, options.objects)
+        take(options.drive, options.generated, options.folder)
+        _copy(options.generated / "families.json", options.folder / "families.json")
+        drives(options.drive, options.folder, options.folder, options.objects)
+    except (CompileError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

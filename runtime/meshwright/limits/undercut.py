@@ -1,0 +1,114 @@
+"""Undercut lines: where a surface that a tool cuts becomes singular, on every surface for which the drive says where.
+
+An explicit surface of two parameters is searched along its profile: on given lines, or in sections across the axis of
+the member. An envelope of three parameters, related by its equation of meshing, is followed at fixed places of the
+profile (:mod:`meshwright.limits.singular_lines`).
+"""
+
+from functools import partial
+
+import numpy as np
+
+from meshwright.contact.functions import has, offered
+from meshwright.limits.rack import generation_range
+from meshwright.limits.results import SurfaceLimit
+from meshwright.limits.singular_lines import edges
+from meshwright.limits.zeros import zeros
+
+#: Samples of a profile between which sign changes of the singular function are sought.
+SAMPLES = 100
+
+#: Newton steps to a section.
+ITERATIONS = 60
+
+ROUND_OFF = 4e-16
+
+#: A margin within this share of its size at the middle of the profile is at its limit, not beyond it.
+AT_LIMIT = 1e-9
+
+
+def undercut_lines(drive, request):
+    """:class:`~meshwright.limits.results.SurfaceLimit` of every member: ``request.grid`` lines, sections or places of
+    the profile, or the axial positions ``request.axial`` (mm).
+    """
+    names = offered(drive, "undercut_place_")
+    return tuple(limit for name in names for limit in _on_surface(drive, name, request))
+
+
+def search_range(drive, name):
+    """Results of the drive's function ``undercut_range_…`` by name; those of a generation by a helicoid otherwise."""
+    if not has(drive, f"undercut_range_{name}"):
+        return generation_range(drive)
+    return {key: float(value) for key, value in drive.function(f"undercut_range_{name}")().items()}
+
+
+def _on_surface(drive, name, request):
+    surface = drive.flank(name)
+    ends = search_range(drive, name)
+    return [_limit(drive, name, surface, q, ends["middle"]) for q in _singular(surface, ends, request)]
+
+
+def _singular(surface, ends, request):
+    """Parameters of singular points."""
+    if len(surface.parameters) == 3:
+        places = np.union1d(np.linspace(ends["first"], ends["last"], request.grid), ends["middle"])
+        for profile in places:
+            yield from edges(surface, profile)
+    elif request.axial or "along_first" not in ends:
+        for z in request.axial or sections_of_face(surface, ends["middle"], request.grid):
+            line = np.array(singular_in_section(surface, ends, z))
+            yield from np.column_stack([line, at_section(surface, line, np.full(len(line), z))])
+    else:
+        lines = request.grid if ends["along_last"] > ends["along_first"] else 1
+        samples = np.linspace(ends["first"], ends["last"], SAMPLES)
+        for along in np.linspace(ends["along_first"], ends["along_last"], lines):
+            for profile in zeros(partial(_on_line, surface, along), samples):
+                yield np.array([profile, along])
+
+
+def _on_line(surface, along, profile):
+    return surface(np.column_stack([profile, np.full_like(profile, along)])).regular
+
+
+def sections_of_face(surface, profile, count):
+    """Axial positions over the face at a place of the profile; the middle alone where the face has no ends."""
+    half = surface([[profile, at_section(surface, np.array([profile]), np.zeros(1))[0]]]).margins.get("face", [np.nan])
+    return np.linspace(-half[0], half[0], count) if np.isfinite(half[0]) else np.zeros(1)
+
+
+def singular_in_section(surface, ends, z):
+    """Profile parameters at which an explicit surface is singular in the section at the axial position z, mm."""
+
+    def regular(profile):
+        return surface(np.column_stack([profile, at_section(surface, profile, np.full(len(profile), z))])).regular
+
+    return zeros(regular, np.linspace(ends["first"], ends["last"], SAMPLES))
+
+
+def at_section(surface, profile, sections):
+    """The lengthwise parameter (N,) at which a surface at ``profile`` (N,) reaches ``sections`` (N,): Newton along the
+    generated tangent; NaN where it does not get there.
+    """
+    along = np.zeros(len(profile))
+    for _ in range(ITERATIONS):
+        there = surface(np.column_stack([profile, along]))
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            step = (there.points[:, 2] - sections) / there.tangents[:, 1, 2]
+            along = along - step
+            moving = np.abs(step) > ROUND_OFF * np.abs(along)
+        if not np.any(moving):
+            break
+    with np.errstate(invalid="ignore"):
+        return np.where(np.abs(step) <= 1e-9 * (1.0 + np.abs(along)), along, np.nan)
+
+
+def _limit(drive, name, surface, q, middle):
+    at = surface([q])
+    place = drive.function(f"undercut_place_{name}")(*q)
+    inside = place.pop("inside", 1.0)
+    at_middle = surface([[middle, *q[1:]]]).margins
+    sizes = {event: max(1.0, abs(np.nan_to_num(values[0]))) for event, values in at_middle.items()}
+    within = all(not values[0] < -AT_LIMIT * sizes[event] for event, values in at.margins.items())
+    named = dict(zip(surface.parameters, map(float, q), strict=True))
+    extra = {f"{key}_mm": float(value) for key, value in place.items()}
+    return SurfaceLimit(name, at.points[0], named, bool(within and not inside < 0.0), extra)

@@ -1,0 +1,140 @@
+"""Drives outside the tree, and drives that are derived and compiled when they are first asked for."""
+
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.base import compile as build
+from meshwright.base import drives
+from meshwright.base.errors import LibraryError
+from meshwright.design import design
+
+ROOT = Path(__file__).resolve().parents[2]
+FILE = Path(__file__).parent / "drives" / "crowned_worm.py"
+NAME = "cylindrical_worm_zx_zx"
+CALL = "import sys; from meshwright.cli import main; sys.exit(main(sys.argv[1:]))"
+
+
+def run(*arguments, module=None, **environment):
+    command = [sys.executable, *(("-m", module) if module else ("-c", CALL)), *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, env=os.environ | environment, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder of drives with the one that the file defines."""
+    place = tmp_path_factory.mktemp("drives")
+    done = run(FILE, "--into", place, module="derive")
+    assert done.returncode == 0, done.stderr
+    return place
+
+
+@pytest.fixture
+def crowned(tmp_path):
+    """A design of that drive: the plain ZA worm with a crown of the blade."""
+
+    def written(crown):
+        tables = tomllib.loads((design.PACKAGED / "plain-za.toml").read_text(encoding="utf-8"))
+        tables["design"] |= {"worm_profile": "ZX", "blade_crown_per_mm": crown}
+        path = tmp_path / "crowned.toml"
+        path.write_text(design.toml_text(tables), encoding="utf-8")
+        return path
+
+    return written
+
+
+def _errors(*arguments, **environment):
+    done = run(*arguments, "--json", "-", **environment)
+    assert done.returncode == 0, done.stderr
+    return np.array([p["transmission_error_arcsec"] for p in json.loads(done.stdout)["points"]])
+
+
+def test_a_drive_of_one_file_is_solved_by_every_way_to_name_its_folder(folder, crowned):
+    """A blade without crown is the straight one of a ZA worm; a crowned one bends the transmission error."""
+    angles = ("--phi-deg", "-20:20:10")
+    straight = _errors("tca", "plain-za", *angles)
+    plain = crowned(0.0)
+    assert np.abs(_errors("--drives", folder, "tca", plain, *angles) - straight).max() < 1e-9
+    assert np.abs(_errors("tca", plain, *angles, MESHWRIGHT_DRIVES=str(folder)) - straight).max() < 1e-9
+    bent = _errors("--drives", folder, "tca", crowned(0.002), *angles) - straight
+    assert np.ptp(bent) > 1e-3
+
+
+def test_the_python_package_takes_a_folder_of_drives(folder, crowned, monkeypatch):
+    monkeypatch.setenv(drives.ENVIRONMENT, "")
+    angles = np.radians([-20.0, 0.0, 20.0])
+    own = Drive.load(crowned(0.0), drives=folder).tca(angles)
+    assert np.abs(own.error - Drive.load("plain-za").tca(angles).error).max() < 1e-14
+    casadi = Drive.load(crowned(0.002), backend="casadi").tca(angles)
+    assert np.abs(casadi.error - Drive.load(crowned(0.002)).tca(angles).error).max() < 1e-12
+
+
+def test_the_schema_offers_its_words_and_its_key(folder):
+    shown = run("--drives", folder, "drives", "--json", "-").stdout
+    (family,) = (f for f in json.loads(shown)["families"] if f["name"] == "cylindrical-worm")
+    keys = {entry["key"]: entry for entry in family["keys"]}
+    assert {"ZX", "ZA", "ZC"} <= set(keys["worm_profile"]["words"])
+    assert "blade_crown_per_mm" in keys
+
+
+def test_its_audit_entry_says_what_is_proved_checked_and_not(folder):
+    entry = json.loads((folder / "audit" / f"{NAME}.json").read_text(encoding="utf-8"))
+    assert "cylindrical_worm/contact" in entry["proved"]
+    assert entry["not_proved"] == {}
+    assert set(entry["checked"].values()) == {"holds"}
+    assert entry["not_checked"] and entry["source"]["file"] == FILE.name
+
+
+def test_a_folder_that_is_none_is_refused(tmp_path):
+    done = run("--drives", tmp_path / "nothing", "tca", "plain-za")
+    assert done.returncode == 2 and "no such folder" in done.stderr and "python -m derive" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [("x = 1\n", "offers no catalogue()"), ("def catalogue(:\n", "line 1"),
+     ("def catalogue():\n    return {'a': lambda: 1}\n", "builds a int")],
+)  # fmt: skip
+def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text, reason):
+    path = tmp_path / "mine.py"
+    path.write_text(text, encoding="utf-8")
+    done = run(path, "--into", tmp_path / "out", module="derive")
+    assert done.returncode == 2 and reason in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is_damaged(tmp_path):
+    """One line says so; a truncated object is compiled anew, not loaded."""
+    pair = ["tca", "spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
+    environment = os.environ | {drives.CACHE: str(tmp_path)}
+    command = [sys.executable, "-c", CALL, *pair, "--phi-deg", "0"]
+    both = [subprocess.Popen(command, cwd=ROOT, env=environment, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    said = [process.communicate()[1] for process in both]
+    assert [text.count("first use") for text in sorted(said, key=len)] == [0, 1], said
+    (made,) = tmp_path.glob("*/*.so")
+    whole = made.read_bytes()
+    made.write_bytes(whole[: len(whole) // 2])
+    again = run(*pair, "--phi-deg", "0", MESHWRIGHT_CACHE=str(tmp_path))
+    assert "first use" in again.stderr and made.read_bytes() == whole
+    assert "first use" not in run(*pair, "--phi-deg", "0", MESHWRIGHT_CACHE=str(tmp_path)).stderr
+
+
+def test_without_derive_the_remedy_is_named(tmp_path, monkeypatch):
+    monkeypatch.setenv(drives.CACHE, str(tmp_path))
+    monkeypatch.setattr(drives.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(LibraryError, match=r"meshwright\[derive\]"):
+        drives.folder_of("spherical_spur_convex")
+
+
+def test_without_a_compiler_the_remedy_is_named(monkeypatch):
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr(build.shutil, "which", lambda name: None)
+    monkeypatch.setattr(build.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 1))
+    with pytest.raises(build.CompileError, match="install gcc or clang"):
+        build.compiler()
