@@ -58,7 +58,12 @@ def lower_system(system: DesignSystem, parameters):
     lower = Lowering(tape, inputs, system.definitions)
     fixed = {lower(symbol): lower(value) for symbol, value in system.fixed.items()}
     unknowns = [lower(u.symbol) for u in system.unknowns]
+    guess = [lower(system.guess[u.symbol]) for u in system.unknowns]
     residual = [tape.substitute(lower(r), fixed) for r in system.residual]
+    if system.homotopy:
+        left = tape.sub(tape.constant(1), lower(PATH))
+        begun = [tape.substitute(r, dict(zip(unknowns, guess, strict=True))) for r in residual]
+        residual = [tape.sub(r, tape.mul(left, b)) for r, b in zip(residual, begun, strict=True)]
     return SystemTape(
         system=system,
         tape=tape,
@@ -66,7 +71,7 @@ def lower_system(system: DesignSystem, parameters):
         residual=residual,
         jacobian=[[tape.derivative(r, u) for u in unknowns] for r in residual],
         scales=[lower(u.scale) for u in system.unknowns],
-        guess=[lower(system.guess[u.symbol]) for u in system.unknowns],
+        guess=guess,
         values=[lower(value) for value in system.fills.values()],
         watch=_watch(system, lower, fixed),
     )

@@ -259,7 +259,7 @@ def _finite(plan, inputs):
     for i in inputs:
         total = tape.add(total, tape.mul(i, i))
     share = tape.div(total, tape.add(total, tape.constant(1)))
-    required = tuple(p.key for p in plan.drive.parameters if p.required)
+    required = tuple(p.place for p in plan.drive.parameters if p.required)
     return DesignGuard(share, "a value that the contact needs is missing or not finite", required)
 
 
@@ -267,7 +267,7 @@ def _keys(plan, nodes):
     tape = plan.tape
     found = {tape.nodes[a].value for i in tape.needed(nodes) for a in tape.nodes[i].args if _is_parameter(tape, a)}
     found |= {tape.nodes[i].value for i in nodes if _is_parameter(tape, i)}
-    return tuple(p.key for p in plan.drive.parameters if p.symbol in found)
+    return tuple(p.place for p in plan.drive.parameters if p.symbol in found)
 
 
 # -- what is not finite reaches the test ----------------------------------------------------------------------------

@@ -31,8 +31,9 @@ class Completion:
         """Parameter values by symbol for a ``design`` (key → number), complete; parameters left open are NaN."""
         values = {p.symbol: mpmath.nan for p in self._parameters}
         for p in self._parameters:
-            if p.table in (Table.DESIGN, Table.FLANK) and p.key in design:
-                values[p.symbol] = _number(p.factor) * mpmath.mpf(design[p.key])
+            key = p.key if p.table == Table.FLANK else p.place
+            if key in design:
+                values[p.symbol] = _number(p.factor) * mpmath.mpf(design[key])
             elif p.default is not None:
                 values[p.symbol] = _number(p.default)
         self._apply_rules(values)

@@ -255,7 +255,8 @@ def _slopes(plan, surface):
 def _observe_contact(plan):
     """Second fundamental forms of both flanks and of the gap in one tangent basis, its curvatures; lever arms.
 
-    The basis is that of the pinion's first tangent and the contact normal, the pinion's outward normal.
+    The basis is that of the pinion's first tangent and the contact normal, the pinion's outward normal; both arms are
+    those of the pinion's point, which is the wheel's.
     """
     drive, tape = plan.drive, plan.tape
     pinion, wheel = drive.bodies
@@ -266,8 +267,8 @@ def _observe_contact(plan):
     forms = [_second_form(plan, body.placed, basis) for body in drive.bodies]
     gap = [tape.sub(tape.neg(a), b) for a, b in zip(*forms, strict=True)]
     arms = [
-        geometry.lever_arm(plan, body, variable, point, normal)
-        for body, variable, point in zip(drive.bodies, (drive.instant, drive.error), points, strict=True)
+        geometry.lever_arm(plan, body, variable, points[0], normal)
+        for body, variable in zip(drive.bodies, (drive.instant, drive.error), strict=True)
     ]
     with tape.within(LEVER):
         ratio = tape.div(*arms)
@@ -307,6 +308,8 @@ def _relative(plan, body, node):
 
 
 def _regular(plan, body):
+    if body.regular is not None:
+        return plan.tape.mul(plan.lower(body.regular), singular_function(plan.lower, body.surface))
     return _relative(plan, body, singular_function(plan.lower, body.surface))
 
 

@@ -334,7 +334,7 @@ def cylindrical_worm(worm_profile, hob_profile):
             ToolUse("hob", hob_profile, hob_tool, tuple(own[b][d].key for d in hob_tool.data for b in ("worm", "hob"))),
         ),
         loading=Loading(pairs=5, torque_on="wheel"),
-        handed=True,
+        handed="right",
         exclusive=(
             (normal_module.key, axial_module.key),
             (lead_angle.key, pitch_radius.key),

@@ -51,6 +51,7 @@ def describe(plan, provenance):
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
+        "reference": _reference(drive),
         "geometry": offsets["tangent_basis"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
@@ -147,6 +148,11 @@ def self_test(plan):
     }
 
 
+def _reference(drive):
+    """Index of the parameter that is the reference angle, −1 where that is 0."""
+    return -1 if drive.reference_angle == 0 else [p.symbol for p in drive.parameters].index(drive.reference_angle)
+
+
 def _plain(name, unit, frame=""):
     return {
         "name": name, "unit": unit, "frame": frame, "meaning": "",
@@ -189,7 +195,7 @@ def _parameter(drive, p):
         "unit": p.symbol.unit,
         "meaning": p.symbol.meaning,
         "key": p.key,
-        "table": p.table.value,
+        "table": str(p.table),
         "factor": _float(p.factor),
         "key_unit": interface_unit(p.key)[0],
         "default": None if p.default is None else _float(p.default),

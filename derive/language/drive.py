@@ -62,7 +62,8 @@ class Body:
     """A member of the drive: its flank in its own frame, its motion in mesh, its limits.
 
     ``point`` and ``normal`` are symbols for the body-frame coordinates, used by ``margins``. ``reference`` gives
-    the surface parameters of a regular point, where the singular function has its good sign. ``recovered`` are
+    the surface parameters of a regular point, where the singular function has its good sign; where that sign is known,
+    ``regular`` is an expression which has it everywhere, and no point is needed. ``recovered`` are
     parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
     tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
     parameter runs across it, along the profile.
@@ -72,6 +73,7 @@ class Body:
     surface: Surface
     motion: Motion
     reference: dict
+    regular: sp.Expr | None = None
     point: tuple = ()
     margins: tuple[Margin, ...] = ()
     recovered: tuple = ()
@@ -115,7 +117,8 @@ class DesignSystem:
     solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
     stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
     meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
-    replaces symbols by constants throughout.
+    replaces symbols by constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is
+    at the guess falls to zero along the path.
     """
 
     name: str
@@ -127,6 +130,7 @@ class DesignSystem:
     keys: tuple[str, ...]
     fixed: dict = field(default_factory=dict)
     regular: tuple | None = None
+    homotopy: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
 
@@ -179,11 +183,12 @@ class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
     ``variant`` are the words of the design file that choose this drive within its family; a key in
-    ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
-    mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
-    ``exclusive`` a design gives exactly one key; of each group in ``together`` ("table.key") all or none. ``tools`` are
-    the generating tools with the keys of their own.
-    ``reference_angle`` (rad, of the design) is the input angle at which the relative transmission error is zero.
+    ``variant_defaults`` may be left out and then follows the key named there, or is the word there. A drive ``handed``
+    "right" or "left", the hand in which its equations are written, exists as its own mirror image. ``pinion_teeth`` is
+    the key of the pinion's (worm's) number of teeth. Of each group in ``exclusive`` a design gives exactly one key; of
+    each group in ``together`` ("table.key") all or none. ``tools`` are the generating tools with the keys of their own.
+    ``reference_angle`` (a parameter, or 0) is the input angle at which the pair meets in the middle of its flanks: the
+    start values lead there, and relative transmission errors refer to it.
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
     contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
@@ -217,7 +222,7 @@ class Drive:
     pinion_teeth: str
     variant: dict = field(default_factory=dict)
     variant_defaults: dict = field(default_factory=dict)
-    handed: bool = False
+    handed: str = ""
     exclusive: tuple[tuple[str, ...], ...] = ()
     together: tuple[tuple[str, ...], ...] = ()
     systems: tuple[DesignSystem, ...] = ()

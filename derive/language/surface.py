@@ -12,6 +12,7 @@ from derive.language import vectors as v
 from derive.language.chain import Motion, Rz, screw, station
 from derive.language.definitions import Definitions
 from derive.language.origin import joined
+from derive.language.sampled import NEGLIGIBLE, sampled
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,14 @@ class Surface:
         """Statements of the record behind the surface in its body frame."""
         return joined(self.steps, self.motion.rests_on)
 
+    def with_pole(self, pole):
+        """The same surface, with another point of the normal's line, section frame."""
+        return replace(self, pole=pole)
+
+    def turned_over(self):
+        """The same surface as the border of the body on its other side: a copy of the tool that stays at rest."""
+        return replace(self, normal=v.scale(-1, self.normal))
+
     def placed(self, *motions):
         """The surface moved by the product of these motions (leftmost acting last)."""
         motion = self.motion
@@ -76,16 +85,31 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
     return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",))
 
 
-def revolved(definitions, profile, *, along, turn, outward, radius=0):
+def revolved(definitions, profile, *, along, turn, outward, radius=0, sense=1, slope=None):
     """The surface of revolution about z of a ``profile`` in the x–z half plane, measured from x = ``radius``.
 
     That place is its station, so that large lengths do not cancel. The tangent along the circle has unit length, so
-    the normal is as long as the profile's tangent.
+    the normal is as long as the profile's tangent. ``sense`` −1 turns the other way. ``slope`` is a shorter vector
+    along the profile's derivative, to be used instead of it; ``ValueError`` if it is none.
     """
-    tangents = (definitions.derivative_vector(profile, along), v.vector(*v.J))
-    normal = v.scale(outward, v.cross(*tangents))
-    motion = Rz(turn) @ station(x=radius)
+    tangent = definitions.derivative_vector(profile, along)
+    if slope is not None:
+        require_parallel(tuple(map(definitions.resolve, tangent)), tuple(map(definitions.resolve, slope)))
+        tangent = slope
+    tangents = (tangent, v.vector(*v.J))
+    across = v.cross(*tangents)
+    normal = v.scale(outward, across) if slope is None else v.signed(outward, across)
+    motion = Rz(sense * turn) @ station(x=radius)
     return Surface(definitions, (along, turn), profile, tangents, normal, motion, steps=("derivation/revolved",))
+
+
+def require_parallel(derivative, slope):
+    """Raise ``ValueError`` unless two vectors have the same direction."""
+    for values in sampled((*derivative, *slope)):
+        a, b = values[:3], values[3:]
+        across = sum(abs(p) for p in v.cross(a, b))
+        if across > NEGLIGIBLE or sum(p * q for p, q in zip(a, b, strict=True)) <= 0:
+            raise ValueError("the slope given is not along the derivative of the profile")
 
 
 def helicoid(definitions, section, *, along, sweep, parameter, outward):

@@ -71,9 +71,9 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
 
 /* Which contact. The equations may hold in several places of a tooth pair at once, and also in places where bodies cannot
  * touch. The contact of a pair at an input angle is
- *   1. at angle 0, the tangency in the middle of the flanks, to which the model's start values lead; where bodies cannot
- *      make it but can make another as under 3, that one; elsewhere the point of the branch of contact through it. Where
- *      nothing touches at 0, the branch is that of a contact on both flanks at the nearest of a fixed series of angles;
+ *   1. at the reference angle (0 unless the model names another), the tangency in the middle of the flanks, to which the
+ *      model's start values lead; where bodies cannot make it but can make another as under 3, that one; elsewhere the
+ *      point of the branch of contact through it. Where nothing touches there, the branch is that of a contact on both flanks at the nearest of a fixed series of angles;
  *   2. that point stays the contact where it lies beyond a limit of a flank, which is then flagged;
  *   3. where bodies cannot make it (see mw_impossible), or the branch ends before the angle: a contact within all limits
  *      of both flanks that bodies can make, the nearest to the middle that a search over the wheel flank finds. The teeth

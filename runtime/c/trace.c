@@ -42,6 +42,12 @@ typedef struct trace {
     size_t checked, walked;      /* points before these numbers are on the branch; have to be walked to */
 } trace;
 
+/* Where the pair meets in the middle of its flanks. */
+static double reference_angle(const trace *t)
+{
+    return t->m->reference < 0 ? 0.0 : t->p[t->m->reference];
+}
+
 /* The tangency at a reference angle: what the start values lead to or, at angle 0 and if that is impossible, a contact
  * that bodies can make. */
 static int tangency_at(trace *t, double phi, mw_info *info)
@@ -49,16 +55,16 @@ static int tangency_at(trace *t, double phi, mw_info *info)
     double *x = t->at_reference;
     const int started = mw_start(t->m, t->p, phi, t->s, t->work, x, info) >= 0;
     if (started && mw_worth_of(t->m, t->s, x) != MW_IMPOSSIBLE) return 1;
-    return (phi == 0.0 && mw_search(t->m, t->s, x, info)) || started;
+    return (phi == reference_angle(t) && mw_search(t->m, t->s, x, info)) || started;
 }
 
 static void find_reference(trace *t)
 {
     mw_info info;
-    double angle = 0.0;
-    int found = tangency_at(t, 0.0, &info);
+    double angle = reference_angle(t);
+    int found = tangency_at(t, angle, &info);
     for (int k = 0; k < 2 * DOUBLINGS && !found; k++) {
-        angle = ldexp(k % 2 ? -FIRST : FIRST, k / 2);
+        angle = reference_angle(t) + ldexp(k % 2 ? -FIRST : FIRST, k / 2);
         found = tangency_at(t, angle, &info) && mw_worth_of(t->m, t->s, t->at_reference) >= MW_ON_BOTH_FLANKS;
     }
     /* a point of a contact line is arbitrary: no branch begins there */

