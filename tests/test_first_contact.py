@@ -108,7 +108,7 @@ def test_first_contact_is_what_brute_force_finds(name):
     check(name)
 
 
-@pytest.mark.slow
+@pytest.mark.validate
 @pytest.mark.parametrize("name", [n for n in DESIGNS if n not in ("face edge", "convex")])
 def test_first_contact_is_what_brute_force_finds_on_other_designs(name):
     check(name)

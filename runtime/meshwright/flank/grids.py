@@ -118,7 +118,9 @@ class _Lines:
                 _solve(self.region, profile, self.along, start),
             )
             rows.append(start)
-        return np.concatenate(rows)
+        values = np.concatenate(rows)
+        values[~(self.region.limits.least(self.region.flank(values)) >= -ROUNDING)] = np.nan
+        return values
 
 
 def _nearest(known, places):
