@@ -1,11 +1,11 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``            → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
-derive    ``derive.language.surface, envelope`` → locus, normal, equation of meshing
-reduce    ``derive.language.envelope``          → explicit surfaces, fewer unknowns
-prove     ``derive.prove, audit``      → certificates for the identities behind them, and the record that holds them
-schedule  ``derive.schedule``          → one tape with derivatives, binding times and pivot order
-emit      ``derive.emit``              → C99, CasADi, JSON
+define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
+derive    ``derive.language`` → locus, normal, equation of meshing, placements
+reduce    ``derive.language`` → explicit surfaces, fewer unknowns
+prove     ``derive.prove``    → certificates for the identities behind them, and the record (``derive.audit``) of them
+schedule  ``derive.passes``   → one tape (``derive.program``) with derivatives, curvature, binding times, pivot order
+emit      ``derive.emit``     → C99, CasADi, JSON, text
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
 a paper. The stages after that are common to all drives. Statements are proved once for all of them; which ones a
@@ -16,10 +16,10 @@ import hashlib
 import json
 from pathlib import Path
 
-from derive import conditions
 from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, lanes, metadata, sensitivity
-from derive.schedule import schedule
+from derive.passes import guards
+from derive.passes.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -32,10 +32,9 @@ def package():
 
 
 #: In a checkout; the installed package has both among its own files.
-RECORD = ROOT / "generated" / "audit"
-MODEL_HEADER = ROOT / "runtime" / "c" / "mw_model.h"
-if not MODEL_HEADER.exists():
-    RECORD, MODEL_HEADER = ROOT / "derive" / "record", package() / "include" / "mw_model.h"
+RECORD, RUNTIME = ROOT / "generated" / "audit", ROOT / "runtime" / "c"
+if not RUNTIME.exists():
+    RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
 def compile_drive(drive, record, log, open_=None):
@@ -51,15 +50,15 @@ def compile_drive(drive, record, log, open_=None):
     with log("emit", drive.name):
         description = metadata.describe(plan, origin)
         files = {
-            f"c/{drive.name}.h": c99.header(plan, description, MODEL_HEADER.read_text(encoding="utf-8")),
+            f"c/{drive.name}.h": c99.header(plan, description, RUNTIME),
             f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         }
         files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
         # last: it adds the changes of the inputs to the tape
         tangents = sensitivity.tangents(plan)
         files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-        evaluated = [*conditions.functions(plan), conditions.along(plan), *tangents.functions()]
-        description["side_conditions"] = conditions.side_conditions(plan, evaluated)
+        evaluated = [*guards.functions(plan), guards.along(plan), *tangents.functions()]
+        description["side_conditions"] = guards.side_conditions(plan, evaluated)
         files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
         return files
 

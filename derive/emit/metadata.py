@@ -7,9 +7,9 @@ from dataclasses import asdict
 
 import mpmath
 
-from derive import newton
 from derive.language.symbols import interface_unit
-from derive.tape import Stage
+from derive.passes import sample
+from derive.program.tape import Stage
 
 GENERATOR = "0.1.0"
 
@@ -60,7 +60,7 @@ def describe(plan, provenance):
         "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
-            "s": [len(plan.state)],
+            "s": [len(plan.state) + len(drive.parameters)],  # the parameters are kept at its end
             "x": [len(drive.unknowns)],
             "R": [len(drive.unknowns)],
             "J": [len(drive.unknowns)] * 2,
@@ -138,8 +138,8 @@ def self_test(plan):
     """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
     reaches ``x``. Hex floats.
     """
-    inputs = newton.in_double(plan.sample)
-    start = newton.beside(plan)
+    inputs = sample.in_double(plan.sample)
+    start = sample.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),

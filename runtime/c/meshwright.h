@@ -7,56 +7,13 @@
 
 #include <stddef.h>
 #include "mw_model.h"
+#include "mw_status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* How a solve ended: code, value, the word used in results, what it means. Success is >= 0. */
-#define MW_STATUS_LIST(X) \
-    X(MW_CONVERGED, 0, "converged", "the last step was below tolerance") \
-    X(MW_CONVERGED_NOISE, 1, "converged", "the steps ended in round-off; near line contact the point is ill-determined") \
-    X(MW_LINE_CONTACT, 2, "line_contact", "the flanks touch along a line: no single contact point exists") \
-    X(MW_NO_CONTACT, -1, "no_contact", "the flanks do not touch at this angle") \
-    X(MW_LEFT_FLANK, -2, "left_flank", "the search left the domain in which the flanks exist") \
-    X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
-    X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \
-    X(MW_DIVERGED, -5, "diverged", "the iteration did not settle") \
-    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold, or the angle is not finite or out of range")
-
-typedef enum mw_status {
-#define MW_STATUS_ENUM(code, value, word, text) code = value,
-    MW_STATUS_LIST(MW_STATUS_ENUM)
-#undef MW_STATUS_ENUM
-    MW_STATUS_END = 1000
-} mw_status;
-
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
-
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
-
-/* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
- * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
- * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
-typedef struct mw_info {
-    int status, iterations, guard;
-    double step, residual, rank_gap;
-} mw_info;
-
-/* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
- * positive without interference. major: direction of curvature_min. lever: velocity of a member's point along the normal
- * for a unit velocity of its own angle, mm; ratio: instantaneous d(wheel angle)/d(pinion angle), the quotient of both.
- * flags: see mw_flag. */
-typedef struct mw_contact {
-    double point[3], normal[3];
-    double curvature_min, curvature_max;
-    double major[3];
-    double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
-    int line;                    /* curvature_min is zero to round-off: line contact */
-    unsigned flags;
-    double lever_pinion, lever_wheel, ratio;
-} mw_contact;
 
 int mw_abi(void);
 const char *mw_status_word(int status);
@@ -82,11 +39,11 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
  * So one angle has one contact and one status, whichever other angles are asked for. A line of contact has no branch:
  * there every angle is solved from the start values. */
 
-/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result. Misalignments are applied
- * by continuation. Returns info->status. */
+/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result, not a number where
+ * there is none. Misalignments are applied by continuation. Returns info->status. */
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
 
-/* Solve from start values x[nx], state s set up for p and phi already. */
+/* Solve from start values x[nx], state s set up for p and phi already. Returns info->status. */
 int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
 
 /* Solve the points phi[n], each predicted from its predecessors: the same contacts as of mw_solve, faster where the
@@ -95,7 +52,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
                 mw_info *info);
 
 /* Follow the branch through the solution x0 at phi0 along phi[n], in order, starting near phi0; x[n*nx], info[n].
- * s is set up. Stops where the branch ends: returns how many points were solved; info of the next one says why. */
+ * s is set up. Stops where the branch ends or an angle is none: returns how many points were solved; info of the next one says why. */
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
@@ -137,8 +94,20 @@ size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0,
  * s[ns] set up by setup(). Returns MW_CONVERGED, or MW_DIVERGED if there is none nearby; phi and x are then unchanged. */
 int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, double *x);
 
+/* One call for a whole trace: mw_trace, then the contact geometry of every point: o[n*no], contact[n] (NaN and 0 where
+ * there is none). info[k].status becomes line contact where the flanks touch along a line. A point that does not pass
+ * mw_touch is solved again by itself. Returns the number of points that succeeded. */
+size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
+                  mw_info *info, double *o, mw_contact *contact);
+
+/* The geometry of contacts solved already, x[n*nx] at phi[n], where info[k].status >= 0; s is set up. As above, but a
+ * point that does not pass mw_touch gets its status. */
+void mw_contacts(const mw_model *m, double *s, const double *phi, size_t n, const double *x, mw_info *info, double *o,
+                 mw_contact *contact);
+
 /* Contact points[designs*n*3] (fixed frame; NaN where there is none) and flags[designs*n] of what mw_trace_designs
- * solved; status[designs*n] becomes line contact where the flanks touch along a line. Work: s[ns], o[no]. */
+ * solved; status[designs*n] becomes line contact where the flanks touch along a line, and what mw_touch says where they
+ * do not touch. Work: s[ns], o[no]. */
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags);
 
@@ -157,8 +126,15 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr);
 
-/* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
+/* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT, or what
+ * mw_touch says where x is no contact: c is then the geometry of two surfaces that do not touch. */
 int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);
+
+/* Success means touching: the gate that every solution passes which anything here calls a success. Judges x[nx] by its
+ * observation o[no]. MW_CONVERGED where position and direction of both normals, opposed, agree within the rounding of
+ * their own terms and every surface parameter is in its domain; else MW_LEFT_FLANK (outside a domain), MW_NO_CONTACT
+ * (normals parallel: both bodies on the same side) or MW_DIVERGED. */
+int mw_touch(const mw_model *m, const double *x, const double *o);
 
 /* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
  * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. order[vertices]: every
@@ -196,7 +172,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
                      mw_first *found);
 size_t mw_first_contact_work(size_t vertices);
 
-/* Name of flag number bit of mw_contact.flags, NULL past the last. */
+/* Name of flag number bit of mw_contact.flags, NULL where there is none. */
 const char *mw_flag(const mw_model *m, int bit);
 
 /* Whether a flag marks points that satisfy the equations but that bodies cannot make. */

@@ -119,8 +119,9 @@ class Drive:
         """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.contact.results.TCA`."""
         angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
-        if result.past_a_tip and self.past_the_tips:
-            return analysis.without_contact(self, angles)
+        outside = result.outside_the_tips
+        if outside.any() and self.past_the_tips:
+            result = result.without_contact(outside)
         return edge.flagged(result, self.edge_window)
 
     def first_contact(self, angles, result=None):

@@ -13,8 +13,8 @@ import casadi
 import numpy as np
 
 from derive import drives
-from derive.schedule import schedule
-from derive.tape import Stage
+from derive.passes.schedule import schedule
+from derive.program.tape import Stage
 from meshwright import Drive
 from meshwright.base.library import ffi, library
 from tests.benchmarks import baselines, regeneration

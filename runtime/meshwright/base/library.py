@@ -6,6 +6,7 @@ import threading
 from functools import cache
 
 import cffi
+import numpy as np
 
 from meshwright.base.drives import SHIPPED, folders, object_of
 from meshwright.base.errors import LibraryError
@@ -18,10 +19,35 @@ _loading, _thread = threading.Lock(), threading.local()
 
 def _interface():
     """C declarations of the model table and of the runtime, as cffi wants them."""
-    model = (SHIPPED / "include" / "mw_model.h").read_text(encoding="utf-8")
-    runtime = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
-    functions = re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", runtime, re.DOTALL).group(1)
-    return re.sub(r"^#.*$", "", model, flags=re.MULTILINE) + functions
+    names = ("mw_model.h", "mw_status.h", "meshwright.h")
+    model, status, runtime = ((SHIPPED / "include" / name).read_text(encoding="utf-8") for name in names)
+    codes = ", ".join(f"{code} = {value}" for code, value in re.findall(r"X\((MW_\w+), (-?\d+),", status))
+    end = re.search(r"MW_STATUS_END = \d+", status).group()
+    declared = re.sub(r"^#.*$", "", model, flags=re.MULTILINE)
+    declared += f"typedef enum mw_status {{ {codes}, {end} }} mw_status;"
+    for text in (status, runtime):
+        declared += re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", text, re.DOTALL).group(1)
+    return declared
+
+
+def record(name):
+    """NumPy's view of a plain structure of the interface, field by field as C lays it out."""
+    library()
+    fields = dict(ffi.typeof(name).fields)
+    return np.dtype(
+        {
+            "names": list(fields),
+            "formats": [_format(field.type) for field in fields.values()],
+            "offsets": [field.offset for field in fields.values()],
+            "itemsize": ffi.sizeof(name),
+        }
+    )
+
+
+def _format(kind):
+    if kind.kind == "array":
+        return (_format(kind.item), kind.length)
+    return {"double": "f8", "int": "i4", "unsigned int": "u4"}[kind.cname]
 
 
 def library():
@@ -38,6 +64,8 @@ class _Calls:
 
     def __getattr__(self, name):
         function = getattr(self._functions, name)
+        if isinstance(function, int):  # a constant
+            return function
 
         def call(*arguments):
             result = function(*arguments)

@@ -2,10 +2,10 @@
 
 import mpmath
 
-from derive.completion import lower_system
 from derive.language.drive import PATH
 from derive.language.symbols import Table
-from derive.tape import Lowering, Stage, Tape
+from derive.passes.completion import lower_system
+from derive.program.tape import Lowering, Stage, Tape
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40

@@ -1,13 +1,19 @@
 /* Contact geometry at a solution: what the observation holds, the major direction, flags.  SPDX-License-Identifier: MIT-0 */
-#include <math.h>
-#include <string.h>
-#include "meshwright.h"
+#ifndef MWI_CONTACT_H
+#define MWI_CONTACT_H
+
+#include "basics.h"
 
 /* Relative curvature below this share of the larger one is zero to round-off. */
-static const double LINE_SHARE = 1e-10;
+static const double MWI_LINE_SHARE = 1e-10;
+
+static inline double mwi_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /* Direction of the smaller eigenvalue of the gap's second form K (11, 12, 22) in an orthonormal basis e[6]: major[3]. */
-static void major_direction(const double *K, const double *e, double *major)
+static inline void mwi_major_direction(const double *K, const double *e, double *major)
 {
     const double half = 0.5 * (K[0] - K[2]), radius = sqrt(half * half + K[1] * K[1]);
     const double u = half > 0.0 ? -K[1] : half - radius;
@@ -16,7 +22,7 @@ static void major_direction(const double *K, const double *e, double *major)
     for (int i = 0; i < 3; i++) major[i] = length > 0.0 ? (u * e[i] + v * e[3 + i]) / length : e[i];
 }
 
-static unsigned flags_of(const mw_model *m, const double *o, double curvature_min, int line)
+static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
 {
     unsigned flags = 0, bit = 4;
     for (int b = 0; b < 2; b++)
@@ -28,13 +34,15 @@ static unsigned flags_of(const mw_model *m, const double *o, double curvature_mi
     return flags;
 }
 
-int mw_impossible(const char *flag)
+static inline int mwi_impossible(const char *flag)
 {
-    return strcmp(flag, "interference") == 0 || strcmp(flag, "spurious_sheet") == 0 || strcmp(flag, "not_first") == 0;
+    return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
+           || mwi_same_text(flag, "not_first");
 }
 
-const char *mw_flag(const mw_model *m, int bit)
+static inline const char *mwi_flag(const mw_model *m, int bit)
 {
+    if (bit < 0) return NULL;
     if (bit == 0) return "undercut";
     if (bit == 1) return "interference";
     bit -= 2;
@@ -43,12 +51,13 @@ const char *mw_flag(const mw_model *m, int bit)
     return NULL;
 }
 
-int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
+/* Contact geometry at x; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
+static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
     m->observe(s, x, o);
     const double *pinion = o, *wheel = o + 6; /* point and normal of each, fixed frame */
     const double *e = o + m->geometry, *gap = e + 12, *curvature = gap + 3;
-    memset(c, 0, sizeof *c);
+    c->distance = c->misfit = 0.0;
     for (int i = 0; i < 3; i++) {
         c->point[i] = 0.5 * (pinion[i] + wheel[i]);
         c->normal[i] = pinion[3 + i];
@@ -59,16 +68,13 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
     c->misfit = sqrt(c->misfit);
     c->curvature_min = curvature[0];
     c->curvature_max = curvature[1];
-    major_direction(gap, e, c->major);
+    mwi_major_direction(gap, e, c->major);
     c->lever_pinion = curvature[2];
     c->lever_wheel = curvature[3];
     c->ratio = curvature[4];
-    c->line = fabs(c->curvature_min) <= LINE_SHARE * fabs(c->curvature_max);
-    c->flags = flags_of(m, o, c->curvature_min, c->line);
+    c->line = mwi_abs(c->curvature_min) <= MWI_LINE_SHARE * mwi_abs(c->curvature_max);
+    c->flags = mwi_flags_of(m, o, c->curvature_min, c->line);
     return c->line ? MW_LINE_CONTACT : MW_CONVERGED;
 }
 
-void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o)
-{
-    for (size_t k = 0; k < n; k++, q += parameters, o += outputs) flank(s, q, o);
-}
+#endif
