@@ -7,9 +7,10 @@ from dataclasses import asdict
 
 import mpmath
 
-from derive import newton
+from derive.language.description import prefix, rules, sources
 from derive.language.symbols import interface_unit
-from derive.tape import Stage
+from derive.passes import sample
+from derive.program.tape import Stage
 
 GENERATOR = "0.1.0"
 
@@ -39,6 +40,9 @@ def describe(plan, provenance):
         "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
+        "reference_angle": prefix(drive.reference_angle),
+        "proportions": rules(drive.proportions),
+        "sources": sources(drive),
         "together": [list(group) for group in drive.together],
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,
@@ -138,8 +142,8 @@ def self_test(plan):
     """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
     reaches ``x``. Hex floats.
     """
-    inputs = newton.in_double(plan.sample)
-    start = newton.beside(plan)
+    inputs = sample.in_double(plan.sample)
+    start = sample.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),

@@ -7,10 +7,14 @@ last use of a value is (list scheduling).
 
 import heapq
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import replace
+
+from derive.passes import check
+from derive.program.routine import Routine
 
 #: Cycles until a result can be used, on a current desktop or server processor; only the proportions matter.
 _LATENCY = {
+    "fma": 4, "fms": 4, "fnma": 4,
     "add": 4, "sub": 4, "mul": 4, "div": 24, "sqrt": 30, "neg": 1, "sign": 4, "sin": 56, "cos": 56, "atan2": 120,
 }  # fmt: skip
 
@@ -27,19 +31,34 @@ _AHEAD = 4
 _REGISTER = 30
 
 
-@dataclass(frozen=True)
-class Operation:
-    """An operation as it is printed; the factors of a ``product`` that it takes come first among its arguments."""
+def order(routine: Routine) -> Routine:
+    """The routine in the order in which it is printed."""
+    return _reordered(routine, [i for _, i in latency_order(dict(routine.steps), routine.outputs)])
 
-    op: str
-    args: tuple[int, ...]
-    product: int | None = None
+
+def interleaved(routine: Routine, lags):
+    """Pairs (copy, node) in the order in which copies of the routine are printed side by side."""
+    pairs = latency_order(dict(routine.steps), routine.outputs, lags)
+    for copy in range(len(lags)):
+        _reordered(routine, [i for k, i in pairs if k == copy])
+    return pairs
+
+
+def _reordered(routine, nodes):
+    """The routine in the order of these nodes; of sine and cosine of one argument the first stands for both."""
+    program, turned = dict(routine.steps), {}
+    for i, step in routine.steps:
+        if step.op in ("sin", "cos"):
+            turned.setdefault(step.args, []).append((i, step))
+    alone = ([(i, program[i])] if program[i].op not in ("sin", "cos") else turned[program[i].args] for i in nodes)
+    steps = tuple(step for steps in alone for step in steps)
+    return check.same("order", routine, replace(routine, steps=steps))
 
 
 def latency_order(program, outputs, lags=(0,)):
     """Pairs (copy, node) of a program, each after its arguments, the most urgent first.
 
-    ``program`` holds the :class:`Operation` of each node, in any order of evaluation; of sine and cosine of one
+    ``program`` holds the operation of each node, in any order of evaluation; of sine and cosine of one
     argument the first stands for both. Urgent is what a long chain waits for, and what is the last to use a value.
     The program is printed once for each of ``lags``, copy beside copy; a copy's operations count as so many cycles
     less urgent.

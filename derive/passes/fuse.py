@@ -4,8 +4,29 @@ The choice is part of the program, not left to a compiler: compiled with fusing,
 bits; without, the text means product and sum, and gives the same bits on every machine.
 """
 
+from dataclasses import replace
+
+from derive.passes import check
+from derive.program.routine import Operation, Routine
+
 #: Sums that take a product as either argument.
 _SUMS = {"add", "sub"}
+
+
+def fuse(routine: Routine) -> Routine:
+    """The routine with sums that take products; these products are no operations of their own."""
+    taken = fused_products(routine.tape, [i for i, _ in routine.steps], routine.outputs)
+    inside = set(taken.values())
+    steps = tuple((i, _fused(routine.tape, i, step, taken.get(i))) for i, step in routine.steps if i not in inside)
+    return check.same("fuse", routine, replace(routine, steps=steps))
+
+
+def _fused(tape, i, step, product):
+    if product is None:
+        return step
+    first, second = step.args
+    op = "fma" if step.op == "add" else "fms" if first == product else "fnma"
+    return Operation(op, (*tape.nodes[product].args, second if first == product else first), product)
 
 
 def fused_products(tape, order, outputs):

@@ -11,13 +11,14 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive import conditions, geometry, linearise, newton, pivots
-from derive.completion import ParameterTape, SystemTape, lower_system, on_parameters
-from derive.directional import Derivatives
 from derive.language.drive import Body, Drive, System
 from derive.language.limits import singular_function
 from derive.language.origin import STEP_SIZE, Origin
-from derive.tape import Lowering, Stage, Tape
+from derive.passes import check, geometry, guards, linearise, pivot_order, sample
+from derive.passes.completion import ParameterTape, SystemTape, lower_system, on_parameters
+from derive.passes.directional import Derivatives
+from derive.passes.guards import DesignGuard
+from derive.program.tape import Lowering, Stage, Tape
 
 #: What the instantaneous ratio divides by.
 LEVER = Origin("derivation/quotient", "lever arm of the wheel")
@@ -83,7 +84,7 @@ class Schedule:
     """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
 
     ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
-    contact of the sample design (symbol → number, see :mod:`derive.newton`).
+    contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
     """
 
     drive: Drive
@@ -102,7 +103,7 @@ class Schedule:
     start_guess: list[int] = field(default_factory=list)
     start_scales: list[int] = field(default_factory=list)
     start_solution: list[int] = field(default_factory=list)
-    guards: list[conditions.DesignGuard] = field(default_factory=list)
+    guards: list[DesignGuard] = field(default_factory=list)
     tests: dict = field(default_factory=dict)
     observed: list[Output] = field(default_factory=list)
     bodies: dict = field(default_factory=dict)
@@ -122,7 +123,7 @@ class Schedule:
 
     @property
     def placement(self):
-        """The function that places both bodies: see :func:`derive.geometry.placement`."""
+        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
         return self.functions[0]
 
     @property
@@ -152,10 +153,12 @@ def schedule(drive):
     plan.sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
     plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
     plan.jacobian = linearise.jacobian(tape, plan.linear)
+    check.derives("linearise", tape, plan.residual, [plan.lower(u) for u in plan.unknowns], plan.jacobian)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
-    plan.sample = newton.sample_contact(plan)
-    plan.step, plan.change = pivots.newton_step(plan)
+    plan.sample = sample.sample_contact(plan)
+    plan.step, plan.change = pivot_order.newton_step(plan)
+    check.solves("pivot order", tape, plan.jacobian, plan.change, plan.residual)
     with tape.within(STEP_SIZE):
         plan.weight = [tape.div(tape.constant(1), s) for s in plan.scales]
     _observe(plan)
@@ -170,8 +173,8 @@ def schedule(drive):
     plan.functions = [_function(plan, function) for function in functions]
     plan.along = _along(plan)
     _assign_state(plan)
-    plan.guards = conditions.design_guards(plan)
-    plan.tests = conditions.tests(plan)
+    plan.guards = guards.design_guards(plan)
+    plan.tests = guards.tests(plan)
     return plan
 
 

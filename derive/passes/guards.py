@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from functools import cache, reduce
 from operator import or_
 
-from derive.formula import formula
 from derive.language.origin import ARCCOSINE, PARTIAL
-from derive.quotients import by_reciprocal
-from derive.tape import Lowering, Stage, Tape
+from derive.passes.quotients import by_reciprocal
+from derive.program.formula import formula
+from derive.program.tape import Lowering, Stage, Tape
 
 #: What answers where a condition fails, by the name under which side conditions refer to it.
 GUARDS = {
@@ -389,7 +389,7 @@ def side_conditions(plan, evaluated):
 
 
 def _condition(f, i, shown):
-    """The condition of a partial operation to read; ``shown`` writes a node as :func:`~derive.formula.formula` does."""
+    """The condition of a partial operation to read; ``shown`` writes a node as :mod:`derive.program.formula` does."""
     tape, origin = f.tape, f.tape.origins[i]
     node = tape.nodes[i]
 

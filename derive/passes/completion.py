@@ -1,13 +1,13 @@
 """Schedule of what completes a design: rules, and design systems as functions of parameters alone.
 
-Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.newton`.
+Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.passes.sample`.
 """
 
 from dataclasses import dataclass
 
 from derive.language.drive import PATH, DesignSystem
 from derive.language.limits import singular_function
-from derive.tape import Lowering, Stage, Tape
+from derive.program.tape import Lowering, Stage, Tape
 
 
 @dataclass(frozen=True)

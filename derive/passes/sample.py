@@ -2,10 +2,10 @@
 
 import mpmath
 
-from derive.completion import lower_system
 from derive.language.drive import PATH
 from derive.language.symbols import Table
-from derive.tape import Lowering, Stage, Tape
+from derive.passes.completion import lower_system
+from derive.program.tape import Lowering, Stage, Tape
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40
@@ -75,6 +75,14 @@ def sample_contact(plan):
     """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS):
         return solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
+
+
+def observation(plan):
+    """What is observed of the sample's contact: name → numbers."""
+    nodes = [i for output in plan.observed for i in output.nodes]
+    with mpmath.workdps(DIGITS):
+        numbers = iter(plan.tape.evaluate(nodes, plan.sample, mpmath))
+    return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
 
 
 def in_double(inputs):

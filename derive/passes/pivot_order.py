@@ -1,13 +1,13 @@
 """One fused Newton step: x − J⁻¹R as straight-line operations with a pivot order chosen offline.
 
-The system solved is the one in the unknowns and the angles (see :mod:`derive.linearise`), sparser than J.
+The system solved is the one in the unknowns and the angles (see :mod:`derive.passes.linearise`), sparser than J.
 
 The order is found at a sample solution: among the entries that are large enough to be stable, the one that costs
 least fill (Markowitz). The runtime checks the step and falls back on complete pivoting where the order fails.
 """
 
-from derive import newton
 from derive.language.origin import ELIMINATION, Origin
+from derive.passes import sample
 
 #: A pivot must reach this share of the largest scaled entry left in its row.
 STABLE_SHARE = 0.1
@@ -16,7 +16,7 @@ STABLE_SHARE = 0.1
 def newton_step(plan):
     """Nodes of the updated unknowns and of their changes."""
     tape, linear = plan.tape, plan.linear
-    order = _pivot_order(plan, newton.in_double(plan.sample))
+    order = _pivot_order(plan, sample.in_double(plan.sample))
     right = [*plan.residual, *[tape.constant(0)] * linear.angles]
     changes = _solve(tape, linear.matrix, right, order)[: linear.unknowns]
     unknowns = [plan.lower(u) for u in plan.unknowns]
