@@ -136,6 +136,42 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
  * (normals parallel: both bodies on the same side) or MW_DIVERGED. */
 int mw_touch(const mw_model *m, const double *x, const double *o);
 
+/* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
+ * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. order[vertices]: every
+ * vertex once, from one near contact outwards; parent[vertex]: a neighbour that comes earlier, -1 for the first. bound:
+ * the parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
+typedef struct mw_flank_mesh {
+    size_t vertices, triangles;
+    const double *q;
+    const int *corner, *order, *parent;
+    const unsigned char *open;
+    int bound;
+    const double *wheel_sizes, *pinion_sizes;
+} mw_flank_mesh;
+
+/* Where two bounded flanks touch first. wheel_turn: how far the wheel has turned then; lever: mm of normal approach per
+ * rad. limit: what holds the place, on flank member (0 pinion, 1 wheel): 0 the singular line, 1 + number of a margin, -1
+ * none: two of -1 are a tangency. point, normal (out of the pinion): fixed frame. met: vertices that meet the pinion's
+ * bounded flank; open: those of them where nothing ends the flank. unresolved: a further extreme that the search could not
+ * exclude would overlap by this at most, mm. */
+typedef struct mw_first {
+    int status, limit[2], member[2];
+    double wheel_turn, lever, q_wheel[3], q_pinion[3], point[3], normal[3], unresolved;
+    size_t met, open;
+} mw_first;
+
+/* Where the flanks of a pair touch first as the wheel comes from the side on which the gap is open: sense = +1, from
+ * larger angles, or -1. pinion[steps*12], wheel[steps*12]: placements of the bodies, three rows of four, the last of them
+ * those asked for; the wheel turns about its own z by turn (+1 or -1) times its angle. start: parameters of the wheel's and
+ * of the pinion's flank and turn of the wheel where the two meet at the first placements, nearly; further placements lead
+ * from there in steps. work[mw_first_contact_work(vertices)]. Returns MW_CONVERGED, MW_NO_CONTACT where no point of the
+ * wheel's flank meets the pinion's or where both go on with nothing to end them, MW_DIVERGED where the start does not lead
+ * to the flank, or MW_BAD_INPUT for flanks of another kind. */
+int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                     const double *wheel, size_t steps, double turn, double sense, const double *start, double *work,
+                     mw_first *found);
+size_t mw_first_contact_work(size_t vertices);
+
 /* Name of flag number bit of mw_contact.flags, NULL where there is none. */
 const char *mw_flag(const mw_model *m, int bit);
 

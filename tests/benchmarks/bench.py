@@ -28,6 +28,7 @@ CASES = (
     ("recess-action-full", 0.3, 1.75e-3),
     ("spherical-table-2-3", -0.1, 1e-5),
     ("face-worm-cylindrical-convex", -1.0, 1e-4),
+    ("helical-crowned", -0.1, 1e-5),
 )
 POINTS = 20000
 

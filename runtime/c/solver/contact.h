@@ -36,7 +36,8 @@ static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double c
 
 static inline int mwi_impossible(const char *flag)
 {
-    return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet");
+    return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
+           || mwi_same_text(flag, "not_first");
 }
 
 static inline const char *mwi_flag(const mw_model *m, int bit)
