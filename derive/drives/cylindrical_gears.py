@@ -12,6 +12,7 @@ import sympy as sp
 
 from derive.drives import cylindrical_gears_keys as k
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
+from derive.drives.cylindrical_gears_rexs import EXCHANGE
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, placement, translation
 from derive.language.choice import excess, is_zero, only_where_zero
@@ -139,6 +140,7 @@ def cylindrical_gears():
         sample_angle=0.03,
         pinion_teeth=PINION.teeth.key,
         loading=Loading(pairs=3, torque_on="pinion"),
+        exchange=EXCHANGE,
         sources=(
             Source("ISO", "ISO 21771, Gears: Cylindrical involute gears and gear pairs: Concepts and geometry", 2007),
             Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 13 to 16"),

@@ -1,27 +1,35 @@
 """Print the table of families: what is known of every drive before it is derived.
 
-``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats and the ``drives``: for
-each what its own description says (:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``,
-as places in that list. Checks, JSON Schema and errors offer from it what is derived and compiled on first use.
+``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats, the ``exchange`` with
+other programs (:mod:`derive.exchange.rexs`) and the ``drives``: for each what its own description says
+(:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks, JSON Schema and errors offer from it what is derived and compiled on first use.
 """
 
 import json
+from itertools import groupby
 
 from derive.emit import metadata
+from derive.exchange import rexs
 
 
 def table(drives):
     """The table of these drives (:class:`~derive.language.drive.Drive`), as plain data."""
     families = {}
-    for drive in drives:
-        family = families.setdefault(drive.family, {"parameters": [], "drives": []})
-        family["drives"].append(_drive(drive, family["parameters"]))
+    for name, members in groupby(drives, lambda drive: drive.family):
+        members, parameters = list(members), []
+        listed = [_drive(drive, parameters) for drive in members]
+        families[name] = {"parameters": parameters, "exchange": rexs.table(members), "drives": listed}
     return {"schema": "meshwright.families/1", "families": families}
 
 
 def text(families):
-    """The file of a table."""
-    return json.dumps(families, indent=1, ensure_ascii=False) + "\n"
+    """The file of a table; an exchange, whose expressions are nested, takes a line."""
+    compact = {name: json.dumps(f["exchange"], ensure_ascii=False) for name, f in families["families"].items()}
+    marked = {name: family | {"exchange": f"@{name}"} for name, family in families["families"].items()}
+    written = json.dumps(families | {"families": marked}, indent=1, ensure_ascii=False) + "\n"
+    for name, line in compact.items():
+        written = written.replace(f'"exchange": "@{name}"', f'"exchange": {line}')
+    return written
 
 
 def _drive(drive, known):

@@ -20,7 +20,7 @@ def parser():
     top.add_argument("--drives", action="append", default=[], metavar="DIR", help="folder of drives to search first")
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for module in commands.ALL:
-        name = module.__name__.rsplit(".", 1)[-1]
+        name = getattr(module, "NAME", module.__name__.rsplit(".", 1)[-1])
         summary = module.__doc__.strip().splitlines()[0]
         sub = subparsers.add_parser(name, help=summary, description=module.__doc__)
         module.add_arguments(sub)

@@ -1,5 +1,23 @@
-"""Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``."""
+"""Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``.
 
-from meshwright.commands import drives, explain, fe, limits, loaded, ratio, report, schema, show, surface, sweep, tca
+A command is called as its module is, or by the module's ``NAME``.
+"""
 
-ALL = (drives, show, explain, tca, surface, ratio, limits, loaded, fe, sweep, report, schema)
+from meshwright.commands import (
+    drives,
+    explain,
+    fe,
+    limits,
+    loaded,
+    ratio,
+    report,
+    rexs_export,
+    rexs_import,
+    schema,
+    show,
+    surface,
+    sweep,
+    tca,
+)
+
+ALL = (drives, show, explain, tca, surface, ratio, limits, loaded, fe, sweep, report, schema, rexs_import, rexs_export)

@@ -19,7 +19,8 @@ class Family:
     ``parameters`` are described as in a drive's own description, each once; ``required`` where every drive requires it,
     ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
     key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows.
-    ``handed``: it has a left hand.
+    ``handed``: it has a left hand. ``listed``: drive → its own parameters, in the order of its parameter vector.
+    ``exchange``: what of it a neutral file holds (:mod:`meshwright.rexs`), None if nothing.
     """
 
     name: str
@@ -27,6 +28,8 @@ class Family:
     variants: dict
     variant_defaults: dict
     handed: bool
+    listed: dict
+    exchange: dict | None
 
     @classmethod
     def of(cls, name, drives):
@@ -39,7 +42,10 @@ class Family:
             for parameter in named[drive]["parameters"]:
                 listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
-        return cls(name, parameters, variants, defaults, any(drive["handed"] for drive in named.values()))
+        listed = {name: drive["parameters"] for name, drive in named.items()}
+        exchange = next((drive["exchange"] for drive in drives if drive.get("exchange")), None)
+        handed = any(drive["handed"] for drive in named.values())
+        return cls(name, parameters, variants, defaults, handed, listed, exchange)
 
 
 def _joint(family, place, found, everywhere):
@@ -74,7 +80,8 @@ def _drives_in(folder):
     if table.exists():
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
-                yield drive | {"parameters": [family["parameters"][k] for k in drive["parameters"]]}
+                own = [family["parameters"][k] for k in drive["parameters"]]
+                yield drive | {"parameters": own, "exchange": family["exchange"]}
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
     else:

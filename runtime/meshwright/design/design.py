@@ -18,7 +18,7 @@ import pydantic
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, pointer, text
 from meshwright.design import description as metadata
-from meshwright.design import schema
+from meshwright.design import expression, schema
 from meshwright.design.mirror import Mirror
 
 PACKAGED = Path(__file__).parent.parent / "designs"
@@ -198,15 +198,20 @@ def _shown(parameter, number):
     return words.get(number, number / parameter["factor"])
 
 
-def check(tables):
-    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+def validated(tables):
+    """Family and tables of a design, each key checked by itself; raises :class:`DesignError`."""
     known = metadata.families()
     if "drive" not in tables:
         raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
     family = tables["drive"]
     if not isinstance(family, str) or family not in known:
         raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
-    checked = _validated(family, tables)
+    return family, _validated(family, tables)
+
+
+def check(tables):
+    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+    family, checked = validated(tables)
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
     _check_needed(description, checked)
@@ -222,6 +227,41 @@ def check(tables):
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
     return Design(checked, description, parameters, _sizes(c, parameters), checked["design"].get("hand") == "left")
+
+
+def by_rules(tables):
+    """A design without its compiled drive: tables with every word filled in, and its parameters by their symbols.
+
+    Numbers are in inner units, NaN where the design leaves them open or a design system finds them. What the drive's
+    tools have to say of each other is not checked; raises :class:`DesignError` for all else.
+    """
+    family, checked = validated(tables)
+    known = metadata.families()[family]
+    words = _follow(known, checked["design"])
+    drive = next(name for name, variant in known.variants.items() if all(words[k] in v for k, v in variant.items()))
+    description = {
+        "title": f"{family} drive", "family": family, "parameters": known.listed[drive], "together": [],
+        "exclusive": known.exchange["exclusive"],
+    }  # fmt: skip
+    for check_of_keys in (_check_needed, _check_order):
+        check_of_keys(description, checked)
+    _check_exclusive(description, tables["design"])
+    symbols = {p["name"]: math.nan for p in known.parameters}
+    given = zip(description["parameters"], _vector(description, checked), strict=True)
+    symbols |= {p["name"]: float(number) for p, number in given}
+    symbols = expression.completed(known.exchange["rules"], symbols)
+    for guard in known.exchange["guards"]:
+        if expression.value(guard["positive"], symbols) <= 0.0:
+            raise _guard_error(guard, checked)
+    return checked, symbols
+
+
+def _follow(family, words):
+    """Words of the design, in place; those left out follow the word that they default to."""
+    for key, source in family.variant_defaults.items():
+        if words[key] is None:
+            words[key] = words[source]
+    return words
 
 
 def _validated(family, tables):
@@ -282,11 +322,7 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    words = checked["design"]
-    for key, source in metadata.families()[family].variant_defaults.items():
-        if words[key] is None:
-            words[key] = words[source]
-    return metadata.choose(family, words)
+    return metadata.choose(family, _follow(metadata.families()[family], checked["design"]))
 
 
 def _check_exclusive(description, given):
