@@ -7,7 +7,7 @@ READY  := $(VENV)/.ready
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
 
-.PHONY: setup generate audit bench build check examples run lint test solver cmake test-fe
+.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe
 
 setup: $(READY)
 
@@ -35,6 +35,12 @@ generate: setup
 audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
+
+# Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
+kernel: generate
+	@command -v coqc >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
+		&& apt-get update -qq && apt-get install -y -qq coq libcoq-coquelicot; } >/dev/null 2>&1 || true
+	$(PY) -m derive.audit kernel
 
 # The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
 # with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them.

@@ -1,7 +1,7 @@
-"""``python -m derive.audit verify|explain EQ|html``: check the committed record, walk from an equation or a C function
-to its sources, write the pages.
+"""``python -m derive.audit verify|kernel|explain EQ|html``: check the committed record, have its proofs accepted by
+Coq, walk from an equation or a C function to its sources, write the pages.
 
-Exit status: 0 done, 1 the record is rejected, 2 bad input.
+Exit status: 0 done, 1 the record or a proof is rejected, 2 bad input.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import argparse
 import json
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
 from derive.audit import check, check_code, explain
@@ -24,6 +25,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--generated", type=Path, default=GENERATED, help="folder of generated files")
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("verify", help="recompute every hash and re-check every certificate")
+    commands.add_parser("kernel", help="have every proof accepted by Coq's kernel").add_argument(
+        "--output", type=Path, help="folder that keeps the Coq files; default: a temporary one"
+    )
     commands.add_parser("explain", help="walk back to the sources").add_argument(
         "name", metavar="EQ", help="an equation id, the name of a generated function, or a drive"
     )
@@ -34,6 +38,8 @@ def main(arguments: list[str] | None = None) -> int:
     folder = options.generated / "audit"
     if options.command == "verify":
         return max(check.main([str(folder)]), check_code.main([str(folder)]))
+    if options.command == "kernel":
+        return _kernel(folder, options.output)
     if options.command == "explain":
         return _explain(options.generated, options.name)
     return _html(options.generated, options.output or folder)
@@ -49,15 +55,36 @@ def _explain(generated: Path, name: str) -> int:
     return 0
 
 
+def _kernel(folder: Path, output: Path | None) -> int:
+    from derive.audit import kernel
+
+    if not kernel.available():
+        print(kernel.MISSING, file=sys.stderr)
+        return 0
+    try:
+        with tempfile.TemporaryDirectory() as temporary:
+            report = kernel.check_record(check.read_record(folder), output or Path(temporary))
+    except (check.Rejected, kernel.Refused) as reason:
+        print(f"REJECTED: {reason}", file=sys.stderr)
+        return 1
+    total, spent = sum(report.theorems.values()), sum(report.seconds.values())
+    print(f"{total} theorems accepted in {spent:.0f} CPU s; axioms: {', '.join(sorted(report.axioms))}")
+    return 0
+
+
 def _html(generated: Path, output: Path) -> int:
+    from derive import compiler
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
     texts = {
         name: (generated / name).read_text(encoding="utf-8") for name in named if not name.startswith("audit/")
     }
-    for name, text in record.files(record.ledger(), texts).items():
+    written = record.files(record.ledger(), texts)
+    for name, text in written.items():
         replace_text(output / Path(name).name, text)
+    if output.resolve() == (generated / "audit").resolve():
+        replace_text(generated / "manifest.json", compiler.manifest({**texts, **written}))
     print(output / "index.html")
     return 0
 

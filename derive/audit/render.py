@@ -16,8 +16,8 @@ GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "zeta": "ζ", "eta": "η", "theta": "θ", "lam": "λ", "lambda":
         "λ", "mu": "μ", "xi": "ξ", "pi": "π",
     "rho": "ρ", "sigma": "σ", "Sigma": "Σ", "tau": "τ", "phi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "epsilon":
-    "ε", "kappa": "κ", "shaft": "Σ", "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh", "dv": "Δv",
-    "slope": "slope",
+    "ε", "kappa": "κ", "chi": "χ", "shaft": "Σ", "th": "θ", "dgh": "Δγh", "dgv": "Δγv", "dC": "ΔC", "dh": "Δh",
+    "dv": "Δv", "slope": "slope",
 }  # fmt: skip
 SUM, PRODUCT, UNARY, POWER, ATOM = range(5)
 
@@ -330,7 +330,7 @@ def raised(letter: str) -> str:
 LATEX_GREEK = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ":
     r"\lambda", "μ": r"\mu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ":
-    r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "Δγh":
+    r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "χ": r"\chi", "Δγh":
     r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
 }  # fmt: skip
 LATEX_SIGNS = {

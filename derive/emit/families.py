@@ -2,11 +2,11 @@
 
 ``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats, the ``exchange`` with
 other programs (:mod:`derive.exchange.rexs`) and the ``drives``: for each what its own description says
-(:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks, JSON Schema and errors offer from it what is derived and compiled on first use.
+(:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks,
+JSON Schema and errors offer from it what is derived and compiled on first use.
 """
 
 import json
-from itertools import groupby
 
 from derive.emit import metadata
 from derive.exchange import rexs
@@ -14,11 +14,14 @@ from derive.exchange import rexs
 
 def table(drives):
     """The table of these drives (:class:`~derive.language.drive.Drive`), as plain data."""
+    members = {}
+    for drive in drives:
+        members.setdefault(drive.family, []).append(drive)
     families = {}
-    for name, members in groupby(drives, lambda drive: drive.family):
-        members, parameters = list(members), []
-        listed = [_drive(drive, parameters) for drive in members]
-        families[name] = {"parameters": parameters, "exchange": rexs.table(members), "drives": listed}
+    for name, listed in members.items():
+        parameters = []
+        described = [_drive(drive, parameters) for drive in listed]
+        families[name] = {"parameters": parameters, "exchange": rexs.table(listed), "drives": described}
     return {"schema": "meshwright.families/1", "families": families}
 
 

@@ -118,7 +118,7 @@ class Exchange:
 
 def place(parameter):
     """Table and key of a parameter, as reports name it."""
-    return f"{parameter.table.value}.{parameter.key}"
+    return f"{parameter.table}.{parameter.key}"
 
 
 def direct(component, name, parameter, factor=1, **kind):
@@ -164,7 +164,7 @@ def table(drives):
         "attributes": [
             {"component": a.component, "attribute": a.name, **_known(kinds[a.component], a.name),
              "value": [prefix(e) for e in a.value] if isinstance(a.value, tuple) else prefix(a.value),
-             "keys": [place(p) for p in a.parameters], "given": a.given, "agrees": a.agrees}
+             "keys": _keys(a), "given": a.given, "agrees": a.agrees}
             for a in exchange.attributes
         ],
         "words": [
@@ -183,6 +183,12 @@ def table(drives):
                    for g in _common_guards(drives)],
         "exclusive": [list(group) for group in drives[0].exclusive],
     }  # fmt: skip
+
+
+def _keys(written):
+    """The design keys that an attribute holds."""
+    hand = ["design.hand"] if HAND in sp.Tuple(written.value).free_symbols else []
+    return [place(p) for p in written.parameters] + hand
 
 
 def _common_guards(drives):

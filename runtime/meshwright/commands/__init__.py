@@ -1,23 +1,16 @@
-"""Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``.
+"""Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``."""
 
-A command is called as its module is, or by the module's ``NAME``.
-"""
+from importlib import import_module
 
-from meshwright.commands import (
-    drives,
-    explain,
-    fe,
-    limits,
-    loaded,
-    ratio,
-    report,
-    rexs_export,
-    rexs_import,
-    schema,
-    show,
-    surface,
-    sweep,
-    tca,
-)
+#: Command → module, imported when the command is asked for; the order is that of the help.
+MODULES = {
+    name: f"meshwright.commands.{name}"
+    for name in (
+        "drives", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report", "schema",
+    )
+} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
 
-ALL = (drives, show, explain, tca, surface, ratio, limits, loaded, fe, sweep, report, schema, rexs_import, rexs_export)
+
+def module(name):
+    """The module of a command."""
+    return import_module(MODULES[name])

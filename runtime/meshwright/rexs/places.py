@@ -20,9 +20,8 @@ def stage_of(document, wanted=None):
         found = [chosen]
     if not found:
         others = ", ".join(str(c) for c in document.components.values() if c.type.endswith("_stage")) or "no stage"
-        raise RexsError(
-            document.place, f"there is no {' or '.join(stages)}: it has {others}", "name a file with one of these stages"
-        )
+        reason = f"there is no {' or '.join(stages)}: it has {others}"
+        raise RexsError(document.place, reason, "name a file with one of these stages")
     if len(found) > 1:
         ids = ", ".join(map(str, found))
         raise RexsError(document.place, f"several stages: {ids}", "choose one by --stage ID")

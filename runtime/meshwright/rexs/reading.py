@@ -10,7 +10,7 @@ from meshwright.design.expression import completed, value
 from meshwright.rexs import values
 from meshwright.rexs.document import RexsError
 from meshwright.rexs.places import bound, exchanges, stage_of
-from meshwright.rexs.report import assumed_of, report
+from meshwright.rexs.report import assumed_of, full, report, words_of
 
 #: Redundant sizes agree to this, relative, or of a unit (mm, degree, 1) where they are smaller.
 AGREEMENT = 1e-6
@@ -44,9 +44,8 @@ def design_of(document, stage=None):
     found = _found(document, family, bound(document, table, component))
     read, doubts = _read(family, found.numbers)
     words, other_words = _chosen_words(document, table, found)
-    if family.handed and "hand" in read:
-        words["hand"] = "left" if read["hand"] < 0 else "right"
-    tables = _tables(family, component.name, read, words)
+    hand = {"hand": "left" if read["hand"] < 0 else "right"} if family.handed and "hand" in read else {}
+    tables = _tables(family, component.name, read, words | hand)
     _check_complete(document, family, found, tables)
     try:
         _, symbols = designs.by_rules(tables)
@@ -63,8 +62,8 @@ def _found(document, family, components):
         number = component and values.number(document.place, component, spec)
         if number is not None:
             symbol = f"{spec['component']}.{spec['attribute']}"
-            parts = {f"{symbol}.{k}": x for k, x in enumerate(number)} if isinstance(number, tuple) else {symbol: number}
-            numbers |= parts
+            array = enumerate(number) if isinstance(number, tuple) else ()
+            numbers |= {f"{symbol}.{k}": x for k, x in array} or {symbol: number}
     for spec in family.exchange["words"]:
         component = components.get(spec["component"])
         word = component and values.word(document.place, component, spec)
@@ -120,7 +119,7 @@ def _chosen_words(document, table, found):
         for spec, component, word in entries[1:]:
             if word != chosen[key]:
                 where = f"{component}, {spec['attribute']}"
-                others.append({"key": f"design.{key}", "value": word, "reason": f"{where}: not taken"})
+                others.append({"key": full(key), "value": word, "reason": f"{where}: not taken"})
     return chosen, others
 
 
@@ -141,7 +140,9 @@ def _tables(family, name, read, words):
         left_out = p["table"] == "design" and p["key"] in dropped or f"{p['table']}.{p['key']}" in unused
         if p["name"] in read and not left_out:
             tables.setdefault(p["table"], {})[p["key"]] = _in_key_unit(p, read[p["name"]])
-    tables.setdefault("design", {}).update(words)
+    for place, word in words.items():
+        table_name, key = metadata.table_and_key(place)
+        tables.setdefault(table_name, {})[key] = word
     return tables
 
 
@@ -158,12 +159,13 @@ def _in_key_unit(p, number):
 
 def _check_complete(document, family, found, tables):
     """Every key that the design cannot do without is in the file."""
-    missing = [f"{p['table']}.{p['key']}" for p in _needed(family, tables) if p["key"] not in tables.get(p["table"], {})]
+    needed = (f"{p['table']}.{p['key']}" for p in _needed(family, tables))
+    missing = [place for place in needed if not _has(tables, place)]
     groups = [[f"design.{key}" for key in group] for group in family.exchange["exclusive"]]
     missing_groups = [group for group in groups if not any(_has(tables, place) for place in group)]
     missing_words = [
-        [f"design.{key}"] for variant in family.variants.values() for key in variant
-        if key not in family.variant_defaults and key not in tables["design"]
+        [full(place)] for variant in family.variants.values() for place in variant
+        if place not in family.variant_defaults and not _has(tables, full(place))
     ]  # fmt: skip
     for places in ([place] for place in missing), missing_groups, missing_words:
         for keys in places:
@@ -171,10 +173,8 @@ def _check_complete(document, family, found, tables):
 
 
 def _needed(family, tables):
-    words = {**tables["design"]}
-    for key, source in family.variant_defaults.items():
-        words.setdefault(key, words.get(source))
-    drives = [name for name, variant in family.variants.items() if all(words.get(k) in v for k, v in variant.items())]
+    words = words_of(family, tables)
+    drives = [name for name, variant in family.variants.items() if all(words[k] in v for k, v in variant.items())]
     listed = family.listed[drives[0]] if drives else family.parameters
     return [p for p in listed if p["required"] and p["table"] != "flank"]
 
@@ -188,7 +188,7 @@ def _absent(document, found, keys):
     """The error for keys of which the file has none."""
     table = found.family.exchange
     specs = [s for s in table["attributes"] if set(s["keys"]) & set(keys)]
-    specs += [s for s in table["words"] if f"design.{s['key']}" in keys]
+    specs += [s for s in table["words"] if full(s["key"]) in keys]
     kinds = {c["name"]: c["type"] for c in table["components"]}
     here = [s for s in specs if s["component"] in found.components] or specs
     spec = here[0]
@@ -224,12 +224,12 @@ def _check_agreement(document, table, found, symbols):
 
 
 def _report(document, table, found, tables, symbols, doubts):
-    mapped, seen, unused = [], set(), _unused(found.family, tables["design"])
+    mapped, seen, unused = [], set(), _unused(found.family, words_of(found.family, tables))
     for spec in (*table["attributes"], *table["words"]):
         component = found.components.get(spec["component"])
         if component is None or spec["attribute"] not in component.attributes:
             continue
-        keys = spec.get("keys") or [f"design.{spec['key']}"]
+        keys = spec.get("keys") or [full(spec["key"])]
         for key in (key for key in keys if key not in unused):
             mapped.append({"key": key, "component": component.type, "id": component.id, "attribute": spec["attribute"]})
             seen.add((component.id, spec["attribute"]))

@@ -2,6 +2,7 @@
 
 import math
 
+from meshwright.design import description as metadata
 from meshwright.rexs import values
 
 SCHEMA = "meshwright.rexs/1"
@@ -18,10 +19,7 @@ def assumed_of(family, tables, symbols, mapped, defaults):
     ``symbols`` are the design's parameters, complete, by symbol.
     """
     table = family.exchange
-    words = {**tables["design"]}
-    for key, source in family.variant_defaults.items():
-        if words.get(key) is None:
-            words[key] = words.get(source)
+    words = words_of(family, tables)
     held = {entry["key"] for entry in mapped} | {place(t, k) for t, k in _keys(tables)}
     found = [
         {"key": a["key"], "value": _shown(family, tables, symbols, a["key"]), "reason": a["reason"]}
@@ -37,6 +35,20 @@ def assumed_of(family, tables, symbols, mapped, defaults):
 def place(table, key):
     """The name of a key in a report."""
     return f"{table}.{key}"
+
+
+def full(name):
+    """The name of a word's key in a report: with its table."""
+    return place(*metadata.table_and_key(name))
+
+
+def words_of(family, tables):
+    """The words that choose the drive, by their keys; what the tables leave out is the word that it defaults to."""
+    places = {place for variant in family.variants.values() for place in variant}
+    words = {key: _value(tables, full(key)) for key in places}
+    for key, source in family.variant_defaults.items():
+        words[key] = words[key] or words.get(source, source)
+    return words
 
 
 def _keys(tables):

@@ -15,7 +15,7 @@ from meshwright.design.expression import value
 from meshwright.rexs import values
 from meshwright.rexs.document import NAMESPACE, spliced
 from meshwright.rexs.places import bound, stage_of
-from meshwright.rexs.report import assumed_of, place, report
+from meshwright.rexs.report import assumed_of, full, place, report, words_of
 
 VERSION = "2.0"
 
@@ -98,8 +98,7 @@ def _texts(family, checked, symbols):
         else:
             texts.setdefault(spec["component"], {})[spec["attribute"]] = Text(spec, shown)
     for spec in family.exchange["words"]:
-        key = spec["key"]
-        word = checked["design"][key] or checked["design"][family.variant_defaults[key]]
+        word = words_of(family, checked)[spec["key"]]
         texts.setdefault(spec["component"], {})[spec["attribute"]] = Text(spec, spec["words"][word])
     return texts, refused
 
@@ -119,6 +118,11 @@ class _Open(dict):
 
     def __missing__(self, symbol):
         return math.nan
+
+
+def _held(spec):
+    """The keys that an attribute holds."""
+    return spec.get("keys") or [full(spec["key"])]
 
 
 def _given(checked, key):
@@ -195,7 +199,7 @@ def _edit(document, component, text, checked):
     """The edits that make an attribute of the file hold the design's value; none where it holds it already."""
     spec, element = text.spec, component.attributes.get(text.spec["attribute"])
     if element is None:
-        if not any(_given(checked, key) for key in spec.get("keys", [f"design.{spec.get('key')}"])):
+        if not any(_given(checked, key) for key in _held(spec)):
             return []
         return [_insertion(document, component.element, [text.element()])]
     if _holds(document, component, text):
@@ -265,11 +269,8 @@ def _report(family, checked, symbols, texts, refused, ids):
             mapped += [
                 {"key": key, "component": kind, "id": ident, "attribute": attribute}
                 for attribute, text in entries.items()
-                for key in text.spec.get("keys") or [f"design.{text.spec['key']}"]
+                for key in _held(text.spec)
             ]
-    if "hand" in checked["design"] and any("hand" in str(t.spec["value"]) for e in texts.values()
-                                          for t in e.values() if "value" in t.spec):  # fmt: skip
-        mapped.append({"key": "design.hand", "component": None, "id": None, "attribute": None})
     held = {entry["key"] for entry in mapped}
     absent = family.exchange["absent"]
     keys = [place(table, key) for table, entries in checked.items() if isinstance(entries, dict)
