@@ -82,7 +82,7 @@ def _drives_in(folder):
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
                 own = [family["parameters"][k] for k in drive["parameters"]]
-                yield drive | {"parameters": own, "exchange": family["exchange"]}
+                yield drive | {"parameters": own, "exchange": family.get("exchange")}
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
     else:
