@@ -7,7 +7,7 @@ relations that are allowed come from ``rexs_ids.json``, an extract of the public
 """
 
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 
@@ -97,6 +97,17 @@ class Assumption:
 
 
 @dataclass(frozen=True)
+class Without:
+    """A word of the design for a component of a file that has not this attribute, with the reason."""
+
+    key: str
+    word: str
+    component: str
+    attribute: str
+    reason: str
+
+
+@dataclass(frozen=True)
 class Exchange:
     """A family in REXS. The first component is the stage.
 
@@ -111,6 +122,7 @@ class Exchange:
     words: tuple[Words, ...]
     readings: tuple[Reading, ...]
     assumptions: tuple[Assumption, ...] = ()
+    without: tuple[Without, ...] = ()
     doubtful: tuple[tuple[Quantity, sp.Expr], ...] = ()
     defaults: tuple[tuple[str, str], ...] = ()
     absent: tuple[tuple[str, str], ...] = ()
@@ -174,6 +186,7 @@ def table(drives):
         "readings": [{"symbol": r.target.name, "value": prefix(r.value), "override": r.override}
                      for r in exchange.readings],
         "assumptions": [{"key": a.key, "reason": a.reason, "when": a.when or {}} for a in exchange.assumptions],
+        "without": [asdict(w) for w in exchange.without],
         "doubtful": {symbol.name: float(limit) for symbol, limit in exchange.doubtful},
         "defaults": dict(exchange.defaults),
         "absent": dict(exchange.absent),

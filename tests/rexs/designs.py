@@ -64,8 +64,35 @@ CROSSED = {
     },
 }  # fmt: skip
 
+
+
+def bevel_pair(name, gear, hand):
+    """A bevel pair whose numbers are all different."""
+    pinion = {
+        "point_radius_mm": 74.25, "blade_angle_deg": 18.05, "edge_radius_mm": 0.7, "radial_setting_mm": 74.87,
+        "cradle_angle_deg": 63.94, "tilt_deg": 1.5, "swivel_deg": -21.7, "root_angle_deg": 16.87,
+        "blank_offset_mm": 3.93, "sliding_base_mm": -0.29, "center_to_back_mm": 1.02, "ratio_of_roll": 3.243,
+        "roll_2c": 0.01, "roll_6d": -0.02, "pitch_angle_deg": 18.43, "pitch_apex_mm": 0.11, "face_angle_deg": 20.1,
+        "face_apex_mm": -0.12, "outer_cone_distance_mm": 82.05, "face_width_mm": 25.4,
+    }  # fmt: skip
+    return {
+        "drive": "bevel", "name": name, "flank": "convex",
+        "design": {"pinion_teeth": 12, "gear_teeth": 36, "shaft_angle_deg": 87.5, "offset_mm": 12.7, "hand": hand},
+        "pinion": pinion,
+        "gear": {
+            "point_radius_mm": 77.03, "blade_angle_deg": 22.0, "radial_setting_mm": 72.64, "cradle_angle_deg": 59.23,
+            "root_angle_deg": 67.68, "pitch_angle_deg": 71.57, "face_angle_deg": 72.9,
+            "outer_cone_distance_mm": 82.15, "face_width_mm": 25.5, **gear,
+        },
+        "misalignment": {"offset_mm": 0.01, "pinion_axial_mm": 0.02, "gear_axial_mm": -0.03, "shaft_angle_deg": 0.04},
+    }  # fmt: skip
+
+
+GENERATED = bevel_pair("hypoid, generated gear", {"ratio_of_roll": 1.0517}, "left")
+FORMATE = bevel_pair("hypoid, Formate gear", {"method": "formate"}, "right")
+
 WORM_PAIRS = [worm_pair(worm, hob) for worm in FORMS for hob in FORMS]
-PAIRS = [*WORM_PAIRS, HELICAL, CROSSED]
+PAIRS = [*WORM_PAIRS, HELICAL, CROSSED, GENERATED, FORMATE]
 
 
 def named(tables):

@@ -43,7 +43,7 @@ def design_of(document, stage=None):
     family, table = metadata.families()[name], exchanges()[name]
     found = _found(document, family, bound(document, table, component))
     read, doubts = _read(family, found.numbers)
-    words, other_words = _chosen_words(document, table, found)
+    words, others = _chosen_words(found)
     hand = {"hand": "left" if read["hand"] < 0 else "right"} if family.handed and "hand" in read else {}
     tables = _tables(family, component.name, read, words | hand)
     _check_complete(document, family, found, tables)
@@ -52,7 +52,7 @@ def design_of(document, stage=None):
     except DesignError as error:
         raise _at_attribute(document, table, found, error) from error
     _check_agreement(document, table, found, symbols | {"hand": read.get("hand", 1.0)})
-    return Read(tables, _report(document, table, found, tables, symbols, doubts + other_words))
+    return Read(tables, _report(document, table, found, tables, symbols, doubts + others))
 
 
 def _found(document, family, components):
@@ -111,8 +111,8 @@ def _by_rules(family, read):
     return completed(family.exchange["rules"], {p["name"]: math.nan for p in family.parameters} | read)
 
 
-def _chosen_words(document, table, found):
-    """Words of the design by key, and those that another attribute contradicts."""
+def _chosen_words(found):
+    """Words of the design by key, and what to report of them: contradictions, and what an absence means."""
     chosen, others = {}, []
     for key, entries in found.words.items():
         chosen[key] = entries[0][2]
@@ -120,6 +120,11 @@ def _chosen_words(document, table, found):
             if word != chosen[key]:
                 where = f"{component}, {spec['attribute']}"
                 others.append({"key": full(key), "value": word, "reason": f"{where}: not taken"})
+    for w in found.family.exchange["without"]:
+        component = found.components.get(w["component"])
+        if component and w["attribute"] not in component.attributes:
+            chosen[w["key"]] = w["word"]
+            others.append({"key": full(w["key"]), "value": w["word"], "reason": w["reason"]})
     return chosen, others
 
 
@@ -153,7 +158,7 @@ def _unused(family, words):
 
 
 def _in_key_unit(p, number):
-    shown = values.shortest(number / p["factor"])
+    shown = values.converted(number, p["factor"])
     return round(shown) if p["integer"] else shown
 
 
@@ -256,6 +261,6 @@ def _doubt(family, entry):
     symbol, taken, left = entry
     p = next(p for p in family.parameters if p["name"] == symbol)
     return {
-        "key": f"{p['table']}.{p['key']}", "value": taken / p["factor"],
-        "reason": f"two ways of deriving it differ; {left / p['factor']!r} is not taken",
+        "key": f"{p['table']}.{p['key']}", "value": values.converted(taken, p["factor"]),
+        "reason": f"two ways of deriving it differ; {values.converted(left, p['factor'])!r} is not taken",
     }  # fmt: skip

@@ -20,7 +20,7 @@ def assumed_of(family, tables, symbols, mapped, defaults):
     """
     table = family.exchange
     words = words_of(family, tables)
-    held = {entry["key"] for entry in mapped} | {place(t, k) for t, k in _keys(tables)}
+    held = {"flank"} | {entry["key"] for entry in mapped} | {place(t, k) for t, k in _keys(tables)}
     found = [
         {"key": a["key"], "value": _shown(family, tables, symbols, a["key"]), "reason": a["reason"]}
         for a in table["assumptions"]
@@ -43,12 +43,15 @@ def full(name):
 
 
 def words_of(family, tables):
-    """The words that choose the drive, by their keys; what the tables leave out is the word that it defaults to."""
+    """The words of a design by their keys: those that choose the drive, and its hand.
+
+    What the tables leave out is the word that it defaults to.
+    """
     places = {place for variant in family.variants.values() for place in variant}
     words = {key: _value(tables, full(key)) for key in places}
     for key, source in family.variant_defaults.items():
         words[key] = words[key] or words.get(source, source)
-    return words
+    return words | ({"hand": _value(tables, full("hand")) or family.handed} if family.handed else {})
 
 
 def _keys(tables):
@@ -67,7 +70,7 @@ def _shown(family, tables, symbols, name):
         return given
     p = next(p for p in family.parameters if place(p["table"], p["key"]) == name)
     number = symbols[p["name"]]
-    return None if math.isnan(number) else values.shortest(number / p["factor"])
+    return None if math.isnan(number) else values.converted(number, p["factor"])
 
 
 def lines(made):

@@ -77,17 +77,22 @@ def _error(place, component, spec, reason, remedy):
     return RexsError(f"{place}, {component}, attribute {spec['attribute']}", reason, remedy)
 
 
-def shortest(value):
-    """The number of 15 digits within two steps of double precision, if there is one: what a conversion of units made
-    of a round number.
+def converted(inner, factor):
+    """A number in the unit that has this factor to the inner one.
+
+    Where a factor is applied, of the numbers within two steps of double precision that of 15 digits: round numbers stay
+    round.
     """
+    if factor == 1.0:
+        return inner
+    value = inner / factor
     rounded = float(f"{value:.15g}")
     return rounded if abs(rounded - value) <= 2.0 * math.ulp(value) else value
 
 
 def in_unit(spec, inner):
     """A number in the unit of its attribute."""
-    return shortest(inner / FACTORS[spec["unit"]])
+    return converted(inner, FACTORS[spec["unit"]])
 
 
 def text_of(spec, value):
