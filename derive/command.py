@@ -1,5 +1,7 @@
 """``python -m derive [DRIVE…|FILE.py] [--output FOLDER | --into FOLDER]``: run the six stages, write their files.
 
+``python -m derive show DRIVE|FILE.py [--after PASS]`` prints the description, or the program after a pass.
+
 Without drives, everything is proved anew and the files of every packaged drive are replaced, which are those that a
 packaged design uses; with ``all`` the files of all drives. With names, the files of those drives alone are replaced;
 what they rest on is looked up in the record that was written when everything was last proved. ``--into`` writes a
@@ -33,8 +35,38 @@ def log(stage, name):
     sys.stderr.write(f"{stage:<9} {name:<28} {time.perf_counter() - begin:7.3f} s\n")
 
 
+def show(arguments):
+    """Print the description of a drive, or its program after a pass; exit status 0, or 2 for an unknown drive."""
+    from derive.emit import text
+
+    parser = argparse.ArgumentParser(prog="python -m derive show", description=show.__doc__)
+    parser.add_argument("drive", help="name of a drive, or a file that defines one")
+    parser.add_argument("--after", choices=[*text.PASSES], help="the program after this pass; default: the description")
+    options = parser.parse_args(arguments)
+    try:
+        built = [*_built(options.drive)]
+    except outside.FileError as error:
+        print(error, file=sys.stderr)
+        return 2
+    for drive in built:
+        print(text.program(drive, options.after) if options.after else text.description(drive))
+    return 0
+
+
+def _built(word):
+    """The drives of a name or of a file outside the tree."""
+    if word.endswith(".py"):
+        path = Path(word)
+        return (outside.built(path, name, build) for name, build in outside.catalogue_of(path).items())
+    (name,) = _known([word])
+    return (drives.catalogue([name])[name](),)
+
+
 def main(arguments=None):
     """Exit status 0, or 2 for an unknown drive."""
+    arguments = sys.argv[1:] if arguments is None else list(arguments)
+    if arguments[:1] == ["show"]:
+        return show(arguments[1:])
     parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__)
     parser.add_argument("drive", nargs="*", help="drives to compile, or all; default: those of packaged designs")
     parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")

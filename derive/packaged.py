@@ -25,13 +25,21 @@ def _drive_of(families, path):
     family = families["families"].get(design["drive"])
     if family is None:
         raise LookupError(f"{path}: drive = {design['drive']!r}: there is no such family")
-    words = design["design"]
     for entry in family["drives"]:
         variant = entry["variant"]
-        given = {key: words.get(key, words.get(entry["variant_defaults"].get(key))) for key in variant}
+        given = {place: _word(design, place, entry["variant_defaults"]) for place in variant}
         if all(given[key] in allowed for key, allowed in variant.items()):
             return entry["name"]
     raise LookupError(f"{path}: no drive of the family {design['drive']} has the words that this design gives")
+
+
+def _word(design, place, defaults):
+    """The word of a key by its place ("table.key", or a key of [design]); left out, that of its default."""
+    table, _, key = place.rpartition(".")
+    word = design.get(table or "design", {}).get(key)
+    if word is None and place in defaults:
+        return _word(design, defaults[place], {}) or defaults[place]
+    return word
 
 
 if __name__ == "__main__":

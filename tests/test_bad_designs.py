@@ -7,7 +7,7 @@ import pytest
 
 from meshwright import DesignError, Drive, UsageError
 from meshwright.cli import main
-from meshwright.contact.analysis import LARGEST_ANGLE
+from meshwright.contact.analysis import largest_angle
 from meshwright.design import design
 
 CASES = [
@@ -130,7 +130,7 @@ def test_a_count_that_is_no_whole_number_gets_the_remedy_that_fits(value, remedy
 @pytest.mark.parametrize("angles", [[float("nan")], [0.0, float("inf")], [-1e9], [[0.0, 1.0]]])
 @pytest.mark.parametrize("analysis", [Drive.tca, Drive.trace])
 def test_angles_that_cannot_be_traced_are_refused(analysis, angles):
-    with pytest.raises(UsageError, match=f"angles: .*; give none beyond {LARGEST_ANGLE:g} rad"):
+    with pytest.raises(UsageError, match=f"angles: .*; give none beyond {largest_angle():g} rad"):
         analysis(Drive.load("plain-zi"), angles)
 
 

@@ -3,15 +3,15 @@
 import mpmath
 import pytest
 
-from derive import newton
 from derive.drives import cylindrical_worm as family
 from derive.language.chain import Rz
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.envelope import envelope
 from derive.language.symbols import Quantity
-from derive.schedule import schedule
-from derive.tape import Lowering, Stage, Tape
+from derive.passes import sample
+from derive.passes.schedule import schedule
+from derive.program.tape import Lowering, Stage, Tape
 
 
 def _unreduced(worm_profile, hob_profile):
@@ -34,8 +34,8 @@ def test_the_explicit_wheel_satisfies_the_papers_system(profiles):
     inputs = {p.symbol: Stage.DESIGN for p in plan.drive.parameters} | {plan.drive.instant: Stage.INSTANT}
     lower = Lowering(tape, inputs | {u: Stage.ITERATE for u in unknowns}, definitions)
     assert len(residual) == len(unknowns) == 6
-    with mpmath.workdps(newton.DIGITS):
-        solved = newton.solve(plan, newton.sample_parameters(plan.drive), 0.5)
+    with mpmath.workdps(sample.DIGITS):
+        solved = sample.solve(plan, sample.sample_parameters(plan.drive), 0.5)
         recovered = plan.tape.evaluate([plan.lower(s) for s in plan.drive.wheel.recovered], solved, mpmath)
         values = solved | dict(zip(plan.drive.wheel.recovered, recovered, strict=True))
         errors = tape.evaluate([lower(r) for r in residual], values, mpmath)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from derive import drives
-from derive.schedule import schedule
+from derive.passes.schedule import schedule
 from meshwright import Drive
 from meshwright.contact.branch import STEP, follow, turning_point
 

@@ -47,7 +47,9 @@ def test_tca_writes_every_key_of_every_point(capsys):
         assert point["ellipse"]["semi_major_mm"] > point["ellipse"]["semi_minor_mm"]
 
 
-ONE_OF_EACH = ("plain-zn", "face-worm-cylindrical-concave", "spherical-table-4-4-spur", "helical-crowned")
+ONE_OF_EACH = (
+    "plain-zn", "face-worm-cylindrical-concave", "spherical-table-4-4-spur", "helical-crowned", "bevel-crowned-both"
+)  # fmt: skip
 
 
 def _choices():

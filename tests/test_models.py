@@ -9,7 +9,7 @@ from meshwright.base.library import SHIPPED, library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.design import description as metadata
 
-HEADER = (SHIPPED / "include" / "meshwright.h").read_text(encoding="utf-8")
+HEADER = (SHIPPED / "include" / "mw_status.h").read_text(encoding="utf-8")
 
 #: The drives that the package ships, with or without a packaged design.
 BUILT = [name for name in metadata.drives() if (SHIPPED / f"{name}.json").exists()]
@@ -31,7 +31,7 @@ def test_a_model_fits_the_runtime(name):
 
 
 def test_python_and_c_refuse_the_same_angles():
-    assert MOST["ANGLE"] == analysis.LARGEST_ANGLE
+    assert MOST["ANGLE"] == analysis.largest_angle()
 
 
 def test_the_core_library_knows_no_drive():

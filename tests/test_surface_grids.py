@@ -9,8 +9,11 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.flank.exports import quadrilaterals, stl, vtu
-from meshwright.flank.grids import grid
+from meshwright.flank.exports import stl, vtu
+
+
+def grid(drive, member, shape, region="flank"):
+    return drive.surface(member, shape, region)
 
 
 def test_a_spherical_grid_spans_face_and_tip_of_the_blank():
@@ -83,26 +86,32 @@ def test_the_other_hand_is_the_mirror_image():
 
 
 def test_triangles_face_out_of_the_material_and_have_the_area_of_the_flank():
-    found = grid(Drive.load("spherical-table-3-1-concave"), "pinion", (9, 17))
-    content = stl(found)
+    found = grid(Drive.load("spherical-table-3-1-concave"), "pinion", (9, 17)).mesh
+    content = stl(found.points, found.triangles, "pinion flank")
     (count,) = struct.unpack("<I", content[80:84])
-    assert count == 2 * 8 * 16 and len(content) == 84 + 50 * count
+    assert count == len(found.triangles) and len(content) == 84 + 50 * count
     facets = np.frombuffer(content[84:], dtype=[("facet", "<f4", (4, 3)), ("attribute", "<u2")])["facet"]
     assert (facets[:, 0] @ found.normals.mean(axis=0) > 0.5).all()
     area = 0.5 * np.linalg.norm(np.cross(facets[:, 2] - facets[:, 1], facets[:, 3] - facets[:, 1]), axis=1).sum()
-    corners = found.points[quadrilaterals(found)]
-    twice = np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1).sum()
-    assert area == pytest.approx(twice / 2, rel=1e-3)
+    assert area == pytest.approx(_area_between_face_and_tip(), rel=1e-3)
+
+
+def _area_between_face_and_tip():
+    """The flank's area from its own grid: lines from root to tip across the face, trapezia between them."""
+    points = grid(Drive.load("spherical-table-3-1-concave"), "pinion", (41, 41)).points.reshape(41, 41, 3)
+    first, second = points[1:, 1:] - points[:-1, :-1], points[1:, :-1] - points[:-1, 1:]
+    return 0.5 * np.linalg.norm(np.cross(first, second), axis=2).sum()
 
 
 def test_vtu_holds_points_normals_and_cells():
     found = grid(Drive.load("spherical-table-3-1-spur"), "wheel", (3, 4))
     piece = xml.fromstring(vtu(found)).find("UnstructuredGrid/Piece")
-    assert (piece.get("NumberOfPoints"), piece.get("NumberOfCells")) == ("12", "6")
+    counts = str(len(found.mesh.points)), str(len(found.mesh.triangles))
+    assert (piece.get("NumberOfPoints"), piece.get("NumberOfCells")) == counts
     points = np.array(piece.find("Points/DataArray").text.split(), dtype=float).reshape(-1, 3)
-    assert (points == found.points).all()
+    assert (points == found.mesh.points).all()
     offsets = piece.find("Cells/DataArray[@Name='offsets']").text.split()
-    assert offsets == [str(4 * k) for k in range(1, 7)]
+    assert offsets == [str(3 * k) for k in range(1, len(found.mesh.triangles) + 1)]
 
 
 def test_the_command_writes_the_contract(tmp_path, capsys):
@@ -129,9 +138,94 @@ def test_what_cannot_be_spanned_is_an_error(arguments, capsys):
 
 
 def test_step_passes_through_the_flank_and_says_how_far_it_departs():
+    """Within half a micrometre, trimmed along tip, face and root: the faces have the area of the flank."""
     pytest.importorskip("OCP.TColgp")
     from meshwright.flank.step import step
 
-    coarse, fine = (step(Drive.load("spherical-table-3-1-concave"), "pinion", n) for n in ((6, 6), (11, 11)))
-    assert coarse.content.startswith(b"ISO-10303-21;")
-    assert fine.deviation < coarse.deviation < 1e-3
+    drive = Drive.load("spherical-table-3-1-concave")
+    made = step(drive, drive.region("pinion"), (11, 11))
+    assert made.content.startswith(b"ISO-10303-21;")
+    assert made.deviation < 5e-4
+    assert _area_of_faces(made.content) == pytest.approx(_area_between_face_and_tip(), rel=1e-4)
+
+
+def _area_of_faces(content):
+    import tempfile
+    from pathlib import Path
+
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+    from OCP.STEPControl import STEPControl_Reader
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "flank.step"
+        path.write_bytes(content)
+        reader = STEPControl_Reader()
+        reader.ReadFile(str(path))
+        reader.TransferRoots()
+    shape, properties = reader.OneShape(), GProp_GProps()
+    assert BRepCheck_Analyzer(shape).IsValid()
+    BRepGProp.SurfaceProperties_s(shape, properties, 1e-6)
+    return properties.Mass()
+
+
+#: One design of each kind of blank; every other one is looked at by the longer validation.
+SOME = ("plain-za", "zk-zn-90", "face-worm-conical-convex", "spherical-table-2-3")
+
+
+def _outside(drive, member, region):
+    """How far the exported points of a region lie outside the blank at most, mm: radii, face and throat."""
+    found = drive.surface(member, (9, 17), region)
+    known = np.isfinite(found.points).all(axis=1)
+    points = np.concatenate([found.points[known], found.mesh.points])
+    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    beyond = [np.full(1, -np.inf)]
+    for key, value in drive.design.tables["blank"].items():
+        match (member, key):
+            case ("wheel", "wheel_tip_radius_mm") | ("pinion", "worm_tip_radius_mm") if value:
+                beyond.append(radius - value)
+            case ("pinion", "worm_root_radius_mm") if value:
+                beyond.append(value - radius)
+            case ("wheel", "wheel_face_width_mm") if value:
+                beyond.append(np.abs(z) - value / 2)
+            case ("wheel", "wheel_throat_radius_mm") if value:
+                distance = drive.design.value("center_distance_mm")
+                beyond.append(distance - value - np.hypot(distance - radius, z))
+    if drive.design.family == "spherical":
+        beyond.append(np.abs(z) - drive.design.value("face_width_mm") / 2)
+    if drive.design.family == "face-worm" and member == "wheel":
+        inner, outer = (drive.design.value(f"gear_{end}_radius_mm") for end in ("inner", "outer"))
+        beyond += [radius - outer, inner - radius]
+    return max(float(b.max()) for b in beyond)
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_no_exported_point_lies_outside_the_blank(name):
+    drive = Drive.load(name)
+    regions = [(b["name"], "flank") for b in drive.design.description["bodies"]]
+    for member, region in regions:
+        assert _outside(drive, member, region) < 1e-6
+
+
+def test_two_limits_meet_in_a_corner_of_the_mesh():
+    """Tip cylinder, throat torus and face of a wheel: at each corner of its flank two of them hold to rounding."""
+    drive = Drive.load("plain-za")
+    region, mesh = drive.region("wheel"), drive.surface("wheel", (9, 17)).mesh
+    values = np.abs(region.limits.values(region.flank(mesh.parameters)))
+    corners = (values < 1e-9).sum(axis=1) == 2
+    assert corners.sum() >= 5
+    names = {frozenset(region.limits.names[k] for k in np.flatnonzero(row < 1e-9)) for row in values[corners]}
+    assert {frozenset({"throat", "tip"}), frozenset({"tip", "face"})} <= names
+
+
+def test_a_face_that_contact_never_reaches_is_found_all_the_same():
+    """The wheel is 1 mm wide and misalignment moves the contact some millimetres past it."""
+    drive = Drive.load("plain-za").with_(blank={"wheel_face_width_mm": 1.0}, misalignment={"vertical_deg": 0.1})
+    points = drive.surface("wheel", (5, 5)).mesh.points
+    assert np.abs(points[:, 2]).max() == pytest.approx(0.5, abs=1e-9)
+
+
+def test_an_empty_region_says_so(capsys):
+    assert main(["surface", "plain-za", "--member", "wheel", "--set", "blank.wheel_tip_radius_mm=60"]) == 2
+    assert "empty" in capsys.readouterr().err

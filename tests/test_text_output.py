@@ -10,6 +10,7 @@ from meshwright.commands.shown import ROUND_OFF, shown
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.ends import why_open
 from meshwright.cycle.pairs import Mesh
+from tests.worm.designs import without_blank
 
 
 def _printed(capsys, *arguments):
@@ -45,14 +46,15 @@ def test_a_number_above_round_off_is_kept():
     assert (shown(2.0 * ROUND_OFF), shown(-0.5 * ROUND_OFF), shown(None)) == ("2e-09", "0", "–")
 
 
-def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys):
-    line = _line(_printed(capsys, "ratio", "zk-zn-60"), "no complete window")
+def test_an_open_blank_is_named_with_the_keys_that_would_end_contact(capsys, tmp_path):
+    line = _line(_printed(capsys, "ratio", without_blank("zk-zn-60", tmp_path)), "no complete window")
     assert "begins or ends" in line and "[blank]: wheel_tip_radius_mm, wheel_throat_radius_mm" in line
 
 
 def test_contact_beyond_a_limit_everywhere_names_the_limit():
     """At a shaft angle of 120° the wheel is larger than the blank that was meant for 90°."""
-    mesh = Mesh.of(Drive.load("plain-zk").with_(design={"shaft_angle_deg": 120.0}))
+    changes = {"design": {"shaft_angle_deg": 120.0}, "blank": {"wheel_tip_radius_mm": 200.0}}
+    mesh = Mesh.of(Drive.load("plain-zk").with_(**changes))
     assert "beyond the throat of the wheel; change [blank]" in why_open(mesh)
 
 

@@ -24,7 +24,7 @@ def test_an_angle_out_of_range_is_bad_input_and_its_neighbours_are_not(name):
     drive = Drive.load(name)
     angles = np.array([0.0, 0.01, np.nan, 0.02, np.inf, -1e300, 10_000.1, 0.03])
     x, records = analysis.trace(drive, angles)
-    out = ~(np.abs(angles) <= analysis.LARGEST_ANGLE)
+    out = ~(np.abs(angles) <= analysis.largest_angle())
     assert {text(library().mw_status_word(code)) for code in records["status"][out]} == {"bad_input"}
     assert not records["guard"].any() and np.isnan(x[out]).all()
     alone, statuses = analysis.trace(drive, angles[~out])

@@ -7,7 +7,7 @@ import json
 import re
 from pathlib import Path
 
-from derive.conditions import GUARDS
+from derive.passes.guards import GUARDS
 from derive.prove.tree import Tree
 
 PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "@": 2, "^": 3}

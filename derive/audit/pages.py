@@ -19,7 +19,7 @@ from derive.audit.mutations import measured
 from derive.audit.published import comparisons
 from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference, raised
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
-from derive.conditions import GUARDS
+from derive.passes.guards import GUARDS
 from derive.prove.certificate import decimal
 from derive.prove.points import arctangent
 from derive.prove.polynomial import Terms

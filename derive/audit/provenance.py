@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping
 from typing import TypedDict
 
 from derive.audit.check import root_of
-from derive.conditions import functions, partial_operations
 from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
-from derive.schedule import Schedule
+from derive.passes.guards import functions, partial_operations
+from derive.passes.schedule import Schedule
 
 
 class Provenance(TypedDict):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import mpmath
 
-from derive import newton
 from derive.drives import face_worm
+from derive.passes import sample
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ _TILT_REASON = (
 def comparisons():
     """Every :class:`Comparison`, in the order of the sources."""
     drive = face_worm.face_worm()
-    complete = newton.Completion(drive)
+    complete = sample.Completion(drive)
     placed = {
         (table, rule): [_placement(drive, complete, changes | side | {"pitch_point_rule": rule}) for side in _SIDES]
         for table, changes, _ in _TABLES
@@ -79,7 +79,7 @@ def comparisons():
 
 def _placement(drive, complete, changes):
     """Head-cutter radius, mm, and tilt, degrees, of the sample design with keys changed."""
-    with mpmath.workdps(newton.DIGITS):
+    with mpmath.workdps(sample.DIGITS):
         values = complete(drive.sample | changes)
         by_key = {p.key: values[p.symbol] for p in drive.parameters}
         return by_key["head_cutter_radius_mm"], mpmath.degrees(mpmath.acos(by_key["tool_axis_z_z"]))

@@ -9,6 +9,7 @@ from functools import cache
 from derive.audit import store
 from derive.audit.documents import face_worm, rack_and_pinion, recess_action, spherical, zk_zn
 from derive.audit.guarded import by_family
+from derive.audit.identities import bevel as bevel_gears
 from derive.audit.identities import conventions, cylindrical_gears, cylindrical_worm, derivation, helicoids
 from derive.audit.identities import face_worm as face_worm_drives
 from derive.audit.identities import spherical as spherical_gears
@@ -20,7 +21,8 @@ def chapters() -> list[Chapter]:
     """Sources in reading order, then our own identities."""
     sources = (recess_action, rack_and_pinion, zk_zn, spherical, face_worm)
     identities = (
-        conventions, derivation, helicoids, cylindrical_worm, spherical_gears, cylindrical_gears, face_worm_drives
+        conventions, derivation, helicoids, cylindrical_worm, spherical_gears, cylindrical_gears, face_worm_drives,
+        bevel_gears,
     )  # fmt: skip
     return [module.CHAPTER for module in (*sources, *identities)]
 

@@ -5,7 +5,7 @@ A module offers ``catalogue()``: name → function that builds the drive.
 
 from importlib import import_module
 
-FAMILIES = ("cylindrical_worm", "spherical", "cylindrical_gears", "face_worm")
+FAMILIES = ("cylindrical_worm", "spherical", "cylindrical_gears", "face_worm", "bevel")
 
 
 def catalogue(wanted=FAMILIES):

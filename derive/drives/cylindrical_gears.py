@@ -19,6 +19,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, DesignSystem, Drive, Loading, Margin, Region, Role, Source, System, body_point
 from derive.language.envelope import envelope, explicit
+from derive.language.functions import Function, LeastTeeth, Result
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Quantity, Unknown, rotation_angle
@@ -139,9 +140,35 @@ def cylindrical_gears():
         sample_angle=0.03,
         pinion_teeth=PINION.teeth.key,
         loading=Loading(pairs=3, torque_on="pinion"),
+        functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
+        least_teeth={
+            g.name: LeastTeeth(g.teeth.key, (g.tip_relief.radius.key, g.root_relief.radius.key))
+            for g in (PINION, WHEEL)
+        },
         sources=(
             Source("ISO", "ISO 21771, Gears: Cylindrical involute gears and gear pairs: Concepts and geometry", 2007),
             Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 13 to 16"),
+        ),
+    )
+
+
+def _undercut(tooth):
+    """Undercut is sought from far beyond the start of the involute, on the other side of the axis, to the tip."""
+    gear, rack = tooth.gear, tooth.rack
+    start, end = k.EDGE_START, gear.edge_end
+    ends = {"first": start - 2 * gear.reference_radius, "start": start, "middle": (start + end) / 2, "last": end}
+    return (
+        Function(
+            f"undercut_range_{gear.name}",
+            "positions on the edge of the rack between which undercut is sought",
+            (),
+            tuple(Result(name, (value,), "mm", gear.name) for name, value in ends.items()),
+        ),
+        Function(
+            f"undercut_place_{gear.name}",
+            "position on the edge of the rack from its datum line",
+            tooth.surface.parameters,
+            (Result("edge_position", (rack.along,), "mm", gear.name),),
         ),
     )
 
@@ -227,7 +254,7 @@ def _start(teeth, phi_1, phi_2, error, definitions):
     """The contact of the unmodified, aligned pair; of its line on nearly parallel axes the middle of the face.
 
     Both flanks have a straight generator with the common normal. Where these cross is the contact; crowning draws it
-    to the middle of the face.
+    to the middle of the face. Along a line the place is that nearest to the middle at which the edge cuts.
     """
 
     def let(name, value, meaning, unit="mm"):
@@ -249,7 +276,7 @@ def _start(teeth, phi_1, phi_2, error, definitions):
         s * (turns[0] - _at_edge(PINION)) - phi_1 + pinion.half_pitch,
         s * (turns[1] - _at_edge(WHEEL)) + angle + wheel.half_pitch,
     )
-    z_1, z_2 = _crossing(n, lengths[0] + PINION.shift * sp.sin(alpha), distance, let)
+    z_1, z_2 = _crossing(n, lengths[0] + PINION.shift * sp.sin(alpha), distance, _onto_edge(pinion, generation[0]), let)
     return System(
         name="start",
         definitions=definitions,
@@ -270,7 +297,7 @@ def _at_edge(gear):
     return v.arc(sp.Integer(1), gear.tan_transverse)
 
 
-def _crossing(n, length, distance, let):
+def _crossing(n, length, distance, at_line, let):
     """Axial positions, in either gear, at which the two straight generators with the common normal cross.
 
     The sine of their angle vanishes on parallel axes. Crowning adds its curvature to what holds them together there.
@@ -286,7 +313,7 @@ def _crossing(n, length, distance, let):
     parted = let("parted", s * (lever - base) + slope * length * n_z, "distance of the generators at mid face")
     crowning = sp.Add(*(8 * g.lead_crowning.symbol / g.face_width.symbol**2 for g in (PINION, WHEEL)))
     held = slope**2 + parallel + excess(crowning) * distance * n_x
-    z_1 = let("z_pinion", parted * slope / held, "place across the face of the pinion")
+    z_1 = let("z_pinion", parted * slope / held + parallel * at_line, "place across the face of the pinion")
     z_2 = let(
         "z_wheel",
         length * s * sine_2
@@ -295,6 +322,14 @@ def _crossing(n, length, distance, let):
         "place across the face of the wheel",
     )
     return z_1, z_2
+
+
+def _onto_edge(tooth, generation):
+    """The place across the face nearest to its middle that the edge cuts at this turn in generation, spur gears: 0."""
+    middle = _edge_place(tooth, generation, sp.Integer(0))
+    slope = _edge_place(tooth, generation, sp.Integer(1)) - middle
+    beyond = excess(k.EDGE_START - middle) - excess(middle - tooth.gear.edge_end)
+    return beyond * slope / (slope**2 + is_zero(slope))
 
 
 def _edge_place(tooth, generation, axial):

@@ -2,19 +2,20 @@
 
 The header needs only ``sqrt``, has no heap, no writable data and no input or output, compiles as C99 and C++11, and
 gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction). Compiled with
-MW_FUSED it fuses the products that :mod:`derive.emit.fusion` chooses into sums, and needs ``fma`` too.
+MW_FUSED it fuses the products that :mod:`derive.passes.fuse` chooses into sums, and needs ``fma`` too.
 """
 
 from dataclasses import dataclass
 
-from derive.emit import approximation
-from derive.emit.fusion import fused_products
-from derive.emit.order import Operation, latency_order
+from derive.emit import approximation, embedded
 from derive.emit.render import render
 from derive.language.drive import PATH
-from derive.quotients import by_reciprocal
-from derive.schedule import Schedule
-from derive.tape import Stage
+from derive.passes.fuse import fuse
+from derive.passes.order import interleaved
+from derive.passes.quotients import reciprocals
+from derive.passes.schedule import Schedule
+from derive.program.routine import routine
+from derive.program.tape import Stage
 
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
@@ -76,26 +77,10 @@ class Printer:
         operands = dict(known or {})
         return side_by_side([self], outputs, [operands], later), operands
 
-    def program(self, outputs, known, later=()):
-        """The operations behind ``outputs`` as they are printed, by node, in an order of evaluation.
-
-        Products that sums take are no operations of their own.
-        """
+    def routine(self, outputs, known, later=()):
+        """The routine behind ``outputs`` as it is printed, in an order of evaluation."""
         readable = known.keys() | self.leaves.keys()
-        factors = by_reciprocal(self.tape, [*outputs, *later], readable)
-        needed = self.tape.needed(outputs, readable, factors)
-        products = fused_products(self.tape, needed, outputs)
-        inside = set(products.values())
-        return {i: self._operation(i, products.get(i), factors.get(i)) for i in needed if i not in inside}
-
-    def _operation(self, i, product, factors):
-        node = self.tape.nodes[i]
-        if factors is not None:
-            return Operation("mul", factors)
-        if product is not None:
-            others = (a for a in node.args if a != product)
-            return Operation(node.op, (*self.tape.nodes[product].args, *others), product)
-        return Operation(node.op, node.args)
+        return fuse(reciprocals(routine(self.tape, outputs, readable, later)))
 
     def results(self, outputs, operands):
         """The operands of ``outputs``."""
@@ -116,8 +101,8 @@ class Printer:
             return self._sincos(operation.args[0], args[0], serial, operands)
         operands[i] = f"t{serial}"
         match operation.op:
-            case _ if operation.product is not None:
-                value = self._fused(i, operation, args)
+            case "fma" | "fms" | "fnma":
+                value = f"MW_{operation.op.upper()}({', '.join(args)})"
             case "neg":
                 value = f"-{args[0]}"
             case "sqrt":
@@ -129,14 +114,6 @@ class Printer:
             case op:
                 value = f"{args[0]} {_INFIX[op]} {args[1]}"
         return [f"const double t{serial} = {value};"]
-
-    def _fused(self, i, operation, args):
-        """A sum that takes a product; product ± product takes one of them."""
-        if operation.op == "add":
-            name = "MW_FMA"
-        else:
-            name = "MW_FMS" if self.tape.nodes[i].args[0] == operation.product else "MW_FNMA"
-        return f"{name}({', '.join(args)})"
 
     def _sincos(self, argument, operand, serial, operands):
         for op, letter in (("sin", "s"), ("cos", "c")):
@@ -157,13 +134,12 @@ def side_by_side(printers, outputs, operands, later=()):
 
     ``operands`` holds what is known to each printer and receives what is computed. Results come printer by printer.
     """
-    program = printers[0].program(outputs, operands[0], later)
-    statements = []
-    for copy, i in latency_order(program, outputs, tuple(LAG * k for k in range(len(printers)))):
+    printed = printers[0].routine(outputs, operands[0], later)
+    program, statements = dict(printed.steps), []
+    for copy, i in interleaved(printed, tuple(LAG * k for k in range(len(printers)))):
         statements += printers[copy].statement(i, program[i], operands[copy])
     results = [r for printer, known in zip(printers, operands, strict=True) for r in printer.results(outputs, known)]
-    products = {operation.product for operation in program.values()} - {None}
-    return Body(tuple(statements), tuple(results), len(program) + len(products))
+    return Body(tuple(statements), tuple(results), printed.operations)
 
 
 @dataclass(frozen=True)
@@ -188,8 +164,9 @@ class Leaves:
         )
 
 
-def header(plan: Schedule, description: dict, model_source: str):
-    """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`)."""
+def header(plan: Schedule, description: dict, runtime):
+    """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
+    ``runtime`` the folder of the C runtime."""
     drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
     leaves = Leaves.of(plan)
     design = Printer(tape, prefix, leaves.design, seldom=True)
@@ -207,11 +184,14 @@ def header(plan: Schedule, description: dict, model_source: str):
         drive=drive,
         X=prefix,
         description=description,
-        model_source=model_source,
+        tables=embedded.tables(runtime),
+        solver=embedded.solver(runtime),
+        indices=list(_indices(description)),
         rules=list(_rules(plan)),
         sizes=_from_parameters(drive, plan.sizes).body(plan.sizes.nodes)[0],
         guards=design.body([g.node for g in plan.guards])[0],
         setup=design.body(slots[: plan.design_slots])[0],
+        kept=[f"p[{k}]" for k in range(len(drive.parameters))],
         set_phi=instant.body(slots[plan.design_slots :])[0],
         residual=residual,
         jacobian=jacobian,
@@ -232,6 +212,18 @@ def header(plan: Schedule, description: dict, model_source: str):
         approximation=approximation,
         estrin=estrin,
     )
+
+
+def _indices(description):
+    """Names and values of the index macros: parameters by key, unknowns and outputs by name.
+
+    A key that several tables of a design have is the design's own; that of another table begins with its name.
+    """
+    keys = [p["key"] or p["name"] for p in description["parameters"]]
+    for k, (key, p) in enumerate(zip(keys, description["parameters"], strict=True)):
+        yield f"P_{key if keys.count(key) == 1 or p['table'] == 'design' else p['table'] + '_' + key}", k
+    yield from ((f"U_{u['name']}", k) for k, u in enumerate(description["unknowns"]))
+    yield from ((f"O_{o['name']}", o["offset"]) for o in description["outputs"])
 
 
 def _linearised(printer, residual, jacobian):

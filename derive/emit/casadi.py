@@ -7,7 +7,7 @@ from pathlib import Path
 import casadi
 
 from derive.language.drive import PATH
-from derive.tape import Lowering, Stage, Tape
+from derive.program.tape import Lowering, Stage, Tape
 
 
 class _Symbolic:

@@ -7,9 +7,10 @@ from dataclasses import asdict
 
 import mpmath
 
-from derive import newton
+from derive.language.description import prefix, rules, sources
 from derive.language.symbols import interface_unit
-from derive.tape import Stage
+from derive.passes import sample
+from derive.program.tape import Stage
 
 GENERATOR = "0.1.0"
 
@@ -39,6 +40,9 @@ def describe(plan, provenance):
         "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
+        "reference_angle": prefix(drive.reference_angle),
+        "proportions": rules(drive.proportions),
+        "sources": sources(drive),
         "together": [list(group) for group in drive.together],
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,
@@ -51,6 +55,7 @@ def describe(plan, provenance):
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
+        "reference": _reference(drive),
         "geometry": offsets["tangent_basis"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
@@ -59,7 +64,7 @@ def describe(plan, provenance):
         "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
-            "s": [len(plan.state)],
+            "s": [len(plan.state) + len(drive.parameters)],  # the parameters are kept at its end
             "x": [len(drive.unknowns)],
             "R": [len(drive.unknowns)],
             "J": [len(drive.unknowns)] * 2,
@@ -137,14 +142,19 @@ def self_test(plan):
     """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
     reaches ``x``. Hex floats.
     """
-    inputs = newton.in_double(plan.sample)
-    start = newton.beside(plan)
+    inputs = sample.in_double(plan.sample)
+    start = sample.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),
         "x_start": [x.hex() for x in start],
         "x": [inputs[u].hex() for u in plan.unknowns],
     }
+
+
+def _reference(drive):
+    """Index of the parameter that is the reference angle, −1 where that is 0."""
+    return -1 if drive.reference_angle == 0 else [p.symbol for p in drive.parameters].index(drive.reference_angle)
 
 
 def _plain(name, unit, frame=""):
@@ -189,7 +199,7 @@ def _parameter(drive, p):
         "unit": p.symbol.unit,
         "meaning": p.symbol.meaning,
         "key": p.key,
-        "table": p.table.value,
+        "table": str(p.table),
         "factor": _float(p.factor),
         "key_unit": interface_unit(p.key)[0],
         "default": None if p.default is None else _float(p.default),

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derive.conditions import Evaluated
-from derive.directional import Derivatives
 from derive.emit.c99 import Printer
 from derive.emit.render import render
 from derive.language.drive import PATH
-from derive.tape import Lowering, Stage, Tape
+from derive.passes.directional import Derivatives
+from derive.passes.guards import Evaluated
+from derive.program.tape import Lowering, Stage, Tape
 
 _POINT = "point_pinion_f"
 

@@ -62,20 +62,26 @@ class Body:
     """A member of the drive: its flank in its own frame, its motion in mesh, its limits.
 
     ``point`` and ``normal`` are symbols for the body-frame coordinates, used by ``margins``. ``reference`` gives
-    the surface parameters of a regular point, where the singular function has its good sign. ``recovered`` are
+    the surface parameters of a regular point, where the singular function has its good sign; where that sign is known,
+    ``regular`` is an expression which has it everywhere, and no point is needed. ``recovered`` are
     parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
     tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
-    parameter runs across it, along the profile.
+    parameter runs across it, along the profile. ``sizes`` are natural sizes of the surface parameters (1 where none is
+    given), ``search`` the ranges (lower, upper) in which all that is of interest lies, None for no end: expressions of
+    the design.
     """
 
     name: str
     surface: Surface
     motion: Motion
     reference: dict
+    regular: sp.Expr | None = None
     point: tuple = ()
     margins: tuple[Margin, ...] = ()
     recovered: tuple = ()
     lengthwise: str = ""
+    sizes: dict = field(default_factory=dict)
+    search: dict = field(default_factory=dict)
 
     @property
     def placed(self):
@@ -84,7 +90,7 @@ class Body:
 
 def body_point(name):
     """Symbols for the body-frame coordinates of a contact point, for use in margins."""
-    return tuple(Quantity(f"{axis}_{name}", "mm", f"{axis} of the point, {name} frame", name) for axis in "xyz")
+    return tuple(Quantity(f"{axis}_at_{name}", "mm", f"{axis} of the point, {name} frame", name) for axis in "xyz")
 
 
 @dataclass(frozen=True)
@@ -115,7 +121,8 @@ class DesignSystem:
     solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
     stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
     meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
-    replaces symbols by constants throughout.
+    replaces symbols by constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is
+    at the guess falls to zero along the path.
     """
 
     name: str
@@ -127,6 +134,7 @@ class DesignSystem:
     keys: tuple[str, ...]
     fixed: dict = field(default_factory=dict)
     regular: tuple | None = None
+    homotopy: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
 
@@ -135,7 +143,7 @@ class Region:
     """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
 
     It is regular where ``regular`` (a sign) times its singular function is positive. ``margins`` are of surface and
-    design parameters; ``lengthwise`` as in :class:`Body`.
+    design parameters; ``lengthwise``, ``sizes`` and ``search`` as in :class:`Body`.
     """
 
     member: str
@@ -144,15 +152,17 @@ class Region:
     regular: sp.Expr
     margins: tuple[Margin, ...] = ()
     lengthwise: str = ""
+    sizes: dict = field(default_factory=dict)
+    search: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Source:
-    """What a drive's page follows: author, title, year, and where in it."""
+    """What a drive's page follows: author, title, year (None if unknown), and where in it."""
 
     author: str
     title: str
-    year: int
+    year: int | None
     where: str = ""
 
 
@@ -179,11 +189,12 @@ class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
     ``variant`` are the words of the design file that choose this drive within its family; a key in
-    ``variant_defaults`` may be left out and then follows the key named there. A ``handed`` drive exists as its own
-    mirror image. ``pinion_teeth`` is the key of the pinion's (worm's) number of teeth. Of each group in
-    ``exclusive`` a design gives exactly one key; of each group in ``together`` ("table.key") all or none. ``tools`` are
-    the generating tools with the keys of their own.
-    ``reference_angle`` (rad, of the design) is the input angle at which the relative transmission error is zero.
+    ``variant_defaults`` may be left out and then follows the key named there, or is the word there. A drive ``handed``
+    "right" or "left", the hand in which its equations are written, exists as its own mirror image. ``pinion_teeth`` is
+    the key of the pinion's (worm's) number of teeth. Of each group in ``exclusive`` a design gives exactly one key; of
+    each group in ``together`` ("table.key") all or none. ``tools`` are the generating tools with the keys of their own.
+    ``reference_angle`` (a parameter, or 0) is the input angle at which the pair meets in the middle of its flanks: the
+    start values lead there, and relative transmission errors refer to it.
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
     contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
@@ -217,7 +228,7 @@ class Drive:
     pinion_teeth: str
     variant: dict = field(default_factory=dict)
     variant_defaults: dict = field(default_factory=dict)
-    handed: bool = False
+    handed: str = ""
     exclusive: tuple[tuple[str, ...], ...] = ()
     together: tuple[tuple[str, ...], ...] = ()
     systems: tuple[DesignSystem, ...] = ()

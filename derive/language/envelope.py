@@ -13,6 +13,8 @@ from derive.language import vectors as v
 from derive.language.differentiate import partial
 from derive.language.origin import EXPLICIT, Origin
 from derive.language.replace import replaced
+from derive.language.sampled import vanishes
+from derive.language.surface import Step
 from derive.language.symbols import Quantity
 
 
@@ -30,6 +32,7 @@ def envelope(surface, motion, variable):
         parameters=parameters,
         normal=v.scale(-1, surface.normal),
         conditions=(*surface.conditions, meshing),
+        made=(*surface.written_down.made, Step.of("envelope", motion=motion, variable=variable)),
     ).on("derivation/invariance", "derivation/envelope", *(("derivation/pole",) if surface.pole else ()))
 
 
@@ -50,7 +53,8 @@ def merge_sum(surface, kept, removed, name, meaning):
     total = Quantity(name, removed.unit, meaning, removed.frame, parity=removed.parity)
     value = total - kept
     parameters = tuple(total if p == removed else p for p in surface.parameters)
-    return substitute(replace(surface, parameters=parameters), {removed: value}).on("derivation/merge-sum"), total
+    merged = substitute(replace(surface, parameters=parameters), {removed: value})
+    return merged.on("derivation/merge-sum").by(Step.of("merged", total=total, kept=kept, removed=removed)), total
 
 
 def substitute(surface, replacement):
@@ -76,8 +80,8 @@ def explicit(surface):
     """
     *others, condition = surface.conditions
     for parameter in reversed(surface.parameters):
-        slope = surface.definitions.derivative(condition, parameter)
-        if slope == 0 or surface.definitions.depends(slope, parameter):
+        slope = _constant_slope(surface, condition, parameter)
+        if slope is None:
             continue
         if any(surface.definitions.depends(s, parameter) for s in _defined(surface, condition)):
             continue
@@ -88,26 +92,51 @@ def explicit(surface):
         )
         remaining = tuple(p for p in surface.parameters if p != parameter)
         done = replace(surface, parameters=remaining, conditions=tuple(others))
-        return substitute(done, {parameter: named}).on(EXPLICIT), Solved(named, solution, slope)
+        made = Step.of("solved", parameter=parameter, value=solution)
+        return substitute(done, {parameter: named}).on(EXPLICIT).by(made), Solved(named, solution, slope)
     raise ValueError("the equation of meshing is linear in none of its parameters")
+
+
+def _constant_slope(surface, condition, parameter):
+    """∂condition/∂parameter where that is free of the parameter, also where this shows only multiplied out.
+
+    What shows only then is for the record to prove: a surface that relies on it names its statement.
+    """
+    definitions = surface.definitions
+    slope = definitions.derivative(condition, parameter)
+    if slope == 0 or not definitions.depends(slope, parameter):
+        return None if slope == 0 else slope
+    if parameter not in slope.free_symbols or _angle_of(condition, parameter):
+        return None
+    if not vanishes(definitions.resolve(definitions.derivative(slope, parameter))):
+        return None
+    return replaced(slope, {parameter: sp.Integer(0)})
+
+
+def _angle_of(condition, parameter):
+    """Whether the parameter occurs in a sine or cosine."""
+    return any(parameter in e.free_symbols for e in condition.atoms(sp.sin, sp.cos))
 
 
 def explicit_angle(surface, angle, sign):
     """Solve the last condition, homogeneous in the cosine and sine of ``angle``, for that parameter.
 
     Of a·cos + b·sin = 0 the result is the direction (cos, sin) ∝ sign · (b, −a): the opposite one solves it too.
+    ``sign`` may be a function of a and b.
     """
     *others, condition = surface.conditions
     a, b = _direction(condition, angle)
+    if callable(sign):
+        a, b = (surface.definitions.let(f"{angle}_{part}", c) for part, c in (("cosine", a), ("sine", b)))
+        sign = sign(a, b)
     origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
     turn = v.arc(-sign * a, sign * b)
     named = surface.definitions.let(
         angle.name, turn, angle.meaning, angle.unit, origin=origin, parity=angle.parity
     )
     remaining = tuple(p for p in surface.parameters if p != angle)
-    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
-        "derivation/explicit-angle"
-    )
+    solved = substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
+    return solved.on("derivation/explicit-angle").by(Step.of("solved", parameter=angle, value=turn))
 
 
 def in_turn(condition, angle):

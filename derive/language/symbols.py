@@ -1,7 +1,7 @@
 """Symbols that carry their unit, frame, meaning and domain, and the keys by which a design names them."""
 
 from dataclasses import dataclass, field
-from enum import Enum
+from enum import StrEnum
 
 import sympy as sp
 
@@ -34,8 +34,8 @@ def rotation_angle(name, meaning, frame="", domain=(-sp.oo, sp.oo)):
     return Quantity(name, "rad", meaning, frame, domain, parity=-1)
 
 
-class Table(Enum):
-    """The tables of a design file; the order is the order of the parameter vector."""
+class Table(StrEnum):
+    """The tables of a design file that every family may have; a family may name others, such as one a member."""
 
     FLANK = "flank"
     DESIGN = "design"
@@ -51,6 +51,7 @@ _INTERFACE_UNITS = {
     "um": ("mm", sp.Rational(1, 1000)),
     "deg": ("rad", sp.rad(1)),
     "per_mm": ("1/mm", sp.S.One),
+    "mm_per_rad": ("mm/rad", sp.S.One),
     "mm_per_rad2": ("mm/rad^2", sp.S.One),
 }
 
@@ -72,13 +73,18 @@ class Parameter:
 
     symbol: Quantity
     key: str
-    table: Table = Table.DESIGN
+    table: str = Table.DESIGN
     default: sp.Expr | None = None
     required: bool = False
     integer: bool = False
     lower_included: bool = False
     above: str | None = None
     choices: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def place(self):
+        """The key with its table, by which guards and requirements name it; of [design] the key alone."""
+        return self.key if self.table == Table.DESIGN else f"{self.table}.{self.key}"
 
     @property
     def factor(self):

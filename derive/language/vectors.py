@@ -27,6 +27,11 @@ def scale(factor, a):
     return tuple(_times(factor, p) for p in a)
 
 
+def signed(sign, a):
+    """A vector times ±1, where that occurs in its components already: sign² = 1."""
+    return tuple(sp.expand(sign * sp.sympify(p)).subs(sp.sympify(sign) ** 2, 1) for p in a)
+
+
 def dot(a, b):
     return sp.Add(*(_times(p, q) for p, q in zip(a, b, strict=True)))
 

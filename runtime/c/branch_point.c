@@ -1,7 +1,7 @@
 /* Folds and crossings of branches of contact as solutions of extended systems.  SPDX-License-Identifier: MIT-0 */
 #include <math.h>
 #include <string.h>
-#include "linear.h"
+#include "solver/linear.h"
 #include "meshwright.h"
 
 enum { NX = MW_MAX_UNKNOWNS, NY = NX + 1, NZ = NY + NX + 1, MAX_STEPS = 30, POWER_STEPS = 20 };
@@ -75,7 +75,7 @@ static void left_null(const singular *e, double A[NX][NY], double *psi)
                 B[i * n + j] = i == j ? SHIFT : 0.0;
                 for (int k = 0; k < e->columns; k++) B[i * n + j] += A[i][k] * A[j][k];
             }
-        mw_bordered_solve(n, B, psi);
+        mwi_bordered_solve(n, B, psi);
         for (int i = 0; i < n; i++) length += psi[i] * psi[i];
         for (int i = 0; i < n; i++) psi[i] /= sqrt(length);
     }
@@ -113,7 +113,7 @@ static double stepped(const singular *e, double *z)
         M[last * size + w + i] = psi[i];
         b[last] += 0.5 * psi[i] * psi[i];
     }
-    mw_bordered_solve(size, M, b);
+    mwi_bordered_solve(size, M, b);
     for (int i = 0; i < size; i++) z[i] -= b[i];
     for (int i = 0; i < w; i++) length += b[i] * b[i];
     return sqrt(length);

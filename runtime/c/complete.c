@@ -1,9 +1,9 @@
 /* Complete a design: rules and defaults, then the systems that place its tools.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
 #include "complete.h"
-#include "newton.h"
+#include "solver/newton.h"
 
-enum { PATH_STEPS = 32, MAX_HALVINGS = 8 };
+enum { PATH_STEPS = 32, MAX_PATH_HALVINGS = 8 };
 
 int mw_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
 {
@@ -12,10 +12,10 @@ int mw_solve_system(const mw_model *m, const mw_system *system, double *q, doubl
     *path = 0.0;
     system->guess(q, y);
     system->scale(q, scale);
-    for (int halvings = 0; halvings <= MAX_HALVINGS;) {
+    for (int halvings = 0; halvings <= MAX_PATH_HALVINGS;) {
         memcpy(last, y, sizeof last);
         for (int i = 0; i < system->n; i++) y[i] += slope[i] * (*path - at);
-        const int solved = mw_newton(system->eval, system->n, q, scale, y, info) >= 0;
+        const int solved = mwi_newton(system->eval, system->n, q, scale, y, info) >= 0;
         if (solved && system->watch && !(system->watch(q, y) > 0.0)) return info->status = MW_LEFT_FLANK;
         if (solved) {
             if (*path > at)

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "lanes.h"
-#include "trace.h"
+#include "solver/steps.h"
 
 #define MW_LANE_LOOP _Pragma("omp simd") for (int l = 0; l < MW_LANES; l++)
 

@@ -2,7 +2,8 @@
 #include <stdint.h>
 #include <string.h>
 #include "lanes.h"
-#include "trace.h"
+#include "solver/steps.h"
+#include "solver/touch.h"
 
 extern const mw_lane_set mw_lanes_native, mw_lanes_avx2, mw_lanes_avx512;
 
@@ -102,6 +103,15 @@ static size_t again(const mw_model *m, const double *p, const double *phi, size_
     return succeeded;
 }
 
+/* The gate, asked where a lane ended: it went there from touching flanks in small steps. r->state is set up. */
+static int touches(const mw_model *m, double phi, const double *x, const room *r)
+{
+    double o[MW_MAX_OBSERVATION];
+    m->set_phi(r->state, phi);
+    m->observe(r->state, x, o);
+    return mwi_touch(m, x, o) >= 0;
+}
+
 /* Designs of which no lane is traced. */
 static size_t all_again(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n, const room *r,
                         double *x, int *status)
@@ -116,7 +126,7 @@ static size_t all_again(const mw_model *m, const double *p, size_t designs, cons
 static int in_lanes(const mw_lane_model *k, const double *phi, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (!mw_angle_in_range(phi[i])) return 0;
+        if (!mwi_angle_in_range(phi[i])) return 0;
     return k != NULL && n > 0;
 }
 
@@ -135,7 +145,7 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
     double valid[MW_MAX_LANES];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_lane_row rows[MW_MAX_LANES];
-    if (!in_lanes(k, phi, n)) return all_again(m, p, designs, phi, n, &r, x, status);
+    if (!mwi_usable(m) || !in_lanes(k, phi, n)) return all_again(m, p, designs, phi, n, &r, x, status);
     for (size_t l = 0; l < lanes; l++) {
         spread(lanes, l, phi, n, r.phi);
         spread(lanes, l, start, nx, r.start);
@@ -146,10 +156,12 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
         k->setup(r.p, r.s, valid);
         for (size_t l = 0; l < lanes; l++) rows[l] = (mw_lane_row){ x + (first + (l < used ? l : 0)) * n * nx, l < used ? n : 0 };
         set->follow(k, m, r.s, r.phi, n, r.start, r.x, rows, solved);
-        for (size_t l = 0, at = first * n; l < used; l++, at += n)
-            succeeded += valid[l] > 0.0 && solved[l] == n
-                             ? converged(n, status + at)
-                             : again(m, p + (first + l) * np, phi, n, &r, x + at * nx, status + at);
+        for (size_t l = 0, at = first * n; l < used; l++, at += n) {
+            const double *own = p + (first + l) * np;
+            const int followed = valid[l] > 0.0 && solved[l] == n && m->setup(own, r.state) == 0 &&
+                                 touches(m, phi[n - 1], x + (at + n - 1) * nx, &r);
+            succeeded += followed ? converged(n, status + at) : again(m, own, phi, n, &r, x + at * nx, status + at);
+        }
     }
     return succeeded;
 }
@@ -160,11 +172,11 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
     const mw_lane_model *k = kernels_of(m, set);
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, part = (n + lanes - 1) / lanes;
     const room r = divide(set, m, part, work);
-    double begin[MW_MAX_LANES], valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
+    double begin[MW_MAX_LANES] = { 0.0 }, valid[MW_MAX_LANES], xs[MW_MAX_LANES * MW_MAX_UNKNOWNS];
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_info info[MW_MAX_LANES];
     mw_lane_row rows[MW_MAX_LANES];
-    if (!in_lanes(k, phi, n)) return all_again(m, p, 1, phi, n, &r, x, status);
+    if (!mwi_usable(m) || !in_lanes(k, phi, n)) return all_again(m, p, 1, phi, n, &r, x, status);
     const double beyond = n > 1 ? phi[n - 1] - phi[n - 2] : 0.0; /* lanes that end early go on at the last spacing */
     for (size_t l = 0; l < lanes; l++)
         for (size_t i = 0, at = l * part; i < part; i++, at++)
@@ -181,9 +193,14 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
         rows[l] = (mw_lane_row){ x + (left ? at : 0) * nx, left < part ? left : part };
     }
     set->follow(k, m, r.s, r.phi, part, r.start, r.x, rows, solved);
-    for (size_t l = 0, at = 0; at < n; l++, at += part)
-        succeeded += valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= rows[l].count
-                         ? converged(rows[l].count, status + at)
-                         : again(m, p, phi + at, rows[l].count, &r, x + at * nx, status + at);
+    m->setup(p, r.state);
+    for (size_t l = 0, at = 0; at < n; l++, at += part) {
+        const size_t last = at + rows[l].count - 1;
+        const int followed = valid[l] > 0.0 && info[l].status >= 0 && solved[l] >= rows[l].count &&
+                             touches(m, phi[last], x + last * nx, &r);
+        succeeded += followed ? converged(rows[l].count, status + at)
+                              : again(m, p, phi + at, rows[l].count, &r, x + at * nx, status + at);
+        m->setup(p, r.state);
+    }
     return succeeded;
 }

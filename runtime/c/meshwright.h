@@ -7,56 +7,13 @@
 
 #include <stddef.h>
 #include "mw_model.h"
+#include "mw_status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* How a solve ended: code, value, the word used in results, what it means. Success is >= 0. */
-#define MW_STATUS_LIST(X) \
-    X(MW_CONVERGED, 0, "converged", "the last step was below tolerance") \
-    X(MW_CONVERGED_NOISE, 1, "converged", "the steps ended in round-off; near line contact the point is ill-determined") \
-    X(MW_LINE_CONTACT, 2, "line_contact", "the flanks touch along a line: no single contact point exists") \
-    X(MW_NO_CONTACT, -1, "no_contact", "the flanks do not touch at this angle") \
-    X(MW_LEFT_FLANK, -2, "left_flank", "the search left the domain in which the flanks exist") \
-    X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
-    X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \
-    X(MW_DIVERGED, -5, "diverged", "the iteration did not settle") \
-    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold, or the angle is not finite or out of range")
-
-typedef enum mw_status {
-#define MW_STATUS_ENUM(code, value, word, text) code = value,
-    MW_STATUS_LIST(MW_STATUS_ENUM)
-#undef MW_STATUS_ENUM
-    MW_STATUS_END = 1000
-} mw_status;
-
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
-
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
-
-/* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
- * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
- * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
-typedef struct mw_info {
-    int status, iterations, guard;
-    double step, residual, rank_gap;
-} mw_info;
-
-/* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
- * positive without interference. major: direction of curvature_min. lever: velocity of a member's point along the normal
- * for a unit velocity of its own angle, mm; ratio: instantaneous d(wheel angle)/d(pinion angle), the quotient of both.
- * flags: see mw_flag. */
-typedef struct mw_contact {
-    double point[3], normal[3];
-    double curvature_min, curvature_max;
-    double major[3];
-    double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
-    int line;                    /* curvature_min is zero to round-off: line contact */
-    unsigned flags;
-    double lever_pinion, lever_wheel, ratio;
-} mw_contact;
 
 int mw_abi(void);
 const char *mw_status_word(int status);
@@ -71,9 +28,9 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
 
 /* Which contact. The equations may hold in several places of a tooth pair at once, and also in places where bodies cannot
  * touch. The contact of a pair at an input angle is
- *   1. at angle 0, the tangency in the middle of the flanks, to which the model's start values lead; where bodies cannot
- *      make it but can make another as under 3, that one; elsewhere the point of the branch of contact through it. Where
- *      nothing touches at 0, the branch is that of a contact on both flanks at the nearest of a fixed series of angles;
+ *   1. at the reference angle (0 unless the model names another), the tangency in the middle of the flanks, to which the
+ *      model's start values lead; where bodies cannot make it but can make another as under 3, that one; elsewhere the
+ *      point of the branch of contact through it. Where nothing touches there, the branch is that of a contact on both flanks at the nearest of a fixed series of angles;
  *   2. that point stays the contact where it lies beyond a limit of a flank, which is then flagged;
  *   3. where bodies cannot make it (see mw_impossible), or the branch ends before the angle: a contact within all limits
  *      of both flanks that bodies can make, the nearest to the middle that a search over the wheel flank finds. The teeth
@@ -82,11 +39,11 @@ int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
  * So one angle has one contact and one status, whichever other angles are asked for. A line of contact has no branch:
  * there every angle is solved from the start values. */
 
-/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result. Misalignments are applied
- * by continuation. Returns info->status. */
+/* Solve one point. p[np] complete; s[ns] is left set up for p and phi; work[np]; x[nx] result, not a number where
+ * there is none. Misalignments are applied by continuation. Returns info->status. */
 int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info);
 
-/* Solve from start values x[nx], state s set up for p and phi already. */
+/* Solve from start values x[nx], state s set up for p and phi already. Returns info->status. */
 int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
 
 /* Solve the points phi[n], each predicted from its predecessors: the same contacts as of mw_solve, faster where the
@@ -95,7 +52,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
                 mw_info *info);
 
 /* Follow the branch through the solution x0 at phi0 along phi[n], in order, starting near phi0; x[n*nx], info[n].
- * s is set up. Stops where the branch ends: returns how many points were solved; info of the next one says why. */
+ * s is set up. Stops where the branch ends or an angle is none: returns how many points were solved; info of the next one says why. */
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
@@ -137,8 +94,20 @@ size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0,
  * s[ns] set up by setup(). Returns MW_CONVERGED, or MW_DIVERGED if there is none nearby; phi and x are then unchanged. */
 int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, double *x);
 
+/* One call for a whole trace: mw_trace, then the contact geometry of every point: o[n*no], contact[n] (NaN and 0 where
+ * there is none). info[k].status becomes line contact where the flanks touch along a line. A point that does not pass
+ * mw_touch is solved again by itself. Returns the number of points that succeeded. */
+size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
+                  mw_info *info, double *o, mw_contact *contact);
+
+/* The geometry of contacts solved already, x[n*nx] at phi[n], where info[k].status >= 0; s is set up. As above, but a
+ * point that does not pass mw_touch gets its status. */
+void mw_contacts(const mw_model *m, double *s, const double *phi, size_t n, const double *x, mw_info *info, double *o,
+                 mw_contact *contact);
+
 /* Contact points[designs*n*3] (fixed frame; NaN where there is none) and flags[designs*n] of what mw_trace_designs
- * solved; status[designs*n] becomes line contact where the flanks touch along a line. Work: s[ns], o[no]. */
+ * solved; status[designs*n] becomes line contact where the flanks touch along a line, and what mw_touch says where they
+ * do not touch. Work: s[ns], o[no]. */
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags);
 
@@ -157,10 +126,53 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr);
 
-/* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
+/* Contact geometry at a solution; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT, or what
+ * mw_touch says where x is no contact: c is then the geometry of two surfaces that do not touch. */
 int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c);
 
-/* Name of flag number bit of mw_contact.flags, NULL past the last. */
+/* Success means touching: the gate that every solution passes which anything here calls a success. Judges x[nx] by its
+ * observation o[no]. MW_CONVERGED where position and direction of both normals, opposed, agree within the rounding of
+ * their own terms and every surface parameter is in its domain; else MW_LEFT_FLANK (outside a domain), MW_NO_CONTACT
+ * (normals parallel: both bodies on the same side) or MW_DIVERGED. */
+int mw_touch(const mw_model *m, const double *x, const double *o);
+
+/* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
+ * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. order[vertices]: every
+ * vertex once, from one near contact outwards; parent[vertex]: a neighbour that comes earlier, -1 for the first. bound:
+ * the parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
+typedef struct mw_flank_mesh {
+    size_t vertices, triangles;
+    const double *q;
+    const int *corner, *order, *parent;
+    const unsigned char *open;
+    int bound;
+    const double *wheel_sizes, *pinion_sizes;
+} mw_flank_mesh;
+
+/* Where two bounded flanks touch first. wheel_turn: how far the wheel has turned then; lever: mm of normal approach per
+ * rad. limit: what holds the place, on flank member (0 pinion, 1 wheel): 0 the singular line, 1 + number of a margin, -1
+ * none: two of -1 are a tangency. point, normal (out of the pinion): fixed frame. met: vertices that meet the pinion's
+ * bounded flank; open: those of them where nothing ends the flank. unresolved: a further extreme that the search could not
+ * exclude would overlap by this at most, mm. */
+typedef struct mw_first {
+    int status, limit[2], member[2];
+    double wheel_turn, lever, q_wheel[3], q_pinion[3], point[3], normal[3], unresolved;
+    size_t met, open;
+} mw_first;
+
+/* Where the flanks of a pair touch first as the wheel comes from the side on which the gap is open: sense = +1, from
+ * larger angles, or -1. pinion[steps*12], wheel[steps*12]: placements of the bodies, three rows of four, the last of them
+ * those asked for; the wheel turns about its own z by turn (+1 or -1) times its angle. start: parameters of the wheel's and
+ * of the pinion's flank and turn of the wheel where the two meet at the first placements, nearly; further placements lead
+ * from there in steps. work[mw_first_contact_work(vertices)]. Returns MW_CONVERGED, MW_NO_CONTACT where no point of the
+ * wheel's flank meets the pinion's or where both go on with nothing to end them, MW_DIVERGED where the start does not lead
+ * to the flank, or MW_BAD_INPUT for flanks of another kind. */
+int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                     const double *wheel, size_t steps, double turn, double sense, const double *start, double *work,
+                     mw_first *found);
+size_t mw_first_contact_work(size_t vertices);
+
+/* Name of flag number bit of mw_contact.flags, NULL where there is none. */
 const char *mw_flag(const mw_model *m, int bit);
 
 /* Whether a flag marks points that satisfy the equations but that bodies cannot make. */

@@ -64,6 +64,7 @@ typedef struct mw_model {
     int nx, np, ns, no, nd, nstart, nguards;
     int error;                   /* index of the transmission error among the unknowns */
     int wheel_angle;             /* index of the wheel angle in the observation */
+    int reference;               /* index in p of the reference angle, where the start values lead; -1: angle 0 */
     int geometry;                /* in the observation: an orthonormal basis of the tangent plane (6), fixed frame; in it
                                     second fundamental forms (11, 12, 22) of pinion and wheel along their own outward
                                     normals and of the gap along the pinion's; the gap's principal curvatures, the smaller

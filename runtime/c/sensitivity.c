@@ -2,7 +2,7 @@
 #include <string.h>
 #include "complete.h"
 #include "kernels.h"
-#include "linear.h"
+#include "solver/linear.h"
 
 /* Below this share of the largest pivot a system does not determine its solution: line contact. */
 static const double RANK_TOLERANCE = 1e-12;
@@ -12,7 +12,7 @@ static int implicit(int n, double *J, double *dR, const double *scale, double *c
 {
     double gap;
     for (int i = 0; i < n; i++) dR[i] = -dR[i];
-    return mw_linear_solve(n, J, dR, scale, RANK_TOLERANCE, change, &gap) < n ? MW_SINGULAR : MW_CONVERGED;
+    return mwi_linear_solve(n, J, dR, scale, RANK_TOLERANCE, change, &gap) < n ? MW_SINGULAR : MW_CONVERGED;
 }
 
 static int place(const mw_model *m, const mw_system *system, const mw_system_tangents *t, const double *p,

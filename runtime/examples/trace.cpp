@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <vector>
 #include "meshwright.h"
+#include "cylindrical_worm_zn_zn.h" // for the places of its parameters
+
+#define P(key) cylindrical_worm_zn_zn_P_##key
 
 extern "C" const mw_model *mw_drive_cylindrical_worm_zn_zn(void);
 
@@ -13,7 +16,9 @@ int main()
     if (mw_abi() != MW_MODEL_ABI || drive->abi != MW_MODEL_ABI) return 2;
     const double degree = 3.141592653589793 / 180.0;
     std::vector<double> p(static_cast<std::size_t>(drive->np), std::nan("")), q(p.size() + 1);
-    p[1] = 2.0, p[3] = 1.0, p[4] = 277.0, p[5] = 3.0 * degree, p[7] = 10.0 * degree, p[9] = 4.0, p[10] = 20.063824;
+    p[P(normal_module_mm)] = 2.0, p[P(worm_threads)] = 1.0, p[P(wheel_teeth)] = 277.0;
+    p[P(worm_lead_angle_deg)] = 3.0 * degree, p[P(pressure_angle_deg)] = 10.0 * degree;
+    p[P(pitch_line_shift_mm)] = 4.0, p[P(hob_pitch_radius_mm)] = 20.063824;
     std::vector<mw_info> info(11);
     if (mw_complete(drive, p.data(), q.data(), info.data())) return 2;
     std::vector<double> phi, s(static_cast<std::size_t>(drive->ns)), work(p.size());

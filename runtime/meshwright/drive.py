@@ -12,11 +12,13 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.contact.functions import Function
-from meshwright.cycle import contact_ratio, edge, windows
+from meshwright.cycle import contact_ratio, edge, first_contact, windows
 from meshwright.design import design as designs
 from meshwright.design.design import Design
 from meshwright.flank import grids
+from meshwright.flank.region import region
 from meshwright.flank.surface import Flank
+from meshwright.pattern.used import uses
 
 
 def _compiled(design):
@@ -117,9 +119,16 @@ class Drive:
         """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.contact.results.TCA`."""
         angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
-        if result.past_a_tip and self.past_the_tips:
-            return analysis.without_contact(self, angles)
+        outside = result.outside_the_tips
+        if outside.any() and self.past_the_tips:
+            result = result.without_contact(outside)
         return edge.flagged(result, self.edge_window)
+
+    def first_contact(self, angles, result=None):
+        """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:
+        :class:`~meshwright.cycle.first_contact.FirstContacts`. ``result``: a TCA of these angles, if there is one.
+        """
+        return first_contact.first_contacts(self, analysis.checked_angles(angles), result)
 
     def contacts(self, angle):
         """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""
@@ -135,7 +144,16 @@ class Drive:
 
     def surface(self, member, shape=(21, 41), region="flank"):
         """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`."""
-        return grids.grid(self, member, shape, region)
+        return grids.grid(self, member, shape, region, self.uses)
+
+    @cached_property
+    def uses(self):
+        """What contact uses of the flanks: see :class:`~meshwright.flank.region.Uses`."""
+        return uses(self)
+
+    def region(self, member, name="flank"):
+        """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`."""
+        return region(self, member, name, self.uses)
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

@@ -13,7 +13,7 @@ from derive.audit import __main__ as command
 from derive.audit import check, ledger, record
 from derive.audit.provenance import provenance
 from derive.drives import catalogue
-from derive.schedule import schedule
+from derive.passes.schedule import schedule
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"

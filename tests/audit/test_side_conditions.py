@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive import conditions
 from derive.drives import catalogue
-from derive.newton import sample_parameters
-from derive.schedule import schedule
+from derive.passes import guards
+from derive.passes.sample import sample_parameters
+from derive.passes.schedule import schedule
 from meshwright.base.library import ffi, library, model, text
 from meshwright.design.description import described
 
@@ -29,7 +29,7 @@ def functions_in(header, prefix):
     """Name without prefix → text of each function of a generated header."""
     start = rf"^(?:static inline|MW_INLINE) [\w ]+?\*?(?:MW_LANE_NAME\()?{prefix}_(\w+)\)?\("
     parts = re.split(start, header, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
+    return {name: text.partition("\n}\n")[0] for name, text in zip(parts[1::2], parts[2::2], strict=True)}
 
 
 def partial_operations(body):
@@ -68,7 +68,7 @@ def test_every_side_condition_names_a_proved_statement_and_a_guard(drive):
             assert use["guards"]
             for guard in use["guards"]:
                 number = re.fullmatch(r"setup (\d+)", guard)
-                assert guard in conditions.GUARDS or 1 <= int(number[1]) <= len(told["guards"])
+                assert guard in guards.GUARDS or 1 <= int(number[1]) <= len(told["guards"])
 
 
 # -- every condition, broken on the tape: what is not finite arrives --------------------------------------------------
@@ -89,6 +89,7 @@ def run(tape, outputs, inputs, broken):
     apply = {
         "add": np.add, "sub": np.subtract, "mul": np.multiply, "div": np.divide, "neg": np.negative, "sqrt": np.sqrt,
         "sin": np.sin, "cos": np.cos, "atan2": np.arctan2,
+        "sign": np.sign,
     }  # fmt: skip
     for i in tape.needed(outputs):
         args = [value(a) for a in tape.nodes[i].args]
@@ -105,16 +106,16 @@ def test_a_broken_condition_is_seen_in_every_result_that_depends_on_it(drive):
     guarded = {guard.of for guard in plan.guards}
     inputs = {symbol: float(value) for symbol, value in sample_parameters(plan.drive).items()}
     tried = 0
-    for f in conditions.functions(plan):
-        if f.tape is not plan.tape or f.name in conditions.EARLY or f.guard == "start":
+    for f in guards.functions(plan):
+        if f.tape is not plan.tape or f.name in guards.EARLY or f.guard == "start":
             continue
         tested = plan.tests.get((f.name, f.part), {})
         order = f.tape.needed(f.outputs)
-        demands = dict.fromkeys(c for i in order for c in conditions.demanded(f.tape, i))
+        demands = dict.fromkeys(c for i in order for c in guards.demanded(f.tape, i))
         for node, kind in demands:
             if node in guarded:
                 continue
-            broken = {i for i in order if (node, kind) in conditions.demanded(f.tape, i)}
+            broken = {i for i in order if (node, kind) in guards.demanded(f.tape, i)}
             whole, harmed = run(f.tape, f.outputs, inputs, ()), run(f.tape, f.outputs, inputs, broken)
             for group in f.groups:
                 changed = any(whole[i] != harmed[i] and math.isfinite(whole[i]) for i in group)

@@ -47,9 +47,10 @@ def casadi_rootfinder_points(function, case):
 
 
 class _Vectorised:
-    """NumPy under the names that :meth:`derive.tape.Tape.evaluate` wants."""
+    """NumPy under the names that :meth:`derive.program.tape.Tape.evaluate` wants."""
 
     sqrt, sin, cos, atan2 = map(staticmethod, (np.sqrt, np.sin, np.cos, np.arctan2))
+    sign = staticmethod(lambda a: np.where(a < 0.0, -1.0, 1.0))
 
 
 def numpy_points(plan, case):

@@ -13,8 +13,8 @@ import casadi
 import numpy as np
 
 from derive import drives
-from derive.schedule import schedule
-from derive.tape import Stage
+from derive.passes.schedule import schedule
+from derive.program.tape import Stage
 from meshwright import Drive
 from meshwright.base.library import ffi, library
 from tests.benchmarks import baselines, regeneration
@@ -28,6 +28,7 @@ CASES = (
     ("recess-action-full", 0.3, 1.75e-3),
     ("spherical-table-2-3", -0.1, 1e-5),
     ("face-worm-cylindrical-convex", -1.0, 1e-4),
+    ("helical-crowned", -0.1, 1e-5),
 )
 POINTS = 20000
 

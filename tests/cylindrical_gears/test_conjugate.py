@@ -99,12 +99,29 @@ def test_curvatures_of_a_crossed_pair_are_those_of_two_cylinders(flank):
         assert found.curvatures[k] == pytest.approx([(k1 + k2 - root) / 2, (k1 + k2 + root) / 2], rel=1e-9)
 
 
-def test_contact_ratios_are_the_closed_forms():
-    """Spur and helical in the transverse section; crossed by the travel between the tips."""
-    for design in (SPUR, {**SPUR, "center_distance_mm": 56.7}):
-        drive = Drive.from_tables(tables(design))
-        exact = pair_of(drive.design.tables)
-        assert drive.contact_ratio().contact_ratio == pytest.approx(float(exact.parallel_contact()[1]), abs=1e-9)
+@pytest.mark.parametrize("flank", ["left", "right"])
+@pytest.mark.parametrize(
+    "design", [SPUR, {**SPUR, "center_distance_mm": 56.7}, HELICAL, {**HELICAL, "face_width_mm": 45.0}]
+)
+def test_contact_ratios_of_parallel_pairs_are_those_of_iso_21771(design, flank):
+    """ε_γ = ε_α + ε_β."""
+    drive = Drive.from_tables(tables(design, flank=flank))
+    _, transverse, overlap = pair_of(drive.design.tables).parallel_contact()
+    assert drive.contact_ratio().contact_ratio == pytest.approx(float(transverse + overlap), abs=1e-9)
+
+
+@pytest.mark.parametrize("errors", ERRORS)
+def test_contact_ratios_of_crossed_pairs_follow_from_their_tips(errors):
+    """Contact travels along the normal from tip to tip: s_i ≤ √(r_ai² − r_bi²)/cos β_bi, s1 + s2 fixed."""
+    drive = Drive.from_tables(tables({**SHIFTED, "face_width_mm": 60.0}, errors))
+    exact, found = pair_of(drive.design.tables), drive.tca([0.0])
+    path = 0.0
+    for gear, name in ((exact.pinion, "pinion"), (exact.wheel, "wheel")):
+        base, here = float(gear.r_b), math.hypot(*found.body_points[name][0][:2])
+        rolled = math.sqrt(float(gear.r_a) ** 2 - base**2) - math.sqrt(here**2 - base**2)
+        path += rolled / math.cos(float(gear.beta_b))
+    expected = path / (math.pi * 3.0 * math.cos(math.radians(20.0)))
+    assert drive.contact_ratio().contact_ratio == pytest.approx(expected, abs=1e-9)
 
 
 def test_the_contact_ratio_of_the_crossed_pair_17_23():

@@ -89,3 +89,16 @@ def test_undercut_begins_below_that_number(teeth, undercut):
     at_start, at_limit = drive.flank("pinion")(np.array([[start, 0.0], [singular, 0.0]])).regular
     assert (at_start < 0.0) == undercut == (singular > start)
     assert abs(at_limit) < 1e-12
+
+
+@pytest.mark.parametrize("shift, least", [(0.0, 18), (-0.1, 19), (0.3, 12)])
+def test_limits_name_undercut_and_the_least_teeth(shift, least):
+    """Every section is singular at l_u = −(r sin² α_t + x m)/cos α; z_lim = 2 (h − x) cos β/sin² α_t, rounded up."""
+    design = {"pinion_teeth": 14, "wheel_teeth": 40, "pinion_profile_shift_coefficient": shift}
+    found = Drive.from_tables(tables(design)).limits()
+    alpha = math.radians(20.0)
+    line = [entry for entry in found.undercut if entry.member == "pinion"]
+    singular = -(21.0 * math.sin(alpha) ** 2 + 3.0 * shift) / math.cos(alpha)
+    assert [entry.parameters["l_pinion"] for entry in line] == pytest.approx([singular] * len(line), abs=1e-9)
+    assert all(entry.on_flank == (singular > -3.1924300532) for entry in line)
+    assert found.least_teeth["pinion"] == least

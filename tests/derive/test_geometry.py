@@ -4,8 +4,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from derive import drives, newton
-from derive.schedule import schedule
+from derive import drives
+from derive.passes import sample
+from derive.passes.schedule import schedule
 from meshwright import Drive
 from meshwright.base.library import pointer
 from meshwright.contact.placement import inverse, placed, placements
@@ -116,7 +117,7 @@ def test_derivatives_along_a_direction_are_those_of_the_residual(name):
         behind, here, ahead = moved(-1), moved(0), moved(1)
         first = [(b - a) / (2 * step) for a, b in zip(behind, ahead, strict=True)]
         second = [(a - 2 * h + b) / step**2 for a, h, b in zip(behind, here, ahead, strict=True)]
-    numbers = newton.in_double(at)
+    numbers = sample.in_double(at)
     drive_model, state = _state(name, plan, numbers)
     x, v = (np.array(list(map(float, a))) for a in ([at[u] for u in plan.unknowns], direction))
     one, two = np.empty(len(x)), np.empty(len(x))

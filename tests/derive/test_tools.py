@@ -8,8 +8,8 @@ from derive.drives import cylindrical_worm
 from derive.language.surface import helicoid
 from derive.language.symbols import Quantity
 from derive.language.tool import Datum, tool
-from derive.newton import sample_parameters
-from derive.schedule import schedule
+from derive.passes.sample import sample_parameters
+from derive.passes.schedule import schedule
 from derive.tools.worm_body import WormTool, reach
 
 CROWN = Datum("blade_crown_per_mm", "c", "crowning of the blade", default=0, sample="0.001")

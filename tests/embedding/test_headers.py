@@ -69,16 +69,23 @@ def test_the_lanes_of_a_drive_need_nothing(drive):
         assert c.undefined(objects / unit) <= {"sqrt", "_GLOBAL_OFFSET_TABLE_"}
 
 
+#: Options under which a compiler might fuse, and whether the header is asked to.
+CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUSED", "-march=native")}
+
+
+@pytest.mark.parametrize("fused", [False, True])
 @pytest.mark.parametrize("drive", FAMILIES)
-def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive):
+def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, fused):
+    """A contact from nothing: with this machine's instructions too, products are fused where the header says."""
     problem, solution = problem_of(drive)
     results = {}
     for name, (command, _) in c.compilers().items():
-        for level in ("-O0", "-O2", "-O3"):
-            folder = tmp_path / f"{name}{level}"
-            folder.mkdir()
-            results[name, level] = _native(drive, folder, command, level)
-    for machine, solve in MACHINES.items():
+        for level in ("-O0", "-O1", "-O2", "-O3"):
+            for way in ("fused",) if fused else ("separate", "native"):
+                folder = tmp_path / f"{name}{level}{way}"
+                folder.mkdir()
+                results[name, level, way] = _native(drive, folder, (*command, *CONTRACTION[way]), level)
+    for machine, solve in () if fused else MACHINES.items():
         pytest.importorskip("wasmtime" if machine == "wasm" else "unicorn")
         results[machine] = solve(c.freestanding(machine, drive, tmp_path / machine), problem)
     steps, first = next(iter(results.values()))
@@ -110,12 +117,9 @@ void scalar(const double *p, double phi, int l, double *s, double *x, double *z)
 """
 
 
-CONTRACTION = {"separate": (), "fused": ("-DMW_FUSED", "-march=native")}
-
-
 @pytest.mark.parametrize("drive", FAMILIES)
 @pytest.mark.parametrize("width", [2, 4, 8, 16])
-@pytest.mark.parametrize("contraction", CONTRACTION)
+@pytest.mark.parametrize("contraction", ["separate", "fused"])
 def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width, contraction):
     problem, _ = problem_of(drive)
     source, library = tmp_path / "lanes.c", tmp_path / "lanes.so"
@@ -142,7 +146,8 @@ def test_fusing_changes_no_more_than_round_off(tmp_path, drive):
     _, solution = problem_of(drive)
     command = sorted(c.compilers().items())[-1][1][0]
     found = {}
-    for name, options in CONTRACTION.items():
+    for name in ("separate", "fused"):
+        options = CONTRACTION[name]
         (tmp_path / name).mkdir()
         _, found[name] = _native(drive, tmp_path / name, (*command, *options), "-O3")
         assert np.abs(found[name] - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())

@@ -16,6 +16,7 @@ from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.model import Load
 from meshwright.fe.pair import touches
 from meshwright.fe.solids import gear_pair
+from tests.worm.designs import without_blank
 from tests.worm.hob_tip import Balls
 
 DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
@@ -102,9 +103,10 @@ def test_half_spaces_give_hertz(drive_and_gear):
     assert pair.peak_pressure == pytest.approx(pair.hertz.peak_pressure, rel=0.01)
 
 
-def test_what_the_blank_leaves_open_is_said(capsys):
+def test_what_the_blank_leaves_open_is_said(capsys, tmp_path):
     """And that, being so narrow, it has no pair in contact at some angles."""
-    assert main(["loaded", "zk-zn-60", "--torque-nm", "20", "--phi-deg=-60,0", "--pairs", "1"]) == 1
+    bare = without_blank("zk-zn-60", tmp_path)
+    assert main(["loaded", bare, "--torque-nm", "20", "--phi-deg=-60,0", "--pairs", "1"]) == 1
     shown = capsys.readouterr().out
     assert "wheel_face_width_mm = " in shown and "no tooth pair touches" in shown
     assert re.search(r"contact ratio 0\.69\d: the assumed blank leaves gaps .* face of the wheel", shown)
@@ -112,7 +114,8 @@ def test_what_the_blank_leaves_open_is_said(capsys):
 
 def test_contact_ratio_of_the_whole_blank():
     """The window of a pair over the pitch; below 1 there are gaps, which a wider face closes."""
-    narrow, wide = (gear_pair(Drive.load("zk-zn-60").with_(blank=blank)) for blank in ({}, {"wheel_face_width_mm": 18}))
+    drive = Drive.load("zk-zn-60")
+    narrow, wide = (gear_pair(drive.with_(blank={"wheel_face_width_mm": width})) for width in (8.8, 18))
     angles = np.linspace(-0.5, 0.5, 25) * narrow.pinion.pitch
     assert narrow.contact_ratio < 1.0 < wide.contact_ratio and narrow.ends == ("face of the wheel",)
     assert not all(touches(narrow, angle, 3) for angle in angles)

@@ -1,5 +1,7 @@
 """Designs that the worm tests share."""
 
+from importlib.resources import files
+
 from meshwright.design.design import changed, read
 
 PROFILES = ("ZA", "ZI", "ZN", "ZK", "ZC")
@@ -34,3 +36,12 @@ def plain(worm, hob=None, **changes):
 def packaged(name, **changes):
     """Tables of a packaged design with ``table__key`` changed."""
     return changed(read(name), {key.replace("__", "."): value for key, value in changes.items()})
+
+
+def without_blank(name, folder):
+    """Path of a packaged design written to ``folder`` without its table of the blank."""
+    text = (files("meshwright") / "designs" / f"{name}.toml").read_text(encoding="utf-8")
+    design, _, rest = text.partition("[blank]")
+    path = folder / f"{name}-bare.toml"
+    path.write_text(design + rest[rest.index("[contact]") :], encoding="utf-8")
+    return str(path)

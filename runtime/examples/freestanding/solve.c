@@ -1,4 +1,4 @@
-/* A solver for a controller or a web page: parameters and start values in, unknowns out, no C library.
+/* A solver for a controller or a web page: parameters in, unknowns out, no C library.
  * Compile with -DDRIVE=cylindrical_worm_zn_zn -DHEADER='"cylindrical_worm_zn_zn.h"'. */
 #include HEADER
 
@@ -6,13 +6,11 @@
 #define JOIN(drive, name) JOIN2(drive, name)
 #define X(name) JOIN(DRIVE, name)
 
-/* Newton from x[NX] at input angle phi with complete parameters p[NP]; s[NS] is work. Returns the steps taken, or a
- * negative number. */
+/* The contact x[NX] at input angle phi for complete parameters p[NP]; s[NS] is work. Returns the steps taken from the
+ * last prediction, or the negative status that says why there is none. */
 int solve(const double *p, double phi, double *s, double *x)
 {
-    if (X(setup)(p, s)) return -1;
-    X(set_phi)(s, phi);
-    for (int steps = 1; steps <= 30; steps++)
-        if (X(step)(s, x) < 1e-13) return steps;
-    return 30; /* as close as round-off lets it */
+    mw_info info;
+    if (X(setup)(p, s)) return MW_BAD_INPUT;
+    return X(solve)(s, phi, x, &info) < 0 ? info.status : info.iterations;
 }

@@ -30,7 +30,12 @@ CORE = "libmeshwright.so"
 #: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
 DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
 DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h")
-PUBLIC_HEADERS = ("meshwright.h", "mw_model.h")
+#: What programs include, and what generated headers repeat.
+SOLVER = (
+    "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",
+    "choice",
+)  # fmt: skip
+PUBLIC_HEADERS = ("meshwright.h", "mw_model.h", "mw_status.h", *(f"solver/{part}.h" for part in SOLVER))
 
 #: Generated headers of a drive.
 GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h")

@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.contact.analysis import LARGEST_ANGLE
+from meshwright.contact.analysis import largest_angle
 from meshwright.design import design as designs
 from meshwright.drive import BACKENDS, Drive
 
@@ -65,8 +65,8 @@ def _spaced(text):
 
 def _degrees(text, words):
     values = [float(word) for word in words]
-    if not np.all(np.abs(values) <= np.degrees(LARGEST_ANGLE)):
-        most = int(np.degrees(LARGEST_ANGLE))
+    if not np.all(np.abs(values) <= np.degrees(largest_angle())):
+        most = int(np.degrees(largest_angle()))
         raise UsageError(f"--phi-deg {text}: an angle is beyond {most} degrees; give smaller angles")
     return values
 

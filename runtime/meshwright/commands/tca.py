@@ -1,7 +1,10 @@
 """Tooth contact analysis: contact point, transmission error and ellipse over the pinion angle.
 
-Exit status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
+Where the blank bounds the flanks, also where the two flanks touch first: at that point, on an edge or at a corner. Exit
+status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
 """
+
+import sys
 
 import numpy as np
 
@@ -10,10 +13,14 @@ from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.contact_line import contact_line
+from meshwright.cycle.first_contact import flagged
 from meshwright.pattern.pattern import contour
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000
+
+#: A search for first contact that could have missed an overlap above this, mm, says so.
+RESOLVED = 1e-4
 
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5
@@ -42,7 +49,12 @@ def run(options):
     if options.contour is not None and options.contour > MOST_DIRECTIONS:
         raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
     result = drive.tca(common.angles_of(options, drive))
+    first = drive.first_contact(result.angles, result)
+    result = flagged(result, first)
     points = result.to_points()
+    for k, point in enumerate(points):
+        point["first_contact"] = first.point(k, result.error)
+    _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
     if options.all_contacts:
@@ -55,6 +67,18 @@ def run(options):
     if not options.json and not options.csv:
         write_text("-", _table(drive, points))
     return 0 if result.complete else 1
+
+
+def _say_unresolved(first):
+    """On standard error, what the search for first contact could not exclude."""
+    doubtful = first.unresolved > RESOLVED
+    if doubtful.any():
+        most = 1000.0 * first.unresolved[doubtful].max()
+        print(
+            f"first contact: at {doubtful.sum()} of {len(doubtful)} angles a place that the search missed could "
+            f"overlap by up to {most:.3g} µm",
+            file=sys.stderr,
+        )
 
 
 def _add_contours(points, drive, result, count):
@@ -110,7 +134,7 @@ def _flat(point):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
-        elif key == "flags":
+        elif key in ("flags", "limits"):
             flat[key] = " ".join(value)
         elif isinstance(value, list):
             flat |= {f"{key}_{axis}": v for axis, v in zip("xyz", value, strict=True)}

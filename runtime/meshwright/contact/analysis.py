@@ -6,33 +6,21 @@ from functools import cache, cached_property
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import ffi, library, pointer, text
-from meshwright.contact.results import TCA
+from meshwright.base.library import ffi, library, pointer, record, text
+from meshwright.contact.results import OFF_TIP, TCA
 
-#: Largest input angle to either side, rad: MW_MAX_ANGLE of meshwright.h.
-LARGEST_ANGLE = 10_000.0
 
-#: ``mw_info`` and ``mw_contact`` of meshwright.h as NumPy records.
-_INFO = np.dtype(
-    [("status", "i4"), ("iterations", "i4"), ("guard", "i4"), ("step", "f8"), ("residual", "f8"), ("rank_gap", "f8")],
-    align=True,
-)
-_CONTACT = np.dtype(
-    [
-        ("point", "f8", 3), ("normal", "f8", 3), ("curvature_min", "f8"), ("curvature_max", "f8"), ("major", "f8", 3),
-        ("distance", "f8"), ("misfit", "f8"), ("line", "i4"), ("flags", "u4"),
-        ("lever_pinion", "f8"), ("lever_wheel", "f8"), ("ratio", "f8"),
-    ],
-    align=True,
-)  # fmt: skip
+def largest_angle():
+    """Largest input angle to either side, rad."""
+    return float(library().MW_MAX_ANGLE)
 
 
 def checked_angles(angles):
     """Angles (rad) as an array (N,); raises :class:`~meshwright.base.errors.UsageError` for what cannot be traced."""
     angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
-    if angles.ndim != 1 or not np.all(np.abs(angles) <= LARGEST_ANGLE):
+    if angles.ndim != 1 or not np.all(np.abs(angles) <= largest_angle()):
         raise UsageError(
-            f"angles: must be a one-dimensional array of finite numbers; give none beyond {LARGEST_ANGLE:g} rad"
+            f"angles: must be a one-dimensional array of finite numbers; give none beyond {largest_angle():g} rad"
         )
     return angles
 
@@ -40,11 +28,11 @@ def checked_angles(angles):
 def trace(drive, angles):
     """Unknowns (N, nx) and ``mw_info`` records (N,) at ascending angles of the right-hand drive, rad."""
     m, n = drive.model, len(angles)
-    x, records = np.full((n, m.nx), np.nan), np.zeros(n, _INFO)
+    x, records = np.full((n, m.nx), np.nan), np.zeros(n, record("mw_info"))
     s, work = np.empty(m.ns), np.empty(m.np)
     library().mw_trace(
         m, pointer(drive.design.parameters), pointer(angles), n, pointer(s), pointer(work), pointer(x),
-        ffi.from_buffer("mw_info[]", records),
+        pointer(records, "mw_info[]"),
     )  # fmt: skip
     return x, records
 
@@ -52,21 +40,16 @@ def trace(drive, angles):
 def analyse(drive, angles):
     """:class:`~meshwright.contact.results.TCA` at pinion angles (rad), in any order.
 
-    The points are traced in ascending order together with angle 0, to which relative errors refer.
+    The points are traced in ascending order; relative errors refer to the design's reference angle.
     """
     mirror = drive.design.mirror
-    grid, inverse = np.unique(np.append(mirror.sign * angles, 0.0), return_inverse=True)
+    grid, rows = mirror.sign * angles, slice(None)
+    if not np.all(np.diff(grid) > 0.0):
+        grid, rows = np.unique(grid, return_inverse=True)
     points = _Points.of(drive, grid)
-    return points.result(angles, inverse[:-1], mirror)
-
-
-def without_contact(drive, angles):
-    """:class:`~meshwright.contact.results.TCA` of teeth that do not reach each other, at pinion angles (rad)."""
-    mirror = drive.design.mirror
-    records = np.zeros(len(angles), _INFO)
-    records["status"] = status_codes("no_contact")[0]
-    points = _Points.solved(drive, mirror.sign * angles, np.full((len(angles), drive.model.nx), np.nan), records)
-    return points.result(angles, np.arange(len(angles)), mirror)
+    x, zero = trace(drive, np.array([drive.design.reference_angle], dtype=float))
+    reference = x[0, points.description["error"]] if zero["status"][0] >= 0 else points.reference()
+    return points.result(angles, rows, mirror, float(reference))
 
 
 def at_solutions(drive, angles, unknowns):
@@ -75,74 +58,84 @@ def at_solutions(drive, angles, unknowns):
     Angles and unknowns are those of the right-hand drive, whatever the design's hand.
     """
     mirror = drive.design.mirror
-    points = _Points.solved(drive, angles, unknowns, np.zeros(len(angles), _INFO))
-    return points.result(mirror.sign * angles, np.arange(len(angles)), mirror)
+    points = _Points.solved(drive, angles, unknowns)
+    return points.result(mirror.sign * angles, slice(None), mirror, points.reference())
 
 
 @dataclass(frozen=True)
 class _Points:
-    """Solved points of the right-hand drive in ascending order; rows without contact are NaN."""
+    """Analysed points of the right-hand drive; rows without contact are NaN."""
 
     drive: object
     grid: np.ndarray
     x: np.ndarray
     records: np.ndarray
-    status: np.ndarray
     observed: np.ndarray
     contacts: np.ndarray
 
     @classmethod
-    def of(cls, drive, grid):
-        return cls.solved(drive, grid, *trace(drive, grid))
+    def _room(cls, drive, grid, x):
+        n = len(grid)
+        records, contacts = np.zeros(n, record("mw_info")), np.empty(n, record("mw_contact"))
+        return cls(drive, grid, x, records, np.empty((n, drive.model.no)), contacts)
+
+    def _out(self):
+        """The arrays that C fills in, as it takes them."""
+        records, contacts = pointer(self.records, "mw_info[]"), pointer(self.contacts, "mw_contact[]")
+        return pointer(self.x), records, pointer(self.observed), contacts
 
     @classmethod
-    def solved(cls, drive, grid, x, records):
-        """The points of unknowns x (N, nx) and records (N,) at the angles ``grid`` (N,)."""
-        m = drive.model
-        status = records["status"].copy()
-        observed = np.full((len(grid), m.no), np.nan)
-        contacts = np.zeros(len(grid), _CONTACT)
-        points = cls(drive, grid, x, records, status, observed, contacts)
-        s = drive.state()
-        for k in np.flatnonzero(status >= 0):
-            m.set_phi(pointer(s), grid[k])
-            points._look(k, s)
+    def of(cls, drive, grid):
+        """The points of the drive at ascending angles ``grid`` (N,)."""
+        m, n = drive.model, len(grid)
+        points = cls._room(drive, grid, np.full((n, m.nx), np.nan))
+        parameters, s, work = drive.design.parameters, np.empty(m.ns), np.empty(m.np)
+        library().mw_analyse(m, pointer(parameters), pointer(grid), n, pointer(s), pointer(work), *points._out())
         return points
 
-    def _look(self, k, s):
-        """Contact geometry of row k; s is set up for its angle."""
-        place = ffi.from_buffer("mw_contact[]", self.contacts[k : k + 1])
-        solution, observed = pointer(self.x[k]), pointer(self.observed[k])
-        ended = library().mw_contact_at(self.drive.model, pointer(s), solution, observed, place)
-        self.status[k] = ended if self.contacts["line"][k] else self.records["status"][k]
+    @classmethod
+    def solved(cls, drive, grid, x):
+        """The points of unknowns x (N, nx) at the angles ``grid`` (N,)."""
+        grid, x = np.ascontiguousarray(grid, dtype=float), np.array(x, dtype=float, order="C")
+        points = cls._room(drive, grid, x)
+        library().mw_contacts(drive.model, pointer(drive.state()), pointer(grid), len(grid), *points._out())
+        x[~points.touching] = np.nan
+        return points
 
     @property
     def description(self):
         return self.drive.design.description
 
     @property
+    def status(self):
+        return self.records["status"]
+
+    @cached_property
     def touching(self):
         """Rows with a transmission error: a contact point or a contact line."""
         return self.status >= 0
 
-    @property
+    @cached_property
     def pointlike(self):
         """Rows with a contact point."""
         return self.touching & (self.contacts["line"] == 0)
 
     @cached_property
     def error(self):
-        return np.where(self.touching, self.x[:, self.description["error"]], np.nan)
+        return self.x[:, self.description["error"]]
 
     def reference(self):
-        """Transmission error at the solved angle nearest to 0; NaN if nothing is solved."""
+        """Transmission error at the solved angle nearest to the reference angle; NaN if nothing is solved."""
         rows = np.flatnonzero(self.touching)
-        return float(self.error[rows[np.argmin(np.abs(self.grid[rows]))]]) if rows.size else np.nan
+        distance = np.abs(self.grid[rows] - self.drive.design.reference_angle)
+        return float(self.error[rows[np.argmin(distance)]]) if rows.size else np.nan
 
     def _only(self, values):
         """Columns with NaN where there is no contact point."""
-        keep = self.pointlike if values.ndim == 1 else self.pointlike[:, None]
-        return np.where(keep, values, np.nan)
+        line = self.contacts["line"] != 0
+        if not line.any():  # where there is no contact either, nothing is a number
+            return values
+        return np.where(line if values.ndim == 1 else line[:, None], np.nan, values)
 
     def unknowns(self, mirror):
         """Values and units of the unknowns and of what the reduce stage removed."""
@@ -152,61 +145,84 @@ class _Points:
         for output in self.description["outputs"]:
             if output["name"] in recovered:
                 columns[output["name"]] = output, self.observed[:, output["offset"]]
-        values = mirror.numbers({name: self._only(column) for name, (_, column) in columns.items()})
+        values = {name: self._only(_times(mirror.factor(name), column)) for name, (_, column) in columns.items()}
         return values, {name: u["unit"] for name, (u, _) in columns.items()}
 
-    def flags(self):
-        names = flag_names(self.drive.model)
-        bits = np.where(self.pointlike, self.contacts["flags"], 0)
-        return [tuple(dict.fromkeys(n for k, n in enumerate(names) if b >> k & 1)) for b in bits.tolist()]
+    @cached_property
+    def bits(self):
+        """The flags of each row, as numbers."""
+        return np.where(self.pointlike, self.contacts["flags"], 0)
 
-    def result(self, angles, rows, mirror):
-        """The rows asked for, as the drive of the design's hand has them."""
-        flip = mirror.flip
+    def result(self, angles, rows, mirror, reference):
+        """The rows asked for, as the drive of the design's hand has them; ``reference`` is the error they refer to."""
+
+        def column(values, sign=1.0):
+            return _times(sign, self._only(values)[rows])
+
+        def vectors(values):
+            return column(values, 1.0 if mirror.sign > 0.0 else mirror.flip)
+
+        names, status, bits = flag_names(self.drive.model), self.status[rows], self.bits[rows]
+        off_tip = sum(1 << k for k, name in enumerate(names) if name == OFF_TIP)
         unknowns, units = self.unknowns(mirror)
-        curvatures = self._only(np.stack([self.contacts["curvature_min"], self.contacts["curvature_max"]], axis=1))
+        curvatures = column(np.stack([self.contacts["curvature_min"], self.contacts["curvature_max"]], axis=1))
         with np.errstate(invalid="ignore", divide="ignore"):
             semi_axes = np.sqrt(2 * self.drive.design.value("separation_mm", "contact") / curvatures)
-        gap = np.maximum(self.contacts["distance"], self.contacts["misfit"])
-        words, flags = [text(library().mw_status_word(c)) for c in self.status], self.flags()
         bodies = self.description["bodies"]
         return TCA(
             angles=angles,
-            status=tuple(words[k] for k in rows),
-            messages=tuple(text(library().mw_status_text(self.status[k])) for k in rows),
+            status=_looked_up(status, lambda code: text(library().mw_status_word(code))),
+            messages=_looked_up(status, lambda code: text(library().mw_status_text(code))),
             iterations=self.records["iterations"][rows],
-            residual=np.where(self.touching, gap, np.nan)[rows],
-            wheel_angles=mirror.sign
-            * np.where(self.touching, self.observed[:, self.description["wheel_angle"]], np.nan)[rows],
-            error=mirror.sign * self.error[rows],
-            reference_error=mirror.sign * self.reference(),
+            residual=np.maximum(self.contacts["distance"], self.contacts["misfit"])[rows],
+            wheel_angles=_times(mirror.sign, self.observed[:, self.description["wheel_angle"]][rows]),
+            error=_times(mirror.sign, self.error[rows]),
+            reference_error=mirror.sign * reference,
             unknowns={name: values[rows] for name, values in unknowns.items()},
             units=units,
-            points=flip * self._only(self.contacts["point"])[rows],
-            normals=flip * self._only(self.contacts["normal"])[rows],
-            body_points={
-                b["name"]: flip * self._only(self.observed[:, b["point"] : b["point"] + 3])[rows] for b in bodies
-            },
-            curvatures=curvatures[rows],
-            major=flip * self._only(self.contacts["major"])[rows],
-            lever_arms={b["name"]: self._only(self.contacts[f"lever_{b['name']}"])[rows] for b in bodies},
-            instantaneous_ratio=self._only(self.contacts["ratio"])[rows],
-            semi_axes=semi_axes[rows],
-            flags=tuple(flags[k] for k in rows),
+            points=vectors(self.contacts["point"]),
+            normals=vectors(self.contacts["normal"]),
+            body_points={b["name"]: vectors(self.observed[:, b["point"] : b["point"] + 3]) for b in bodies},
+            curvatures=curvatures,
+            major=vectors(self.contacts["major"]),
+            lever_arms={b["name"]: column(self.contacts[f"lever_{b['name']}"]) for b in bodies},
+            instantaneous_ratio=column(self.contacts["ratio"]),
+            semi_axes=semi_axes,
+            flags=_looked_up(bits, lambda b: tuple(dict.fromkeys(n for k, n in enumerate(names) if b >> k & 1))),
             margins={
-                f"{b['name']}.{margin['event']}": self.observed[rows, b["margin"] + i]
+                f"{b['name']}.{margin['event']}": self.observed[:, b["margin"] + i][rows]
                 for b in bodies
                 for i, margin in enumerate(b["margins"])
             },
             solutions=self.x[rows],
+            outside_the_tips=~self.pointlike[rows] | ((bits & off_tip) != 0),
         )
+
+
+def _times(factor, values):
+    """The product; the values themselves, not copied, if the factor is 1."""
+    return values if isinstance(factor, float) and factor == 1.0 else factor * values
+
+
+def _looked_up(codes, meaning):
+    """``meaning(code)`` of each of N whole numbers, asked once for each that occurs: a tuple of N."""
+    if not len(codes):
+        return ()
+    least, most = int(codes.min()), int(codes.max())
+    if least == most:
+        return (meaning(least),) * len(codes)
+    places = codes.astype(np.intp) - least
+    table = np.empty(most - least + 1, dtype=object)
+    for place in np.flatnonzero(np.bincount(places)).tolist():
+        table[place] = meaning(place + least)
+    return tuple(table[places].tolist())
 
 
 @cache
 def statuses():
     """The word of each status by its number in meshwright.h."""
-    words = {code: text(library().mw_status_word(code)) for code in range(-99, 100)}
-    return {code: word for code, word in words.items() if word != "unknown"}
+    codes = sorted(code for code in ffi.typeof("mw_status").elements if code != library().MW_STATUS_END)
+    return {code: text(library().mw_status_word(code)) for code in codes}
 
 
 def status_codes(*words):

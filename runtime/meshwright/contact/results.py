@@ -1,10 +1,11 @@
 """What a tooth contact analysis returns: arrays in inner units (mm, rad), one row a point."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from meshwright.base.library import library
+from meshwright.base.library import library, text
 
 ARCSEC = np.pi / 648000.0
 
@@ -30,7 +31,8 @@ class TCA:
     of its own angle, mm; ``instantaneous_ratio`` (N,): d(wheel angle)/d(pinion angle), the pinion's lever over the
     wheel's. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
     ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of
-    the right-hand model in its own order, NaN where there is no solution.
+    the right-hand model in its own order, NaN where there is no solution. ``outside_the_tips`` says which points have
+    no contact within the tips of both members: (N,) of bool.
     """
 
     angles: np.ndarray
@@ -54,6 +56,7 @@ class TCA:
     flags: tuple[tuple[str, ...], ...]
     margins: dict[str, np.ndarray]
     solutions: np.ndarray
+    outside_the_tips: np.ndarray
 
     @property
     def relative_error(self):
@@ -64,9 +67,11 @@ class TCA:
         """The same with relative errors that refer to another transmission error, rad."""
         return replace(self, reference_error=reference_error)
 
-    @property
+    @cached_property
     def solved(self):
         """Which points have a contact point: (N,) of bool."""
+        if set(self.status) <= set(SOLVED):
+            return np.ones(len(self.status), dtype=bool)
         return np.array([s in SOLVED for s in self.status], dtype=bool)
 
     @property
@@ -74,11 +79,35 @@ class TCA:
         """Whether every point converged to a contact that bodies can make."""
         return bool(self.solved.all()) and not any(impossible(f) for flags in self.flags for f in flags)
 
-    @property
-    def past_a_tip(self):
-        """Whether there are contact points and each is past a tip: the teeth may not reach each other at all."""
-        flags = [flags for flags, solved in zip(self.flags, self.solved, strict=True) if solved]
-        return bool(flags) and all(OFF_TIP in words for words in flags)
+    def without_contact(self, rows):
+        """The same, but at these points (N,) of bool the flanks do not touch."""
+        if not rows.any():
+            return self
+
+        def only(values):
+            return np.where(rows if values.ndim == 1 else rows[:, None], np.nan, values)
+
+        def words(values, instead):
+            return tuple(instead if row else value for row, value in zip(rows.tolist(), values, strict=True))
+
+        code = library().MW_NO_CONTACT
+        word, message = text(library().mw_status_word(code)), text(library().mw_status_text(code))
+        arrays = ("residual", "wheel_angles", "error", "points", "normals", "curvatures", "major", "semi_axes")
+        arrays += ("instantaneous_ratio", "solutions")
+        groups = ("unknowns", "body_points", "lever_arms", "margins")
+        error = only(self.error)
+        left = np.flatnonzero(np.isfinite(error))
+        nearest = error[left[np.argmin(np.abs(self.angles[left]))]] if left.size else np.nan
+        return replace(
+            self,
+            status=words(self.status, word),
+            messages=words(self.messages, message),
+            iterations=np.where(rows, 0, self.iterations),
+            flags=words(self.flags, ()),
+            reference_error=float(nearest),
+            **{name: only(getattr(self, name)) for name in arrays},
+            **{name: {key: only(values) for key, values in getattr(self, name).items()} for name in groups},
+        )
 
     def ellipse(self, k, points=97):
         """Closed outline (points, 3) of the contact ellipse at point ``k``, fixed frame, mm; NaN without one."""

@@ -46,7 +46,7 @@ def meaning(backlash):
 def _both_flanks(drive):
     """The right-hand drive (a mirror image has the same backlash) with either flank."""
     description = drive.design.description
-    right = drive.with_(design={"hand": "right"}) if description["handed"] else drive
+    right = drive.with_(design={"hand": description["handed"]}) if description["handed"] else drive
     words = next(p["choices"] for p in description["parameters"] if p["table"] == "flank")
     return right, right.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
 

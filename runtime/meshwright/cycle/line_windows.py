@@ -17,12 +17,12 @@ ANGLE_TOLERANCE = 1e-10
 
 
 def line_ends(drive, limits):
-    """Lower and upper end of line contact near angle 0, right hand: (angle, limit) pairs, None where nothing ends it.
+    """Lower and upper end of line contact near the reference angle: (angle, limit) pairs, None where nothing ends it.
 
     Contact is judged by the point of the line that lies deepest inside the limits; its limit names the end.
     """
     tried = np.arange(PITCHES * SAMPLES_PER_PITCH) / SAMPLES_PER_PITCH * drive.pitch()
-    around = np.stack([tried, -tried], axis=1).ravel()[1:]
+    around = drive.design.reference_angle + np.stack([tried, -tried], axis=1).ravel()[1:]
     inside = next((float(a) for a in around if _depth(drive, a)[0] >= 0.0), None)
     if inside is None:
         return None, None
@@ -31,7 +31,7 @@ def line_ends(drive, limits):
 
 def _end(drive, limits, inside, sign):
     step, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, math.pi / drive.ratio
-    while abs(inside) < farthest:
+    while abs(inside - drive.design.reference_angle) < farthest:
         depth, _ = _depth(drive, inside + step)
         if not math.isfinite(depth):
             return None

@@ -15,7 +15,7 @@ from meshwright.contact.analysis import analyse
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
 
-#: Where a path is looked for to either side of angle 0, in pitches: misalignment may have moved the contact far away.
+#: Where a path is looked for to either side of the reference angle, in pitches: errors may have moved it far away.
 TRIED = np.array([*np.arange(9) / 8.0, 2.0, 4.0, 8.0])
 
 #: A path that ends in a fold is followed up to this part of a pitch before it, and what is between counts as its end.
@@ -48,9 +48,9 @@ class Path:
     @classmethod
     def start(cls, drive):
         """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
-        tried = TRIED * drive.pitch()
+        tried, reference = TRIED * drive.pitch(), drive.design.reference_angle
         first = None
-        for angle in np.stack([tried, -tried], axis=1).ravel()[1:]:
+        for angle in reference + np.stack([tried, -tried], axis=1).ravel()[1:]:
             found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
             (status,) = found.status
             if status == "converged":

@@ -225,8 +225,8 @@ def _goes_on(path, worst, sign, farthest):
 
 
 def _ends(path, limits):
-    """Lower and upper event of the stretch of valid nodes nearest to angle 0; None if there is none."""
-    stretch = _nearest_stretch(path.angles, _worst(path, limits) >= 0.0)
+    """Lower and upper event of the stretch of valid nodes nearest to the reference angle; None if there is none."""
+    stretch = _nearest_stretch(path.angles, _worst(path, limits) >= 0.0, path.drive.design.reference_angle)
     if stretch is None:
         return None
     first, last = stretch
@@ -235,12 +235,12 @@ def _ends(path, limits):
     return lower, upper
 
 
-def _nearest_stretch(angles, valid):
+def _nearest_stretch(angles, valid, about):
     edges = np.flatnonzero(np.diff(np.concatenate(([False], valid, [False])).astype(int)))
     stretches = [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     if not stretches:
         return None
-    return min(stretches, key=lambda s: max(angles[s[0]], -angles[s[1]], 0.0))
+    return min(stretches, key=lambda s: max(angles[s[0]] - about, about - angles[s[1]], 0.0))
 
 
 def _locate(path, limits, inside, outside):

@@ -18,15 +18,15 @@ class Family:
 
     ``parameters`` are described as in a drive's own description, each once; ``required`` where every drive requires it,
     ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
-    key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows.
-    ``handed``: it has a left hand.
+    key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows,
+    or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
     """
 
     name: str
     parameters: list
     variants: dict
     variant_defaults: dict
-    handed: bool
+    handed: str
 
     @classmethod
     def of(cls, name, drives):
@@ -39,7 +39,7 @@ class Family:
             for parameter in named[drive]["parameters"]:
                 listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
-        return cls(name, parameters, variants, defaults, any(drive["handed"] for drive in named.values()))
+        return cls(name, parameters, variants, defaults, max(drive["handed"] for drive in named.values()))
 
 
 def _joint(family, place, found, everywhere):
@@ -100,6 +100,12 @@ def parameters(family):
 def drives():
     """The names of all drives."""
     return [name for family in families().values() for name in family.variants]
+
+
+def table_and_key(place):
+    """Table and key of "table.key"; a key alone is of [design]."""
+    table, _, key = place.rpartition(".")
+    return table or "design", key
 
 
 def choose(family, words):

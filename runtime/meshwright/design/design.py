@@ -146,6 +146,12 @@ class Design:
         )
 
     @property
+    def reference_angle(self):
+        """Input angle to which relative errors refer, rad, for the hand in which the equations are written."""
+        index = self.description["reference"]
+        return 0.0 if index < 0 else float(self.parameters[index])
+
+    @property
     def other_flank(self):
         """The word of the opposite flank."""
         words = next(p["choices"] for p in self.description["parameters"] if p["table"] == "flank")
@@ -176,8 +182,10 @@ class Design:
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["table"] != "flank":
                 solved.setdefault(p["table"], {})[p["key"]] = _shown(p, float(number))
-        words = {**self.description["variant"], "hand": None}
-        solved["design"] |= {key: self.tables["design"][key] for key in words if key in self.tables["design"]}
+        for place in (*self.description["variant"], "hand"):
+            table, key = metadata.table_and_key(place)
+            if key in self.tables[table]:
+                solved[table][key] = self.tables[table][key]
         solved["design"] |= {key: number if math.isfinite(number) else None for key, number in self.sizes.items()}
         if "placement" in solved:
             solved["placement"] |= _vectors(solved["placement"])
@@ -221,7 +229,7 @@ def check(tables):
     if failed:
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
-    return Design(checked, description, parameters, _sizes(c, parameters), checked["design"].get("hand") == "left")
+    return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked))
 
 
 def _validated(family, tables):
@@ -282,11 +290,32 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    words = checked["design"]
-    for key, source in metadata.families()[family].variant_defaults.items():
-        if words[key] is None:
-            words[key] = words[source]
-    return metadata.choose(family, words)
+    known = metadata.families()[family]
+    for place, source in known.variant_defaults.items():
+        table, key = metadata.table_and_key(place)
+        if checked[table][key] is None:
+            checked[table][key] = _given(checked, source)
+    places = {place for variant in known.variants.values() for place in variant}
+    return metadata.choose(family, {place: _given(checked, place) for place in places})
+
+
+def _given(tables, place):
+    """The value of a key of these tables by its place, None where it is open."""
+    table, key = metadata.table_and_key(place)
+    return tables[table].get(key)
+
+
+def _full(place, checked):
+    """A place with its table; a key alone is of [design] if that has it, else of the table that does."""
+    if "." in place:
+        return place
+    tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
+    return f"{next((name for name in tables if place in checked[name]), 'design')}.{place}"
+
+
+def _mirrored(description, checked):
+    """Whether the design has the other hand than the one for which its equations are written."""
+    return bool(description["handed"]) and checked["design"]["hand"] != description["handed"]
 
 
 def _check_exclusive(description, given):
@@ -401,16 +430,9 @@ def _sizes(c, parameters):
 
 
 def _guard_error(guard, checked):
-    places = {key: _place(key, checked) for key in guard["keys"]}
-    given = {key: checked[table].get(key) for key, table in places.items()}
+    given = {_full(key, checked): _given(checked, _full(key, checked)) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
     first = next(iter(shown or given))
-    others = ", ".join(f"{k} = {v}" for k, v in shown.items() if k != first)
+    others = ", ".join(f"{k.removeprefix('design.')} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(f"{places[first]}.{first}", shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
-
-
-def _place(key, checked):
-    """The table of a key: the design's if that has it."""
-    tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
-    return next((name for name in tables if key in checked[name]), "design")
+    return DesignError(first, shown.get(first), reason, f"change {' or '.join(guard['keys'])}")

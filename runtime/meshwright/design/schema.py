@@ -57,12 +57,22 @@ def _material_fields():
 
 def _variant_fields(family):
     """Keys whose words choose the drive within the family."""
-    words = {}
+    words, fields = {}, {}
     for variant in family.variants.values():
-        for key, allowed in variant.items():
-            words.setdefault(key, {}).update(dict.fromkeys(allowed))
-    kinds = {key: Literal[tuple(allowed)] for key, allowed in words.items()}
-    return {key: (kind | None, None) if key in family.variant_defaults else (kind, ...) for key, kind in kinds.items()}
+        for place, allowed in variant.items():
+            words.setdefault(place, {}).update(dict.fromkeys(allowed))
+    for place, allowed in words.items():
+        table, key = metadata.table_and_key(place)
+        word = Literal[tuple(allowed)]
+        default = family.variant_defaults.get(place, ...)
+        if default in words:
+            word, default = word | None, None  # follows the word of another key
+        fields.setdefault(table, {})[key] = (word, default)
+    return fields
+
+
+def _has_required(model):
+    return any(field.is_required() for field in model.model_fields.values())
 
 
 def design_model(family):
@@ -76,16 +86,19 @@ def _design_model(family):
     for parameter in family.parameters:
         if parameter["table"] != "flank":
             tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
-    tables["design"] |= _variant_fields(family)
+    for table, fields in _variant_fields(family).items():
+        tables[table] |= fields
     if family.handed:
-        tables["design"]["hand"] = (HAND, "right")
+        tables["design"]["hand"] = (HAND, family.handed)
     tables["material"] = _material_fields()
     models = {
         name: create_model(f"{family.name}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
     }
     flanks = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     others = {
-        name: (model, Field(default_factory=model)) for name, model in models.items() if name != "design"
+        name: (model, ...) if _has_required(model) else (model, Field(default_factory=model))
+        for name, model in models.items()
+        if name != "design"
     }
     return create_model(
         family.name,

@@ -282,7 +282,7 @@ def summary(plan, folder, form="parquet"):
         status, flags, error, *xyz = slices.read(path, names, identity, number, rows)
         solved = np.isin(status, analysis.status_codes(*SOLVED))
         good = solved & ((flags.astype(np.uint32) & bad) == 0)
-        words.update(status.tolist())
+        words.update(dict(zip(*(a.tolist() for a in np.unique(status, return_counts=True)), strict=True)))
         impossible += int((solved & ~good).sum())
         whole = good.reshape(-1, n).all(axis=1)
         peaks.append(np.ptp(error.reshape(-1, n)[whole], axis=1))

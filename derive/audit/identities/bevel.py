@@ -1,0 +1,242 @@
+"""Bevel and hypoid gears: blade, machine frames, meshing as a screw, conjugate settings, assembly."""
+
+from derive.audit.claims import Document, scope
+from derive.audit.identities.conventions import identity, proper
+from derive.audit.ledger import Chapter
+
+DOCUMENT = Document(
+    key="bevel",
+    name="bevel and hypoid gears",
+    file="derive/drives/bevel.py",
+    sha256="",
+    about="Machine frame: z along the cradle's axis to the blank, x to the tooth being cut. Body frame: z along the "
+    "axis to the back. h is the hand of the member, s the side of the blade.",
+    symbols={
+        "u": ("u", "mm", "arc length along the blade from its tip"),
+        "X": ("w", "mm", "place on the blade's line that its normal meets"),
+        "t": ("t", "rad", "turn along the arc"),
+        "theta": ("θ", "rad", "angle around the cutter's axis"),
+        "phi": ("φc", "rad", "turn of the cradle"),
+        "work": ("φw", "rad", "turn of the work, any function of φc"),
+        "rate": ("φw′", "-", "its derivative"),
+        "alpha": ("α", "rad", "blade angle"),
+        "kappa": ("κb", "1/mm", "curvature of the blade"),
+        "u0": ("u0", "mm", "where the arc touches its line"),
+        "rp": ("rp", "mm", "point radius"),
+        "q": ("q", "rad", "cradle angle"),
+        "i": ("i", "rad", "tilt"),
+        "j": ("j", "rad", "swivel"),
+        "gamma": ("γm", "rad", "root angle"),
+        "Sr": ("Sr", "mm", "radial setting"),
+        "Em": ("Em", "mm", "blank offset"),
+        "XB": ("XB", "mm", "sliding base"),
+        "XD": ("XD", "mm", "centre to back"),
+        "H": ("H", "mm/rad", "helical motion"),
+        "R": ("R", "-", "ratio of roll"),
+        "rho": ("ρf", "mm", "rounding of the blade's tip"),
+        "lam": ("λ", "rad", "angle on the rounding"),
+        "h": ("h", "-", "hand, +1 right"),
+        "m": ("m", "-", "N1/N2"),
+        "E": ("E", "mm", "offset"),
+        "Sigma": ("Σ", "rad", "shaft angle"),
+        "phi1": ("φ1", "rad", "angle of the pinion"),
+        "s": ("s", "-", "+1 outside blade"),
+    },
+)
+
+BLADE = scope(
+    "bevel.blade",
+    """
+t0 = vec(s*sin(alpha), 0, -cos(alpha))
+n0 = vec(-s*cos(alpha), 0, -sin(alpha))
+arc = (u0 + sin(t)/kappa)*t0 - (2*sin(t/2)**2/kappa)*n0
+n_arc = cos(t)*n0 + sin(t)*t0
+secant = sqrt(1 + kappa**2*X**2)
+swung = (u0 + X/secant)*t0 - (kappa*X**2/(secant*(secant + 1)))*n0
+n_swung = n0 + kappa*X*t0
+pole = (u0 + X)*t0
+omega = vec(o1, o2, o3)
+velocity = vec(v1, v2, v3) + cross(omega, pole)
+f = dot(n_swung, velocity)
+joint = rho*(1 - sin(alpha))/cos(alpha)
+centre = joint*t0 + rho*n0
+m_round = vec(-s*cos(alpha + lam), 0, -sin(alpha + lam))
+rounding = centre - rho*m_round
+""",
+    signs=["s"],
+)
+
+MACHINE = scope(
+    "bevel",
+    """
+unit = mat([1, 0, 0], [0, 1, 0], [0, 0, 1])
+turn_theta = mat([cos(theta), -h*sin(theta), 0], [h*sin(theta), cos(theta), 0], [0, 0, 1])
+turn_swivel = mat([cos(j), -h*sin(j), 0], [h*sin(j), cos(j), 0], [0, 0, 1])
+turn_cradle = mat([cos(q + phi), -h*sin(q + phi), 0], [h*sin(q + phi), cos(q + phi), 0], [0, 0, 1])
+turn_work = mat([cos(work), h*sin(work), 0], [-h*sin(work), cos(work), 0], [0, 0, 1])
+lay = mat([sin(gamma), 0, -cos(gamma)], [0, 1, 0], [cos(gamma), 0, sin(gamma)])
+edge = vec(rp + ex, 0, ez)
+normal = vec(nx, 0, nz)
+r_gen = turn_cradle@(vec(Sr, 0, 0) + turn_swivel@(Ry(i)@(turn_theta@edge)))
+n_gen = turn_cradle@(turn_swivel@(Ry(i)@(turn_theta@normal)))
+base = vec(0, h*Em, XB + H*phi)
+r_body = turn_work@(lay@(r_gen - base) - vec(0, 0, XD))
+n_body = turn_work@(lay@n_gen)
+axis = vec(cos(gamma), 0, sin(gamma))
+k = vec(0, 0, 1)
+origin = base + XD*axis
+screw = dot(n_gen, h*cross(k, r_gen) - h*rate*cross(axis, r_gen - origin) - H*k)
+f = dot(n_body, d(r_body, phi) + rate*d(r_body, work))
+turn_sum = mat([cos(theta + j), -h*sin(theta + j), 0], [h*sin(theta + j), cos(theta + j), 0], [0, 0, 1])
+theta_other = mat([cos(theta), h*sin(theta), 0], [-h*sin(theta), cos(theta), 0], [0, 0, 1])
+swivel_other = mat([cos(j), h*sin(j), 0], [-h*sin(j), cos(j), 0], [0, 0, 1])
+cradle_other = mat([cos(q + phi), h*sin(q + phi), 0], [-h*sin(q + phi), cos(q + phi), 0], [0, 0, 1])
+work_other = mat([cos(work), -h*sin(work), 0], [h*sin(work), cos(work), 0], [0, 0, 1])
+gen_other = cradle_other@(vec(Sr, 0, 0) + swivel_other@(Ry(i)@(theta_other@edge)))
+r_other = work_other@(lay@(gen_other - vec(0, -h*Em, XB + H*phi)) - vec(0, 0, XD))
+plain = lay@(turn_cradle@head - vec(0, h*Em, XB)) - vec(0, 0, XD)
+r_rolled = mat([cos(w), h*sin(w), 0], [-h*sin(w), cos(w), 0], [0, 0, 1])@plain
+r_shifted = mat([cos(w - e), h*sin(w - e), 0], [-h*sin(w - e), cos(w - e), 0], [0, 0, 1])@plain
+turn_shift = mat([cos(e), -h*sin(e), 0], [h*sin(e), cos(e), 0], [0, 0, 1])
+head = vec(p1, p2, p3)
+""",
+    jets={"ex": ("u",), "ez": ("u",), "nx": ("u",), "nz": ("u",)},
+    signs=["h", "s"],
+)
+
+PAIR = scope(
+    "bevel.pair",
+    """
+half = mat([-1, 0, 0], [0, -1, 0], [0, 0, 1])
+flip = mat([1, 0, 0], [0, -1, 0], [0, 0, -1])
+k = vec(0, 0, 1)
+axis_of_work = vec(sin(Sigma), 0, -cos(Sigma))
+r1 = vec(x, y, z)
+""",
+)
+
+CLAIMS = (
+    identity(
+        "meshing",
+        "equation of meshing",
+        "Machine and blank move against one another in a screw about cradle and work axis, for any roll: f is its "
+        "moment about the cutter's normal.",
+        "f = screw",
+        MACHINE,
+    ),
+    identity(
+        "edge-normal",
+        "blade",
+        "The arc's normal has unit length and is normal to the arc.",
+        ["dot(n_arc, n_arc) = 1", "dot(n_arc, d(arc, t)) = 0"],
+        BLADE,
+        conditions=["κb ≠ 0"],
+    ),
+    identity(
+        "swung-edge",
+        "blade",
+        "Measured by where its normal meets the line, the arc has a derivative along t0 - κb w n0, and no singularity "
+        "at κb = 0.",
+        ["secant**3*d(swung, X) = t0 - kappa*X*n0", "dot(n_swung, t0 - kappa*X*n0) = 0"],
+        BLADE,
+        conditions=["1 + √(1 + κb²w²) ≠ 0"],
+    ),
+    identity(
+        "pole",
+        "blade",
+        "The normal of the arc meets its line at the distance w from the point of contact.",
+        "cross(pole - swung, n_swung) = vec(0, 0, 0)",
+        BLADE,
+    ),
+    identity(
+        "linear",
+        "explicit flank",
+        "In any motion the equation of meshing is linear in w, for a straight blade and for an arc.",
+        "d(d(f, X), X) = 0",
+        BLADE,
+    ),
+    identity(
+        "fillet-join",
+        "fillet",
+        "The rounding joins the edge in place and normal, and touches the tip plane.",
+        [
+            "centre.z = -rho",
+            "joint*t0 + rho*n0 - rho*vec(-s*cos(alpha), 0, -sin(alpha)) = joint*t0",
+            "dot(m_round, d(rounding, lam)) = 0",
+        ],
+        BLADE,
+        conditions=["cos α ≠ 0"],
+    ),
+    identity(
+        "frames",
+        "machine",
+        "Every frame of the machine is orthogonal with determinant +1, for either hand.",
+        [text for name in ("turn_theta", "turn_swivel", "turn_cradle", "turn_work", "lay") for text in proper(name)],
+        MACHINE,
+    ),
+    identity(
+        "hand",
+        "machine",
+        "The other hand is the mirror image y → -y at equal blade and cradle angles: only the senses of turns change.",
+        [
+            "r_body.x = r_other.x",
+            "r_body.y = -r_other.y",
+            "r_body.z = r_other.z",
+        ],
+        MACHINE,
+    ),
+    identity(
+        "rotation-of-blade",
+        "machine",
+        "Without tilt, blade angle and swivel enter as their sum.",
+        "turn_swivel@turn_theta = turn_sum",
+        MACHINE,
+    ),
+    identity(
+        "plain-roll",
+        "machine",
+        "With plain roll a change of the cradle angle only turns the member: the flank depends on q + φc.",
+        "r_shifted = turn_shift@r_rolled",
+        MACHINE,
+    ),
+    identity(
+        "apex",
+        "machine",
+        "Centre to back and sliding base together shift the cutter along the machine plane.",
+        "lay@(r_gen - base - vec(0, 0, l*tan(gamma))) - vec(0, 0, XD - l/cos(gamma))"
+        " = lay@(r_gen + vec(l, 0, 0) - base) - vec(0, 0, XD)",
+        MACHINE,
+        conditions=["cos γm ≠ 0"],
+    ),
+    identity(
+        "crown",
+        "conjugate pairs",
+        "A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch "
+        "line, the same line for both members.",
+        "h*k - h*axis/sin(gamma) = -h*cos(gamma)/sin(gamma)*vec(1, 0, 0)",
+        MACHINE,
+        conditions=["sin δ ≠ 0"],
+    ),
+    identity(
+        "formate-cradle",
+        "conjugate pairs",
+        "Where the pinion's cradle is the gear itself, γm = Σ - 90°, Em = E, XD = 0 and R = N2/N1, the machine moves "
+        "as the pair in mesh does: what it cuts is conjugate to the gear, for any offset.",
+        "flip@(cross(axis_of_work, flip@r1 - vec(0, -E, 0))/m - cross(k, flip@r1))"
+        " = (m*cross(k, r1) + cross(vec(sin(Sigma), 0, cos(Sigma)), r1 - vec(0, E, 0)))/m",
+        PAIR,
+    ),
+    identity(
+        "assembly-axis",
+        "assembly",
+        "The pinion's axis is (sin Σ, 0, cos Σ); it turns by φ1 about minus that axis.",
+        [
+            "Ry(Sigma)@(half@vec(0, 0, 1)) = vec(sin(Sigma), 0, cos(Sigma))",
+            "d(Ry(Sigma)@(half@(Rz(-phi1)@r1)), phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), "
+            "Ry(Sigma)@(half@(Rz(-phi1)@r1)))",
+        ],
+        PAIR,
+    ),
+)
+
+CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -1,0 +1,38 @@
+"""The parts of the C runtime that each generated header repeats, so that a copy of it is enough.
+
+They are the same text under the same guards in every header, and the text from which the library is built.
+"""
+
+import re
+from functools import cache
+
+_INCLUDE = re.compile(r'^#include "(.+)"\n', re.MULTILINE)
+_COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
+_EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
+
+
+@cache
+def tables(runtime):
+    """Model table and statuses, as their headers in the folder ``runtime`` have them."""
+    return "".join((runtime / name).read_text(encoding="utf-8") + "\n" for name in ("mw_model.h", "mw_status.h"))
+
+
+@cache
+def solver(runtime):
+    """The solver behind ``X_solve``: every header that ``solver/choice.h`` needs, in order, without its comments."""
+    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in _texts(runtime))
+
+
+def _texts(runtime):
+    return _needed((runtime / "solver" / "choice.h").resolve(), set())
+
+
+def _needed(path, seen):
+    """Texts of the solver's headers, each after those that it includes."""
+    if path in seen or path.parent.name != "solver":
+        return
+    seen.add(path)
+    text = path.read_text(encoding="utf-8")
+    for name in _INCLUDE.findall(text):
+        yield from _needed((path.parent / name).resolve(), seen)
+    yield _INCLUDE.sub("", text)

@@ -1,0 +1,1 @@
+"""Passes: what turns a description into a program and one program into the next, one file each."""

@@ -1,0 +1,85 @@
+"""Schedule of what completes a design: rules, and design systems as functions of parameters alone.
+
+Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.passes.sample`.
+"""
+
+from dataclasses import dataclass
+
+from derive.language.drive import PATH, DesignSystem
+from derive.language.limits import singular_function
+from derive.program.tape import Lowering, Stage, Tape
+
+
+@dataclass(frozen=True)
+class SystemTape:
+    """Nodes of one design system. ``watch`` must be positive along the path; None if there is nothing to watch."""
+
+    system: DesignSystem
+    tape: Tape
+    lower: Lowering
+    residual: list
+    jacobian: list
+    scales: list
+    guess: list
+    values: list
+    watch: int | None
+
+    @property
+    def unknowns(self):
+        return [u.symbol for u in self.system.unknowns]
+
+
+@dataclass(frozen=True)
+class ParameterTape:
+    """Nodes of expressions of a drive's parameter vector alone, on a tape of their own."""
+
+    lower: Lowering
+    nodes: list
+
+    @property
+    def tape(self):
+        return self.lower.tape
+
+
+def on_parameters(drive, expressions):
+    """The :class:`ParameterTape` of these expressions."""
+    lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+    for p in drive.parameters:
+        lower(p.symbol)
+    return ParameterTape(lower, [lower(e) for e in expressions])
+
+
+def lower_system(system: DesignSystem, parameters):
+    """A design system of a drive with these parameters on a tape."""
+    tape = Tape()
+    inputs = {p.symbol: Stage.DESIGN for p in parameters} | {PATH: Stage.INSTANT}
+    inputs |= {u.symbol: Stage.ITERATE for u in system.unknowns}
+    inputs |= {symbol: Stage.ITERATE for symbol in system.fixed}
+    lower = Lowering(tape, inputs, system.definitions)
+    fixed = {lower(symbol): lower(value) for symbol, value in system.fixed.items()}
+    unknowns = [lower(u.symbol) for u in system.unknowns]
+    guess = [lower(system.guess[u.symbol]) for u in system.unknowns]
+    residual = [tape.substitute(lower(r), fixed) for r in system.residual]
+    if system.homotopy:
+        left = tape.sub(tape.constant(1), lower(PATH))
+        begun = [tape.substitute(r, dict(zip(unknowns, guess, strict=True))) for r in residual]
+        residual = [tape.sub(r, tape.mul(left, b)) for r, b in zip(residual, begun, strict=True)]
+    return SystemTape(
+        system=system,
+        tape=tape,
+        lower=lower,
+        residual=residual,
+        jacobian=[[tape.derivative(r, u) for u in unknowns] for r in residual],
+        scales=[lower(u.scale) for u in system.unknowns],
+        guess=guess,
+        values=[lower(value) for value in system.fills.values()],
+        watch=_watch(system, lower, fixed),
+    )
+
+
+def _watch(system, lower, fixed):
+    if system.regular is None:
+        return None
+    surface, sign = system.regular
+    value = lower.tape.mul(lower(sign), singular_function(lower, surface))
+    return lower.tape.substitute(value, fixed)

@@ -1,0 +1,32 @@
+"""Which quotients are computed as products: those by a divisor whose reciprocal the same function computes anyway.
+
+A division takes as long as a dozen products.
+"""
+
+from derive.passes import check
+from derive.program.routine import Operation, Routine
+
+
+def reciprocals(routine: Routine) -> Routine:
+    """The routine with products for quotients whose divisor's reciprocal is at hand."""
+    tape, readable = routine.tape, routine.known
+    factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
+    steps = []
+    for i in tape.needed(routine.outputs, readable, factors):
+        node = tape.nodes[i]
+        steps.append((i, Operation("mul", factors[i]) if i in factors else Operation(node.op, node.args)))
+    after = Routine(tape, routine.outputs, readable, tuple(steps), routine.later, routine.name)
+    return check.same("reciprocals", routine, after)
+
+
+def by_reciprocal(tape, outputs, known):
+    """Quotient → its dividend and the reciprocal of its divisor, in a function that is given ``known``."""
+    one, order = tape.constant(1), tape.needed(outputs, known)
+    at_hand, factors = known | {*order}, {}
+    for i in order:
+        node = tape.nodes[i]
+        if node.op == "div" and node.args[0] != one:
+            reciprocal = tape.find("div", one, node.args[1])
+            if reciprocal in at_hand:
+                factors[i] = (node.args[0], reciprocal)
+    return factors

@@ -1,0 +1,411 @@
+"""Schedule: a drive → one tape and the functions that read it, each with its binding time.
+
+design   once per geometry and misalignment: ``setup`` fills the design part of the state
+instant  once per input angle: ``set_phi`` fills the instant part
+iterate  every Newton step: ``eval``, ``step``; at a solution: ``observe``; anywhere on a flank: ``surface_…``
+
+A value is computed at the earliest stage that knows its inputs, and stored in the state if a later one reads it.
+"""
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive.language.drive import Body, Drive, System
+from derive.language.limits import singular_function
+from derive.language.origin import STEP_SIZE, Origin
+from derive.passes import check, geometry, guards, linearise, pivot_order, sample
+from derive.passes.completion import ParameterTape, SystemTape, lower_system, on_parameters
+from derive.passes.directional import Derivatives
+from derive.passes.guards import DesignGuard
+from derive.program.tape import Lowering, Stage, Tape
+
+#: What the instantaneous ratio divides by.
+LEVER = Origin("derivation/quotient", "lever arm of the wheel")
+
+
+@dataclass(frozen=True)
+class Output:
+    """A named result: ``width`` consecutive numbers with one unit and frame."""
+
+    name: str
+    nodes: tuple[int, ...]
+    unit: str = ""
+    frame: str = ""
+
+
+@dataclass(frozen=True)
+class Flank:
+    """A flank, or another region of a member, and its curvature: functions of its own parameters, body frame."""
+
+    body: str
+    parameters: tuple
+    outputs: tuple[Output, ...]
+    curvature: tuple[Output, ...]
+    region: str = "flank"
+
+
+@dataclass(frozen=True)
+class FunctionOutputs:
+    """A function of its own arguments; ``rests_on`` are statements of the audit record."""
+
+    name: str
+    meaning: str
+    parameters: tuple
+    outputs: tuple[Output, ...]
+    rests_on: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BodyOutputs:
+    """Where the observation of one body is found: see :func:`_observe_body`."""
+
+    parameters: int
+    conditions: int
+    at: int
+    singular: int
+    margins: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Along:
+    """First and second derivatives of the residual along a direction of (unknowns, instant), nodes.
+
+    ``direction`` are the input nodes of that direction.
+    """
+
+    direction: tuple[int, ...]
+    first: tuple[int, ...]
+    second: tuple[int, ...]
+
+
+@dataclass
+class Schedule:
+    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
+
+    ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
+    contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
+    """
+
+    drive: Drive
+    tape: Tape
+    lower: Lowering
+    sample: dict = field(default_factory=dict)
+    residual: list[int] = field(default_factory=list)
+    linear: linearise.Linear | None = None
+    jacobian: list[list[int]] = field(default_factory=list)
+    scales: list[int] = field(default_factory=list)
+    step: list[int] = field(default_factory=list)
+    change: list[int] = field(default_factory=list)
+    weight: list[int] = field(default_factory=list)
+    start_residual: list[int] = field(default_factory=list)
+    start_jacobian: list[list[int]] = field(default_factory=list)
+    start_guess: list[int] = field(default_factory=list)
+    start_scales: list[int] = field(default_factory=list)
+    start_solution: list[int] = field(default_factory=list)
+    guards: list[DesignGuard] = field(default_factory=list)
+    tests: dict = field(default_factory=dict)
+    observed: list[Output] = field(default_factory=list)
+    bodies: dict = field(default_factory=dict)
+    flanks: list[Flank] = field(default_factory=list)
+    regions: list[Flank] = field(default_factory=list)
+    rules: list[ParameterTape] = field(default_factory=list)
+    systems: list[SystemTape] = field(default_factory=list)
+    sizes: ParameterTape | None = None
+    functions: list[FunctionOutputs] = field(default_factory=list)
+    along: Along | None = None
+    state: dict[int, int] = field(default_factory=dict)
+    design_slots: int = 0
+
+    @property
+    def unknowns(self):
+        return [u.symbol for u in self.drive.unknowns]
+
+    @property
+    def placement(self):
+        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
+        return self.functions[0]
+
+    @property
+    def newton_step(self):
+        """Results of the fused Newton step: the unknowns after it, their changes, and one over their natural sizes.
+
+        The size of the step is the sum of the changes' magnitudes by these weights.
+        """
+        return [*self.step, *self.change, *self.weight]
+
+
+def schedule(drive):
+    """All functions of a drive on one tape."""
+    inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
+    inputs[drive.instant] = Stage.INSTANT
+    inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
+    inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
+    functions = (geometry.placement(drive), *drive.functions)
+    inputs |= {q: Stage.ITERATE for function in functions for q in function.arguments}
+    tape = Tape()
+    for symbol, stage in inputs.items():
+        tape.input(symbol, stage)
+    plan = Schedule(drive, tape, Lowering(tape, inputs, drive.definitions))
+
+    plan.rules = [on_parameters(drive, [rule.value]) for rule in drive.completion]
+    plan.systems = [lower_system(system, drive.parameters) for system in drive.systems]
+    plan.sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
+    plan.residual, plan.linear = _system(plan, drive.residual, plan.unknowns)
+    plan.jacobian = linearise.jacobian(tape, plan.linear)
+    check.derives("linearise", tape, plan.residual, [plan.lower(u) for u in plan.unknowns], plan.jacobian)
+    plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
+    _start(plan, drive.start)
+    plan.sample = sample.sample_contact(plan)
+    plan.step, plan.change = pivot_order.newton_step(plan)
+    check.solves("pivot order", tape, plan.jacobian, plan.change, plan.residual)
+    with tape.within(STEP_SIZE):
+        plan.weight = [tape.div(tape.constant(1), s) for s in plan.scales]
+    _observe(plan)
+    for body in drive.bodies:
+        limits = [Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins]
+        plan.flanks.append(Flank(body.name, *_surface(plan, body.surface, body.name, _regular(plan, body), limits)))
+    for region in drive.regions:
+        regular = tape.mul(plan.lower(region.regular), singular_function(plan.lower, region.surface))
+        limits = [Output(f"margin_{m.event}", (plan.lower(m.positive),)) for m in region.margins]
+        surface = _surface(plan, region.surface, region.member, regular, limits)
+        plan.regions.append(Flank(region.member, *surface, region.name))
+    plan.functions = [_function(plan, function) for function in functions]
+    plan.along = _along(plan)
+    _assign_state(plan)
+    plan.guards = guards.design_guards(plan)
+    plan.tests = guards.tests(plan)
+    return plan
+
+
+def _system(plan, residual, unknowns, fixed=None):
+    lower, tape = plan.lower, plan.tape
+    nodes = [lower(r) for r in residual]
+    if fixed:
+        nodes = [_fixed(plan, i, fixed) for i in nodes]
+    return nodes, linearise.linearise(tape, nodes, [lower(u) for u in unknowns])
+
+
+def _fixed(plan, node, values):
+    return plan.tape.substitute(node, {plan.lower(k): plan.lower(value) for k, value in values.items()})
+
+
+def _start(plan, start: System):
+    unknowns = [u.symbol for u in start.unknowns]
+    plan.start_residual, linear = _system(plan, start.residual, unknowns, start.fixed)
+    plan.start_jacobian = linearise.jacobian(plan.tape, linear)
+    plan.start_scales = [plan.lower(u.scale) for u in start.unknowns]
+    plan.start_guess = [plan.lower(plan.drive.guess[u]) for u in unknowns]
+    solution = (_fixed(plan, plan.lower(start.outputs[u]), start.fixed) for u in plan.unknowns)
+    plan.start_solution = list(solution)
+
+
+def _vector(plan, vector):
+    return [plan.lower(c) for c in vector]
+
+
+def _observe(plan):
+    drive = plan.drive
+    put = plan.observed.append
+    for body in drive.bodies:
+        placed = body.placed
+        normal, _ = geometry.unit(plan.tape, _vector(plan, placed.body_normal()))
+        put(Output(f"point_{body.name}_f", tuple(_vector(plan, placed.body_point())), "mm", "f"))
+        put(Output(f"normal_{body.name}_f", tuple(normal), "", "f"))
+    for body in drive.bodies:
+        local = tuple(_vector(plan, body.surface.body_point()))
+        if body.point:
+            plan.lower.stand(body.point, local)
+        put(Output(f"point_{body.name}", local, "mm", body.name))
+    put(Output("wheel_angle", (plan.lower(drive.wheel_angle),), "rad", "f"))
+    for body in drive.bodies:
+        for symbol in body.recovered:
+            put(Output(f"{symbol}", (plan.lower(symbol),), symbol.unit, symbol.frame))
+    for body in drive.bodies:
+        _observe_body(plan, body)
+    _observe_contact(plan)
+
+
+def _observe_body(plan, body: Body):
+    """Derivatives of the point by the surface parameters, fixed frame; of its conditions; its margins."""
+    tape = plan.tape
+    parameters = [plan.lower(p) for p in body.surface.parameters]
+    point = _vector(plan, body.placed.body_point())
+    at = _count(plan.observed)
+    put = plan.observed.append
+    for symbol, parameter in zip(body.surface.parameters, parameters, strict=True):
+        tangent = [tape.derivative(i, parameter) for i in point]
+        put(Output(f"tangent_{symbol}", tuple(tangent), f"mm/({symbol.unit})", "f"))
+    for k, slopes in enumerate(_slopes(plan, body.surface)):
+        put(Output(f"condition_{body.name}_{k}", slopes))
+    singular = _count(plan.observed)
+    put(Output(f"regular_{body.name}", (_regular(plan, body),)))
+    margins = []
+    for margin in body.margins:
+        margins.append(_count(plan.observed))
+        put(Output(f"margin_{body.name}_{margin.event}", (_margin(plan, body, margin),)))
+    plan.bodies[body.name] = BodyOutputs(
+        len(parameters), len(body.surface.conditions), at, singular, tuple(margins)
+    )
+
+
+def _slopes(plan, surface):
+    """Derivatives of each implicit condition of a surface by its parameters."""
+    parameters = [plan.lower(p) for p in surface.parameters]
+    return [tuple(plan.tape.derivative(plan.lower(c), p) for p in parameters) for c in surface.conditions]
+
+
+def _observe_contact(plan):
+    """Second fundamental forms of both flanks and of the gap in one tangent basis, its curvatures; lever arms.
+
+    The basis is that of the pinion's first tangent and the contact normal, the pinion's outward normal; both arms are
+    those of the pinion's point, which is the wheel's.
+    """
+    drive, tape = plan.drive, plan.tape
+    pinion, wheel = drive.bodies
+    normal, _ = geometry.unit(tape, _vector(plan, pinion.placed.body_normal()))
+    points = [_vector(plan, body.placed.body_point()) for body in drive.bodies]
+    first = plan.lower(pinion.surface.parameters[0])
+    basis = geometry.tangent_basis(tape, normal, [tape.derivative(i, first) for i in points[0]])
+    forms = [_second_form(plan, body.placed, basis) for body in drive.bodies]
+    gap = [tape.sub(tape.neg(a), b) for a, b in zip(*forms, strict=True)]
+    arms = [
+        geometry.lever_arm(plan, body, variable, points[0], normal)
+        for body, variable in zip(drive.bodies, (drive.instant, drive.error), strict=True)
+    ]
+    with tape.within(LEVER):
+        ratio = tape.div(*arms)
+    plan.observed += [
+        Output("tangent_basis", (*basis[0], *basis[1]), "", "f"),
+        *(Output(f"second_form_{b.name}", form, "1/mm", "f") for b, form in zip(drive.bodies, forms, strict=True)),
+        Output("second_form_gap", tuple(gap), "1/mm", "f"),
+        Output("curvature_gap", geometry.principal_curvatures(tape, gap), "1/mm"),
+        *(Output(f"lever_arm_{body.name}", (arm,), "mm") for body, arm in zip(drive.bodies, arms, strict=True)),
+        Output("instantaneous_ratio", (ratio,)),
+    ]
+
+
+def _second_form(plan, surface, basis):
+    parameters = [plan.lower(p) for p in surface.parameters]
+    point, normal = _vector(plan, surface.body_point()), _vector(plan, surface.body_normal())
+    return geometry.second_form(plan.tape, parameters, point, normal, _slopes(plan, surface), basis)
+
+
+def _along(plan):
+    """Derivatives of the residual along a direction: see :class:`Along`."""
+    tape, symbols = plan.tape, [*plan.unknowns, plan.drive.instant]
+    seeds = {plan.lower(s): tape.input(sp.Symbol(f"along_{s}"), Stage.ITERATE) for s in symbols}
+    tangent = Derivatives(tape, seeds)
+    first = [tangent(i) for i in plan.residual]
+    return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))
+
+
+def _count(outputs):
+    return sum(len(o.nodes) for o in outputs)
+
+
+def _relative(plan, body, node):
+    at_reference = _fixed(plan, node, body.reference)
+    with plan.tape.within(Origin("derivation/relative", f"the same at the reference point of the {body.name}")):
+        return plan.tape.div(node, at_reference)
+
+
+def _regular(plan, body):
+    if body.regular is not None:
+        return plan.tape.mul(plan.lower(body.regular), singular_function(plan.lower, body.surface))
+    return _relative(plan, body, singular_function(plan.lower, body.surface))
+
+
+def _margin(plan, body, margin):
+    """A margin in terms of surface parameters; body coordinates stand for the surface's own."""
+    node = plan.lower(margin.positive)
+    if margin.along is not None:
+        node = plan.tape.derivative(node, plan.lower(margin.along))
+    return _relative(plan, body, node) if margin.relative else node
+
+
+def _surface(plan, surface, frame, regular, limits):
+    """Parameters of a surface, what is known at them, and its curvature there, body frame."""
+    normal, _ = geometry.unit(plan.tape, _vector(plan, surface.body_normal()))
+    parameters = [plan.lower(p) for p in surface.parameters]
+    point = _vector(plan, surface.body_point())
+    outputs = [
+        Output("point", tuple(point), "mm", frame),
+        Output("normal", tuple(normal), "", frame),
+        *(
+            Output(f"tangent_{s}", tuple(plan.tape.derivative(i, p) for i in point), f"mm/({s.unit})", frame)
+            for s, p in zip(surface.parameters, parameters, strict=True)
+        ),
+        Output("regular", (regular,)),
+        *limits,
+    ]
+    for k, (condition, slopes) in enumerate(zip(surface.conditions, _slopes(plan, surface), strict=True)):
+        outputs += [Output(f"condition_{k}", (plan.lower(condition),)), Output(f"condition_{k}_slopes", slopes)]
+    basis = geometry.tangent_basis(plan.tape, normal, outputs[2].nodes)
+    form = _second_form(plan, surface, basis)
+    curvature = (
+        Output("tangent_basis", (*basis[0], *basis[1]), "", frame),
+        Output("second_form", form, "1/mm", frame),
+        Output("curvature", geometry.principal_curvatures(plan.tape, form), "1/mm"),
+    )
+    return tuple(surface.parameters), tuple(outputs), curvature
+
+
+def _function(plan, function):
+    outputs = (Output(r.name, tuple(map(plan.lower, r.values)), r.unit, r.frame) for r in function.results)
+    return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs), function.rests_on)
+
+
+def iterate_outputs(plan):
+    """All nodes that iterate-stage functions return."""
+    yield from plan.residual
+    for row in plan.jacobian:
+        yield from row
+    yield from plan.scales
+    yield from plan.newton_step
+    yield from plan.start_residual
+    for row in plan.start_jacobian:
+        yield from row
+    yield from plan.start_guess
+    yield from plan.start_scales
+    yield from plan.start_solution
+    for output in plan.observed:
+        yield from output.nodes
+    for table in (*plan.flanks, *plan.regions, *plan.functions):
+        for output in table.outputs:
+            yield from output.nodes
+    for flank in (*plan.flanks, *plan.regions):
+        for output in flank.curvature:
+            yield from output.nodes
+
+
+def _assign_state(plan):
+    """Number the values that one stage leaves for a later one."""
+    tape = plan.tape
+    wanted = {Stage.DESIGN: {}, Stage.INSTANT: {}}
+
+    def leave(i, reader):
+        stage = tape.stages[i]
+        if stage in wanted and stage < reader:
+            wanted[stage].setdefault(i)
+
+    early = {i for i, stage in enumerate(tape.stages) if stage <= Stage.INSTANT}
+    outputs = list(iterate_outputs(plan))
+    for i in tape.needed(outputs, early):
+        for a in tape.nodes[i].args:
+            leave(a, Stage.ITERATE)
+    for i in outputs:
+        leave(i, Stage.ITERATE)
+    design = {i for i, stage in enumerate(tape.stages) if stage <= Stage.DESIGN}
+    for i in tape.needed(list(wanted[Stage.INSTANT]), design):
+        for a in tape.nodes[i].args:
+            leave(a, Stage.INSTANT)
+    for i in tape.needed([*plan.along.first, *plan.along.second], design):  # given the instant itself
+        for a in tape.nodes[i].args:
+            leave(a, Stage.INSTANT)
+    for i in (*plan.along.first, *plan.along.second):
+        leave(i, Stage.INSTANT)
+    slots = [*wanted[Stage.DESIGN], *wanted[Stage.INSTANT]]
+    plan.state = {node: slot for slot, node in enumerate(slots)}
+    plan.design_slots = len(wanted[Stage.DESIGN])
+

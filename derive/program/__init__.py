@@ -1,0 +1,1 @@
+"""The program of a drive: the intermediate form between mathematics and printers."""

@@ -1,0 +1,599 @@
+/* Where two bounded flanks of a tooth pair touch first.  SPDX-License-Identifier: MIT-0
+ *
+ * A point of the wheel's flank, turned about the wheel's axis, meets the pinion's flank at one wheel angle. Bodies touch
+ * first where that angle is extreme over all points of the wheel's flank that meet the pinion's flank inside its limits:
+ * in the interior (a tangency), on a limit of either flank (an edge), or where two limits meet (a corner). */
+#include <math.h>
+#include <string.h>
+#include "meshwright.h"
+
+enum {
+    MAX_K = 3,                   /* parameters of a flank */
+    MAX_OUTPUTS = 48,            /* of a flank: 7 + 4 parameters and conditions, margins */
+    MAX_LIMITS = 18,             /* of both flanks, and four of a trust region */
+    NEWTON_STEPS = 14,
+    CLIMB_STEPS = 80,
+    STARTS = 12,                 /* local extremes of the mesh that are refined */
+    WALK = 16,                   /* steps from a known place to the first vertex */
+    STACK = 96                   /* triangles that wait to be looked at */
+};
+
+/* Newton's method ends with a step below this, in natural sizes; differences of functions for their slopes. */
+static const double STEP_DONE = 1e-10, DIFFERENCE = 1e-4;
+/* No extreme that stands out by more is missed, mm along the normal. */
+static const double RESOLUTION = 1e-4;
+
+typedef struct search {
+    const mw_model *m;
+    const double *s;
+    const mw_flank_mesh *mesh;
+    double A[9], b[3];           /* from the wheel's frame, turned, to the pinion's */
+    double turn, sense;
+    int nk, nw;                  /* parameters of pinion and wheel */
+    int bound;                   /* the wheel's parameter that its condition gives, or -1 */
+    int free_[2];
+} search;
+
+/* One point of the wheel's flank and where it meets the pinion's. value: sense times the wheel angle. */
+typedef struct place {
+    double q[MAX_K], p[MAX_K];   /* parameters of wheel and pinion */
+    double delta, value, slope[2], lever, inner;
+    double limits[MAX_LIMITS];   /* of the wheel's flank, then of the pinion's */
+    double point[3], normal[3];  /* pinion's frame */
+    int good;
+} place;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Solve n equations in place by elimination with row exchange; 0 where they are singular. */
+static int solve(double *M, double *r, int n)
+{
+    for (int k = 0; k < n; k++) {
+        int p = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(M[i * n + k]) > fabs(M[p * n + k])) p = i;
+        if (!(fabs(M[p * n + k]) > 0.0)) return 0;
+        for (int j = 0; j < n && p != k; j++) {
+            const double t = M[k * n + j];
+            M[k * n + j] = M[p * n + j];
+            M[p * n + j] = t;
+        }
+        const double t = r[k];
+        r[k] = r[p];
+        r[p] = t;
+        for (int i = k + 1; i < n; i++) {
+            const double f = M[i * n + k] / M[k * n + k];
+            for (int j = k; j < n; j++) M[i * n + j] -= f * M[k * n + j];
+            r[i] -= f * r[k];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++) r[i] -= M[i * n + j] * r[j];
+        r[i] /= M[i * n + i];
+        if (!(fabs(r[i]) < HUGE_VAL)) return 0;
+    }
+    return 1;
+}
+
+static int conditions_at(const mw_body *b)
+{
+    return 7 + 3 * b->parameters + b->margins;
+}
+
+/* The wheel's flank at two of its parameters: q completed from its condition, outputs o, tangents along the surface. */
+static int on_wheel(const search *h, double *q, double *o, double tangents[2][3])
+{
+    const mw_body *w = &h->m->bodies[1];
+    const double *condition = o + conditions_at(w);
+    for (int k = 0; k < NEWTON_STEPS; k++) {
+        w->flank(h->s, q, o);
+        if (h->bound < 0) break;
+        const double step = condition[0] / condition[1 + h->bound];
+        if (!(fabs(step) < HUGE_VAL)) return 0;
+        q[h->bound] -= step;
+        if (fabs(step) < STEP_DONE * h->mesh->wheel_sizes[h->bound]) {
+            w->flank(h->s, q, o);
+            break;
+        }
+    }
+    for (int a = 0; a < 2; a++)
+        for (int i = 0; i < 3; i++) {
+            tangents[a][i] = o[6 + 3 * h->free_[a] + i];
+            if (h->bound >= 0)
+                tangents[a][i] -= condition[1 + h->free_[a]] / condition[1 + h->bound] * o[6 + 3 * h->bound + i];
+        }
+    return 1;
+}
+
+/* A vector of the wheel's frame, turned by delta, in the pinion's frame; its derivative by delta if rate is given. */
+static void carried(const search *h, const double *r, double delta, double *x, double *rate)
+{
+    const double c = cos(h->turn * delta), s = sin(h->turn * delta);
+    const double turned[3] = {c * r[0] - s * r[1], s * r[0] + c * r[1], r[2]};
+    const double moved[3] = {-h->turn * turned[1], h->turn * turned[0], 0.0};
+    for (int i = 0; i < 3; i++) {
+        x[i] = dot(h->A + 3 * i, turned);
+        if (rate) rate[i] = dot(h->A + 3 * i, moved);
+    }
+}
+
+/* Where the wheel's point at P->q meets the pinion's flank, from P->p and P->delta on. */
+static int meet(const search *h, place *P)
+{
+    const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
+    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], tangents[2][3], x[3], rate[3], M[16], r[4];
+    const int n = h->nk + 1;
+    P->good = 0;
+    P->inner = -HUGE_VAL;
+    if (!on_wheel(h, P->q, ow, tangents)) return 0;
+    double before = HUGE_VAL;
+    int done = 0;
+    for (int k = 0; k < NEWTON_STEPS && !done; k++) {
+        pinion->flank(h->s, P->p, op);
+        carried(h, ow, P->delta, x, rate);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < h->nk; j++) M[i * n + j] = op[6 + 3 * j + i];
+            M[i * n + h->nk] = -rate[i];
+            r[i] = op[i] - x[i] - h->b[i];
+        }
+        if (pinion->conditions) {
+            const double *condition = op + conditions_at(pinion);
+            for (int j = 0; j < h->nk; j++) M[3 * n + j] = condition[1 + j];
+            M[3 * n + h->nk] = 0.0;
+            r[3] = condition[0];
+        }
+        if (!solve(M, r, n)) return 0;
+        double largest = fabs(r[h->nk]);
+        for (int j = 0; j < h->nk; j++) largest = fmax(largest, fabs(r[j]) / h->mesh->pinion_sizes[j]);
+        const double share = largest > 0.5 ? 0.5 / largest : 1.0;
+        for (int j = 0; j < h->nk; j++) P->p[j] -= share * r[j];
+        P->delta -= share * r[h->nk];
+        done = largest < STEP_DONE || (largest < 1e-8 && largest > 0.5 * before);
+        before = largest;
+    }
+    if (!done) return 0;
+    pinion->flank(h->s, P->p, op);
+    carried(h, ow, P->delta, x, rate);
+    P->lever = dot(op + 3, rate);
+    if (!(P->lever * h->sense > 0.0)) return 0;
+    for (int a = 0; a < 2; a++) {
+        double along[3];
+        carried(h, tangents[a], P->delta, along, NULL);
+        P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[h->free_[a]];
+    }
+    P->value = h->sense * P->delta;
+    memcpy(P->point, op, sizeof P->point);
+    memcpy(P->normal, op + 3, sizeof P->normal);
+    double inner = HUGE_VAL;
+    for (int i = 0; i <= wheel->margins; i++) {
+        const double v = ow[6 + 3 * h->nw + i];
+        P->limits[i] = v == v ? v : HUGE_VAL;
+    }
+    for (int i = 0; i <= pinion->margins; i++) {
+        const double v = op[6 + 3 * h->nk + i];
+        P->limits[wheel->margins + 1 + i] = v == v ? v : HUGE_VAL;
+        inner = fmin(inner, P->limits[wheel->margins + 1 + i]);
+    }
+    P->inner = inner;
+    return P->good = fabs(P->value) < HUGE_VAL;
+}
+
+static int limit_count(const search *h)
+{
+    return h->m->bodies[0].margins + h->m->bodies[1].margins + 2;
+}
+
+static double worst(const search *h, const place *P)
+{
+    double least = HUGE_VAL;
+    for (int i = 0; i < limit_count(h); i++) least = fmin(least, P->limits[i]);
+    return least;
+}
+
+/* A place beside another one, by (u, v) in natural sizes of the wheel's free parameters. */
+static int beside(const search *h, const place *from, double u, double v, place *P)
+{
+    *P = *from;
+    P->q[h->free_[0]] += u * h->mesh->wheel_sizes[h->free_[0]];
+    P->q[h->free_[1]] += v * h->mesh->wheel_sizes[h->free_[1]];
+    return meet(h, P);
+}
+
+/* Value, slopes and second derivatives of the wheel angle and of every limit at a place, in natural sizes. */
+typedef struct model_ {
+    double slope[2], second[3];
+    double limit[MAX_LIMITS], along[MAX_LIMITS][2], curve[MAX_LIMITS][3];
+} model_;
+
+static int expand(const search *h, const place *P, model_ *q)
+{
+    static const int U[8] = {1, -1, 0, 0, 1, -1, 1, -1}, V[8] = {0, 0, 1, -1, 1, -1, -1, 1};
+    place at[8];
+    const double d = DIFFERENCE;
+    for (int k = 0; k < 8; k++)
+        if (!beside(h, P, U[k] * d, V[k] * d, &at[k])) return 0;
+    q->slope[0] = P->slope[0];
+    q->slope[1] = P->slope[1];
+    q->second[0] = (at[0].slope[0] - at[1].slope[0]) / (2.0 * d);
+    q->second[2] = (at[2].slope[1] - at[3].slope[1]) / (2.0 * d);
+    q->second[1] = (at[0].slope[1] - at[1].slope[1] + at[2].slope[0] - at[3].slope[0]) / (4.0 * d);
+    for (int i = 0; i < limit_count(h); i++) {
+        const double v = P->limits[i];
+        q->limit[i] = v;
+        memset(q->along[i], 0, sizeof q->along[i]);
+        memset(q->curve[i], 0, sizeof q->curve[i]);
+        if (!(v < HUGE_VAL)) continue;
+        q->along[i][0] = (at[0].limits[i] - at[1].limits[i]) / (2.0 * d);
+        q->along[i][1] = (at[2].limits[i] - at[3].limits[i]) / (2.0 * d);
+        q->curve[i][0] = (at[0].limits[i] - 2.0 * v + at[1].limits[i]) / (d * d);
+        q->curve[i][2] = (at[2].limits[i] - 2.0 * v + at[3].limits[i]) / (d * d);
+        q->curve[i][1] = (at[4].limits[i] + at[5].limits[i] - at[6].limits[i] - at[7].limits[i]) / (4.0 * d * d);
+    }
+    return 1;
+}
+
+/* The step with the largest quadratic model among those that keep every linearised limit, by looking at all sets of no,
+ * one and two active ones; radius bounds it. active: numbers of the limits that hold it, -1 for none. */
+typedef struct candidate { double d[2], gain, multiplier[2]; int active[2]; } candidate;
+
+typedef struct lines { int n; double value[MAX_LIMITS + 4], a[MAX_LIMITS + 4][2]; int number[MAX_LIMITS + 4]; } lines;
+
+static void consider(const lines *L, const double *g, const double *H, const double *d, int i, int j, candidate *best)
+{
+    for (int k = 0; k < L->n; k++)
+        if (k != i && k != j) {
+            const double scale = fabs(L->a[k][0]) + fabs(L->a[k][1]);
+            if (L->value[k] + L->a[k][0] * d[0] + L->a[k][1] * d[1] < -1e-12 * scale) return;
+        }
+    const double gain = g[0] * d[0] + g[1] * d[1] + 0.5 * (H[0] * d[0] * d[0] + H[2] * d[1] * d[1]) + H[1] * d[0] * d[1];
+    if (!(gain > best->gain)) return;
+    best->gain = gain;
+    best->d[0] = d[0];
+    best->d[1] = d[1];
+    best->active[0] = i >= 0 ? L->number[i] : -1;
+    best->active[1] = j >= 0 ? L->number[j] : -1;
+    /* slope of the model there = - sum of multipliers times slopes of active limits */
+    const double r[2] = {g[0] + H[0] * d[0] + H[1] * d[1], g[1] + H[1] * d[0] + H[2] * d[1]};
+    best->multiplier[0] = best->multiplier[1] = 0.0;
+    if (i >= 0 && j >= 0) {
+        const double det = L->a[i][0] * L->a[j][1] - L->a[i][1] * L->a[j][0];
+        best->multiplier[0] = -(r[0] * L->a[j][1] - r[1] * L->a[j][0]) / det;
+        best->multiplier[1] = -(L->a[i][0] * r[1] - L->a[i][1] * r[0]) / det;
+    } else if (i >= 0) {
+        const double size = L->a[i][0] * L->a[i][0] + L->a[i][1] * L->a[i][1];
+        best->multiplier[0] = -(r[0] * L->a[i][0] + r[1] * L->a[i][1]) / size;
+    }
+}
+
+static int best_step(const search *h, const model_ *q, const double *H, double radius, candidate *best)
+{
+    lines L;
+    const double *g = q->slope;
+    L.n = 0;
+    for (int i = 0; i < limit_count(h); i++) {
+        const double size = fabs(q->along[i][0]) + fabs(q->along[i][1]);
+        if (!(q->limit[i] < HUGE_VAL) || !(size > 0.0) || q->limit[i] > 2.0 * radius * size) continue;
+        L.value[L.n] = q->limit[i];
+        L.a[L.n][0] = q->along[i][0];
+        L.a[L.n][1] = q->along[i][1];
+        L.number[L.n++] = i;
+    }
+    for (int k = 0; k < 4; k++) {
+        L.value[L.n] = radius;
+        L.a[L.n][0] = k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0;
+        L.a[L.n][1] = k == 2 ? 1.0 : k == 3 ? -1.0 : 0.0;
+        L.number[L.n++] = MAX_LIMITS;
+    }
+    best->gain = -HUGE_VAL;
+    const double det = H[0] * H[2] - H[1] * H[1];
+    if (H[0] < 0.0 && det > 0.0) {
+        const double d[2] = {-(g[0] * H[2] - g[1] * H[1]) / det, -(H[0] * g[1] - H[1] * g[0]) / det};
+        consider(&L, g, H, d, -1, -1, best);
+    }
+    for (int i = 0; i < L.n; i++) {
+        const double *a = L.a[i], size = a[0] * a[0] + a[1] * a[1];
+        const double at[2] = {-L.value[i] * a[0] / size, -L.value[i] * a[1] / size}, t[2] = {-a[1], a[0]};
+        const double bend = H[0] * t[0] * t[0] + 2.0 * H[1] * t[0] * t[1] + H[2] * t[1] * t[1];
+        if (bend < 0.0) {
+            const double rise = t[0] * (g[0] + H[0] * at[0] + H[1] * at[1]) + t[1] * (g[1] + H[1] * at[0] + H[2] * at[1]);
+            const double d[2] = {at[0] - rise / bend * t[0], at[1] - rise / bend * t[1]};
+            consider(&L, g, H, d, i, -1, best);
+        }
+        for (int j = 0; j < i; j++) {
+            const double across = a[0] * L.a[j][1] - a[1] * L.a[j][0];
+            if (!(fabs(across) > 1e-12 * sqrt(size))) continue;
+            const double d[2] = {(-L.value[i] * L.a[j][1] + L.value[j] * a[1]) / across,
+                                 (-a[0] * L.value[j] + L.a[j][0] * L.value[i]) / across};
+            consider(&L, g, H, d, i, j, best);
+        }
+    }
+    return best->gain > -HUGE_VAL;
+}
+
+/* How far outside its limits a place is, mm. */
+static double violation(const search *h, const place *P)
+{
+    return fmax(0.0, -worst(h, P));
+}
+
+/* Climb from a place to the local extreme of the bounded flanks; active receives the limits that hold it. */
+static int climb(const search *h, place *P, int *active)
+{
+    double radius = 0.1, weight = 0.0, multiplier[2] = {0.0, 0.0};
+    int held[2] = {-1, -1};
+    for (int k = 0; k < CLIMB_STEPS; k++) {
+        model_ q;
+        candidate step;
+        place to;
+        if (!expand(h, P, &q)) return 0;
+        double H[3] = {q.second[0], q.second[1], q.second[2]};
+        for (int a = 0; a < 2; a++)
+            if (held[a] >= 0 && held[a] < MAX_LIMITS && multiplier[a] > 0.0)
+                for (int i = 0; i < 3; i++) H[i] += multiplier[a] * q.curve[held[a]][i];
+        if (!best_step(h, &q, H, radius, &step)) {
+            if (radius > 1.0) return 0;
+            radius *= 2.0;
+            continue;
+        }
+        const double length = fmax(fabs(step.d[0]), fabs(step.d[1]));
+        for (int a = 0; a < 2; a++)
+            if (step.active[a] >= 0 && step.active[a] < MAX_LIMITS) weight = fmax(weight, 2.0 * fabs(step.multiplier[a]));
+        const int moved = beside(h, P, step.d[0], step.d[1], &to);
+        if (length < 1e-11 || (length < 1e-9 && k > 40)) {
+            if (moved) *P = to;
+            active[0] = step.active[0];
+            active[1] = step.active[1];
+            return violation(h, P) < 1e-8;
+        }
+        const double now = P->value - weight * violation(h, P);
+        if (!moved || !(to.value - weight * violation(h, &to) > now - 1e-15) ) {
+            if (length > 1e-6) {
+                radius = 0.25 * fmin(radius, length);
+                continue;
+            }
+            if (!moved) return 0;
+        }
+        if (length > 0.9 * radius) radius *= 2.0;
+        *P = to;
+        for (int a = 0; a < 2; a++) {
+            held[a] = step.active[a];
+            multiplier[a] = step.multiplier[a];
+        }
+    }
+    return 0;
+}
+
+typedef struct best_ { place at; int active[2], found; } best_;
+
+/* Refine from a place and keep what is higher than the best. */
+static void refine(const search *h, const place *from, best_ *best)
+{
+    place P = *from;
+    int active[2];
+    if (!climb(h, &P, active)) return;
+    if (best->found && !(P.value > best->at.value)) return;
+    best->at = P;
+    best->active[0] = active[0];
+    best->active[1] = active[1];
+    best->found = 1;
+}
+
+/* An upper bound of the wheel angle over the part of a triangle in which the pinion's limits hold, from the linear models
+ * at its corners and the growth of slopes between them; -HUGE_VAL where no part does. edge: the one that bends most. */
+static double bound(const search *h, const place *T, int *edge)
+{
+    double C[3][2], growth = 0.0, bend = 0.0, span = 0.0;
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < 2; i++) C[a][i] = T[a].q[h->free_[i]] / h->mesh->wheel_sizes[h->free_[i]];
+    *edge = 0;
+    double most = -1.0;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3;
+        const double d[2] = {C[b][0] - C[a][0], C[b][1] - C[a][1]};
+        const double c = (T[b].slope[0] - T[a].slope[0]) * d[0] + (T[b].slope[1] - T[a].slope[1]) * d[1];
+        growth = fmax(growth, c);
+        bend = fmax(bend, fabs(c));
+        span = fmax(span, fabs(T[b].inner - T[a].inner));
+        const double size = fabs(c) + 1e-3 * fabs(T[b].value - T[a].value);
+        if (size > most) {
+            most = size;
+            *edge = a;
+        }
+    }
+    /* the polygon left of the triangle by the pinion's limits, a little more than linear interpolation gives */
+    double polygon[4][2];
+    int n = 0;
+    const double slack = span < HUGE_VAL ? 0.05 * span : 0.0;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3;
+        const double va = fmin(T[a].inner, 1e30) + slack, vb = fmin(T[b].inner, 1e30) + slack;
+        if (va >= 0.0) {
+            polygon[n][0] = C[a][0];
+            polygon[n++][1] = C[a][1];
+        }
+        if ((va >= 0.0) != (vb >= 0.0)) {
+            const double share = va / (va - vb);
+            polygon[n][0] = C[a][0] + share * (C[b][0] - C[a][0]);
+            polygon[n++][1] = C[a][1] + share * (C[b][1] - C[a][1]);
+        }
+    }
+    if (n == 0) return -HUGE_VAL;
+    double least = HUGE_VAL;
+    for (int a = 0; a < 3; a++) {
+        double highest = -HUGE_VAL;
+        for (int k = 0; k < n; k++)
+            highest = fmax(highest, T[a].value + T[a].slope[0] * (polygon[k][0] - C[a][0])
+                                        + T[a].slope[1] * (polygon[k][1] - C[a][1]));
+        least = fmin(least, highest);
+    }
+    return least + fmax(growth, 0.1 * bend);
+}
+
+/* A place halfway between two others. */
+static int halfway(const search *h, const place *a, const place *b, place *P)
+{
+    *P = *a;
+    for (int i = 0; i < h->nw; i++) P->q[i] = 0.5 * (a->q[i] + b->q[i]);
+    for (int i = 0; i < h->nk; i++) P->p[i] = 0.5 * (a->p[i] + b->p[i]);
+    P->delta = 0.5 * (a->delta + b->delta);
+    return meet(h, P);
+}
+
+/* Look at a triangle and at its parts, until none can hold an extreme that stands out by more than the resolution.
+ * Returns by how much one could at most, mm; budget counts the places that may still be looked at. */
+static double look(const search *h, const place *corners, best_ *best, long *budget)
+{
+    place stack[STACK][3];
+    int n = 1, edge;
+    double left = 0.0;
+    memcpy(stack[0], corners, sizeof stack[0]);
+    while (n > 0) {
+        place T[3], middle;
+        memcpy(T, stack[--n], sizeof T);
+        const double high = bound(h, T, &edge);
+        const double excess = best->found ? (high - best->at.value) * fabs(best->at.lever) : (high > -HUGE_VAL ? 1.0 : 0.0);
+        if (!(excess > RESOLUTION)) continue;
+        if (--*budget < 0 || n + 2 > STACK || !halfway(h, &T[edge], &T[(edge + 1) % 3], &middle)) {
+            left = fmax(left, excess);
+            continue;
+        }
+        if (middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && (!best->found || middle.value > best->at.value + 1e-13))
+            refine(h, &middle, best);
+        memcpy(stack[n], T, sizeof T);
+        stack[n++][(edge + 1) % 3] = middle;
+        memcpy(stack[n], T, sizeof T);
+        stack[n++][edge] = middle;
+    }
+    return left;
+}
+
+static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                  const double *wheel, double turn)
+{
+    const mw_body *p = &m->bodies[0], *w = &m->bodies[1];
+    memset(h, 0, sizeof *h);
+    h->m = m;
+    h->s = s;
+    h->mesh = mesh;
+    h->turn = turn;
+    h->nk = p->parameters;
+    h->nw = w->parameters;
+    h->bound = mesh->bound;
+    if (h->nk > MAX_K || h->nw > MAX_K || h->nk != 2 + p->conditions || h->nw != 2 + w->conditions) return 0;
+    if (p->outputs > MAX_OUTPUTS || w->outputs > MAX_OUTPUTS || limit_count(h) > MAX_LIMITS) return 0;
+    for (int i = 0, k = 0; i < h->nw; i++)
+        if (i != h->bound && k < 2) h->free_[k++] = i;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            h->A[3 * i + j] = pinion[i] * wheel[j] + pinion[4 + i] * wheel[4 + j] + pinion[8 + i] * wheel[8 + j];
+        h->b[i] = 0.0;
+        for (int j = 0; j < 3; j++) h->b[i] += pinion[4 * j + i] * (wheel[4 * j + 3] - pinion[4 * j + 3]);
+    }
+    return 1;
+}
+
+/* Carry a place from where it was solved, along placements of the bodies, and then to parameters q of the wheel. */
+static int carry(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                 const double *wheel, size_t steps, double turn, const double *q, place *P, place *met)
+{
+    const double sense = h->sense;
+    for (size_t k = 0; k < steps; k++) {
+        if (!set_up(h, m, s, mesh, pinion + 12 * k, wheel + 12 * k, turn)) return MW_BAD_INPUT;
+        h->sense = sense;
+        if (!meet(h, P)) return MW_DIVERGED;
+    }
+    *met = *P;
+    double from[MAX_K];
+    memcpy(from, P->q, sizeof from);
+    for (int k = 1; k <= WALK; k++) {
+        place next = *P;
+        for (int i = 0; i < h->nw; i++) next.q[i] = from[i] + (q[i] - from[i]) * k / WALK;
+        if (meet(h, &next)) *P = next;
+        else if (k == WALK) return MW_DIVERGED;
+    }
+    return MW_CONVERGED;
+}
+
+int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                     const double *wheel, size_t steps, double turn, double sense, const double *start, double *work,
+                     mw_first *found)
+{
+    search h;
+    best_ best;
+    place first, known;
+    memset(found, 0, sizeof *found);
+    memset(&best, 0, sizeof best);
+    memset(&first, 0, sizeof first);
+    memset(&h, 0, sizeof h);
+    h.sense = sense;
+    if (mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
+    if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return found->status = MW_BAD_INPUT;
+    memcpy(first.q, start, (size_t)m->bodies[1].parameters * sizeof *start);
+    memcpy(first.p, start + m->bodies[1].parameters, (size_t)m->bodies[0].parameters * sizeof *start);
+    first.delta = start[m->bodies[1].parameters + m->bodies[0].parameters];
+    const double *root = mesh->q + (size_t)(mesh->order[0] * m->bodies[1].parameters);
+    found->status = carry(&h, m, s, mesh, pinion, wheel, steps, turn, root, &first, &known);
+    if (found->status < 0) return found->status;
+    pinion += 12 * (steps - 1);
+    place *at = (place *)(void *)work;
+    for (size_t n = 0; n < mesh->vertices; n++) {
+        const int v = mesh->order[n], from = mesh->parent[v];
+        place *P = &at[v];
+        *P = from >= 0 && at[from].good ? at[from] : first;
+        memcpy(P->q, mesh->q + (size_t)(v * h.nw), (size_t)h.nw * sizeof *P->q);
+        meet(&h, P);
+        if (P->good && P->inner >= 0.0) {
+            found->met++;
+            if (mesh->open[v]) found->open++;
+        }
+    }
+    if (found->open) return found->status = MW_NO_CONTACT;
+    if (worst(&h, &known) >= 0.0) refine(&h, &known, &best);
+    /* the highest vertices that stand above their neighbours */
+    unsigned char *below = (unsigned char *)(void *)(at + mesh->vertices);
+    memset(below, 0, mesh->vertices);
+    for (size_t t = 0; t < mesh->triangles; t++)
+        for (int a = 0; a < 3; a++) {
+            const int v = mesh->corner[3 * t + (size_t)a], w = mesh->corner[3 * t + (size_t)((a + 1) % 3)];
+            const int in_v = at[v].good && at[v].inner >= 0.0, in_w = at[w].good && at[w].inner >= 0.0;
+            if (in_v && in_w) below[at[v].value < at[w].value ? v : w] = 1;
+        }
+    for (int k = 0; k < STARTS; k++) {
+        int top = -1;
+        for (size_t v = 0; v < mesh->vertices; v++)
+            if (!below[v] && at[v].good && at[v].inner >= 0.0 && (top < 0 || at[v].value > at[top].value)) top = (int)v;
+        if (top < 0) break;
+        below[top] = 1;
+        refine(&h, &at[top], &best);
+    }
+    long budget = 200000;
+    for (size_t t = 0; t < mesh->triangles; t++) {
+        place T[3];
+        for (int a = 0; a < 3; a++) T[a] = at[mesh->corner[3 * t + (size_t)a]];
+        if (T[0].good && T[1].good && T[2].good) found->unresolved = fmax(found->unresolved, look(&h, T, &best, &budget));
+    }
+    if (!best.found) return found->status = MW_NO_CONTACT;
+    found->wheel_turn = best.at.delta;
+    found->lever = best.at.lever;
+    for (int i = 0; i < 2; i++) {
+        const int wheel_limits = m->bodies[1].margins + 1;
+        const int a = best.active[i] < MAX_LIMITS ? best.active[i] : -1;
+        found->limit[i] = a < 0 ? -1 : a < wheel_limits ? a : a - wheel_limits;
+        found->member[i] = a < 0 ? -1 : a < wheel_limits;
+    }
+    memcpy(found->q_wheel, best.at.q, (size_t)h.nw * sizeof *best.at.q);
+    memcpy(found->q_pinion, best.at.p, (size_t)h.nk * sizeof *best.at.p);
+    for (int i = 0; i < 3; i++) {
+        found->point[i] = pinion[4 * i + 3] + dot(pinion + 4 * i, best.at.point);
+        found->normal[i] = dot(pinion + 4 * i, best.at.normal);
+    }
+    return found->status = MW_CONVERGED;
+}
+
+size_t mw_first_contact_work(size_t vertices)
+{
+    return (vertices * (sizeof(place) + 1) + sizeof(double) - 1) / sizeof(double);
+}

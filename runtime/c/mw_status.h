@@ -1,0 +1,53 @@
+/* How a solve ended, and what is known of its contact. Each generated header repeats this block under the same guard,
+ * so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_STATUS_LIST
+
+/* Code, value, the word used in results, what it means. Success is >= 0: only a contact that touches (see mw_touch in
+ * meshwright.h) has it. */
+#define MW_STATUS_LIST(X) \
+    X(MW_CONVERGED, 0, "converged", "the last step was below tolerance") \
+    X(MW_CONVERGED_NOISE, 1, "converged", "the steps ended in round-off; near line contact the point is ill-determined") \
+    X(MW_LINE_CONTACT, 2, "line_contact", "the flanks touch along a line: no single contact point exists") \
+    X(MW_NO_CONTACT, -1, "no_contact", "the flanks do not touch at this angle") \
+    X(MW_LEFT_FLANK, -2, "left_flank", "the search left the domain in which the flanks exist") \
+    X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
+    X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \
+    X(MW_DIVERGED, -5, "diverged", "the iteration did not settle") \
+    X(MW_BAD_INPUT, -6, "bad_input", "a guard of the design does not hold, or the angle is not finite or out of range")
+
+typedef enum mw_status {
+#define MW_STATUS_ENUM(code, value, word, text) code = value,
+    MW_STATUS_LIST(MW_STATUS_ENUM)
+#undef MW_STATUS_ENUM
+    MW_STATUS_END = 1000
+} mw_status;
+
+/* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
+
+/* Largest nx, no and np of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+
+/* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
+ * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
+ * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
+typedef struct mw_info {
+    int status, iterations, guard;
+    double step, residual, rank_gap;
+} mw_info;
+
+/* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
+ * positive without interference. major: direction of curvature_min. lever: velocity of a member's point along the normal
+ * for a unit velocity of its own angle, mm; ratio: instantaneous d(wheel angle)/d(pinion angle), the quotient of both.
+ * flags: see mw_flag. */
+typedef struct mw_contact {
+    double point[3], normal[3];
+    double curvature_min, curvature_max;
+    double major[3];
+    double distance, misfit;     /* |r1 - r2|, |n1 + n2| */
+    int line;                    /* curvature_min is zero to round-off: line contact */
+    unsigned flags;
+    double lever_pinion, lever_wheel, ratio;
+} mw_contact;
+
+/* END INTERFACE */
+#endif

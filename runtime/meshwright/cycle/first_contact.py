@@ -1,0 +1,268 @@
+"""First contact: the wheel angle at which the two bounded flanks of a tooth pair touch first, wherever that is.
+
+A tangency satisfies the equations of contact, but the flanks may touch before it: on an edge or at a corner. Every
+point of the wheel's bounded flank, turned about the wheel's axis, meets the pinion's flank at one wheel angle; the
+extreme of these over what both limits leave is the first contact. C searches a mesh of the wheel's region for it.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshwright.base.library import ffi, library, model, pointer
+from meshwright.contact.placement import placements_at
+from meshwright.cycle.edge import FLAG as EDGE_FLAG
+from meshwright.flank.mesh import mesh
+from meshwright.flank.region import OPEN, Uses, region
+
+#: Cells of the mesh over the wheel's flank, across and along.
+CELLS = (12, 24)
+
+#: A contact further inside the other flank than this, mm, is not the first.
+OVERLAP = 1e-6
+FLAG = "not_first"
+
+#: Turn of the wheel by which its sense of rotation is read off, rad.
+TURN = 0.01
+
+#: Contacts at so many angles, over so many pitches to either side, show where the flanks are; where nothing ends a
+#: flank it is searched so many natural sizes beyond them.
+ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
+
+#: Steps of the pinion from an angle at which a contact is known, per pitch.
+STEPS_PER_PITCH = 24
+
+
+@dataclass(frozen=True)
+class FirstContacts:
+    """First contacts at N pinion ``angles`` (rad), with the design's hand; NaN and None where there is none.
+
+    ``kinds``: "tangency", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges that
+    cross, None for a tangency; ``limits``: the events. ``errors`` (N,): transmission error, rad. ``points``,
+    ``normals`` (N, 3) (out of the pinion), fixed frame; ``levers`` (N,), mm of normal approach per rad of the wheel.
+    ``unresolved`` (N,): a place that the search could have missed overlaps by this at most, mm. ``reason``: why there
+    is none anywhere, or "".
+    """
+
+    angles: np.ndarray
+    kinds: tuple[str | None, ...]
+    members: tuple[str | None, ...]
+    limits: tuple[tuple[str, ...], ...]
+    errors: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    levers: np.ndarray
+    unresolved: np.ndarray
+    reason: str = ""
+
+    def overlaps(self, errors):
+        """How far flanks at transmission errors (N,) lie in one another where they should touch first, mm: (N,).
+
+        Along the normal there, by the wheel's turn from the one wheel angle to the other.
+        """
+        return np.maximum(self.levers * (self.errors - errors), 0.0)
+
+    def point(self, k, errors):
+        """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
+        if self.kinds[k] is None:
+            return None
+        overlap = self.overlaps(errors)[k]
+        return {
+            "kind": self.kinds[k],
+            "member": self.members[k],
+            "limits": list(self.limits[k]),
+            "point_mm": self.points[k].tolist(),
+            "transmission_error_arcsec": float(np.degrees(self.errors[k]) * 3600.0),
+            "overlap_mm": float(overlap) if math.isfinite(overlap) else None,
+            "unresolved_mm": float(self.unresolved[k]),
+        }
+
+
+def flagged(result, first):
+    """The :class:`~meshwright.contact.results.TCA` with :data:`FLAG` at every tangency inside all its limits that
+    another place of the same flanks precedes.
+    """
+    late = result.solved & (first.overlaps(result.error) > OVERLAP)
+    late &= np.array([not any(f != EDGE_FLAG for f in words) for words in result.flags], dtype=bool)
+    if not late.any():
+        return result
+    flags = tuple((*words, FLAG) if on else words for on, words in zip(late, result.flags, strict=True))
+    return replace(result, flags=flags)
+
+
+def first_contacts(drive, angles, result=None):
+    """:class:`FirstContacts` at pinion angles (N,), rad. ``result``: a TCA of the same angles, if there is one."""
+    result = drive.tca(angles) if result is None else result
+    mirror = drive.design.mirror
+    found = [None] * len(angles)
+    search, reason = _Search.of(drive, result)
+    if search is not None:
+        found = search.at(mirror.sign * np.asarray(angles))
+    return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
+
+
+def _gathered(drive, angles, found, reason):
+    mirror, nothing = drive.design.mirror, np.full(3, np.nan)
+    bodies = drive.design.description["bodies"]
+    kinds, members, limits = zip(*(_held(bodies, f) for f in found), strict=True) if len(found) else ((), (), ())
+
+    def column(of, missing=math.nan):
+        return np.array([missing if f is None else of(f) for f in found])
+
+    return FirstContacts(
+        angles=angles,
+        kinds=kinds,
+        members=members,
+        limits=limits,
+        errors=mirror.sign * column(lambda f: f.wheel_turn),
+        points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
+        normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
+        levers=mirror.sign * column(lambda f: f.lever),
+        unresolved=column(lambda f: f.unresolved),
+        reason=reason,
+    )
+
+
+def _held(bodies, found):
+    """Kind, member and limits of a place."""
+    if found is None:
+        return None, None, ()
+    held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
+    names = tuple("undercut" if i == 0 else bodies[m]["margins"][i - 1]["event"] for m, i in held)
+    if not held:
+        return "tangency", None, ()
+    if len(held) == 1:
+        return "edge", bodies[held[0][0]]["name"], names
+    if held[0][0] == held[1][0]:
+        return "corner", bodies[held[0][0]]["name"], names
+    return "edge", "both", names
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The mesh over the wheel's flank and what the search starts from."""
+
+    drive: object
+    table: object
+    kept: tuple
+    work: np.ndarray
+    solutions: np.ndarray
+    solved_at: np.ndarray
+    turn: float
+    sense: float
+
+    @classmethod
+    def of(cls, drive, result):
+        """The search, or None and why there is none."""
+        here = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
+        angles = np.concatenate([here, drive.design.mirror.sign * result.angles])
+        solutions = np.concatenate([drive.trace(here)[0], result.solutions])
+        known = np.isfinite(solutions).all(axis=1)
+        if not known.any():
+            return None, "the flanks do not touch: there is nothing to start from"
+        used = solutions[:ANGLES][known[:ANGLES]] if known[:ANGLES].any() else solutions[known]
+        solutions, angles = solutions[known], angles[known]
+        uses = Uses.of(drive, used, beyond=BEYOND)
+        whole = region(drive, drive.design.description["bodies"][1]["name"], "flank", uses)
+        triangles = mesh(whole, CELLS)
+        if not len(triangles.triangles):
+            return None, "no part of the wheel's flank lies within its limits"
+        names = np.array(whole.limits.names)
+        open_ = np.zeros(len(triangles.points), dtype=np.uint8)
+        open_[triangles.border[names[triangles.limit] == OPEN].ravel()] = 1
+        middle = int(np.argmin(np.abs(angles)))
+        wheel = drive.design.description["bodies"][1]["unknowns"]
+        order, parent = _outwards(triangles, whole, solutions[middle][wheel])
+        bound = [i for i in range(len(whole.flank.parameters)) if i not in whole.chart.free]
+        _, sizes = uses.on(drive.flank(drive.design.description["bodies"][0]["name"]))
+        kept = (
+            np.ascontiguousarray(triangles.parameters), np.ascontiguousarray(triangles.triangles, dtype=np.int32),
+            order, parent, open_, np.ascontiguousarray(whole.chart.sizes), np.ascontiguousarray(sizes),
+        )  # fmt: skip
+        table = ffi.new("mw_flank_mesh *")
+        table.vertices, table.triangles = len(triangles.points), len(triangles.triangles)
+        names = ("q", "corner", "order", "parent", "open", "wheel_sizes", "pinion_sizes")
+        kinds = ("double[]", "int[]", "int[]", "int[]", "unsigned char[]", "double[]", "double[]")
+        views = tuple(ffi.from_buffer(kind, array) for kind, array in zip(kinds, kept, strict=True))
+        for name, view in zip(names, views, strict=True):
+            setattr(table, name, view)
+        table.bound = bound[0] if bound else -1
+        work = np.empty(library().mw_first_contact_work(table.vertices))
+        turn, sense = _senses(drive, angles[middle], solutions[middle])
+        return cls(drive, table, (kept, views), work, solutions, angles, turn, sense), ""
+
+    def at(self, angles):
+        """``mw_first`` or None at angles (N,) of the right-hand drive."""
+        description = self.drive.design.description
+        state = self.drive.flank(description["bodies"][1]["name"]).state
+        return [self._one(model(description["name"]), state, angle) for angle in angles]
+
+    def _one(self, compiled, state, angle):
+        nearest = int(np.argmin(np.abs(self.solved_at - angle)))
+        away = angle - self.solved_at[nearest]
+        steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
+        angles = self.solved_at[nearest] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1))
+        x = self.solutions[nearest]
+        pinion, wheel = (np.ascontiguousarray(m[:, :3, :].reshape(steps, 12)) for m in self._placed(angles, x))
+        start = np.concatenate([x[b["unknowns"]] for b in self.drive.design.description["bodies"][::-1]])
+        start = np.append(start, x[self.drive.design.description["error"]])
+        found = ffi.new("mw_first *")
+        library().mw_first_contact(
+            compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), steps, self.turn, self.sense,
+            pointer(start), pointer(self.work), found,
+        )  # fmt: skip
+        return found if found.status >= 0 else None
+
+    def _placed(self, angles, x):
+        """Placements of pinion and wheel, the wheel without transmission error."""
+        still = np.tile(x, (len(angles), 1))
+        still[:, self.drive.design.description["error"]] = 0.0
+        matrices = placements_at(self.drive, angles, still).matrices
+        return [matrices[b["name"]] for b in self.drive.design.description["bodies"]]
+
+
+def _senses(drive, angle, x):
+    """Sense of the wheel's rotation about its own z with the transmission error; the side on which the gap opens."""
+    turned = np.stack([x, x])
+    turned[1, drive.design.description["error"]] += TURN
+    pinion, wheel = (b["name"] for b in drive.design.description["bodies"])
+    placed = placements_at(drive, np.array([angle, angle]), turned).matrices
+    rotation = placed[wheel][0, :3, :3].T @ placed[wheel][1, :3, :3]
+    turn = math.copysign(1.0, math.atan2(rotation[1, 0], rotation[0, 0]))
+    flank = drive.flank(wheel)
+    at = flank(x[drive.design.description["bodies"][1]["unknowns"]][None])
+    outward = -at.normals[0]
+    moved = turn * np.array([-at.points[0, 1], at.points[0, 0], 0.0])
+    return turn, math.copysign(1.0, float(outward @ moved))
+
+
+def _outwards(triangles, whole, place):
+    """Vertices in the order of their distance in edges from the one nearest to a place (k,), and a neighbour of each
+    that comes earlier; further pieces begin at their vertex nearest to one that is known.
+    """
+    sizes = np.ptp(triangles.parameters, axis=0)
+    scaled = triangles.parameters / np.where(sizes > 0.0, sizes, 1.0)
+    away = np.linalg.norm(scaled - place / np.where(sizes > 0.0, sizes, 1.0), axis=1)
+    edges = np.concatenate([triangles.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
+    edges = np.concatenate([edges, edges[:, ::-1]])
+    edges = edges[np.argsort(edges[:, 0], kind="stable")]
+    first = np.searchsorted(edges[:, 0], np.arange(len(scaled) + 1))
+    parent, order, seen = np.full(len(scaled), -1), [], np.zeros(len(scaled), dtype=bool)
+    while len(order) < len(scaled):
+        start = int(np.argmin(np.where(seen, np.inf, away)))
+        if order:
+            known = np.array(order)
+            parent[start] = known[np.argmin(np.linalg.norm(scaled[known] - scaled[start], axis=1))]
+        seen[start] = True
+        front = [start]
+        while front:
+            order += front
+            after = []
+            for v in front:
+                for w in edges[first[v] : first[v + 1], 1]:
+                    if not seen[w]:
+                        seen[w], parent[w] = True, v
+                        after.append(int(w))
+            front = after
+    return np.array(order, dtype=np.int32), parent.astype(np.int32)

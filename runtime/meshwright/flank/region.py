@@ -1,0 +1,509 @@
+"""The region of a tooth that a flank, a fillet or a root covers: a surface and the limits that bound it.
+
+The limits are functions of the surface parameters that are negative outside: the margins of the blank and the tool, the
+singular lines of the surface itself, and, where neither bounds it, how far contact uses it. The region is what lies
+inside all of them and hangs together with where contact is; singular lines may cut it into pieces. It is found on a
+lattice of two free parameters (a third one follows from the surface's own condition), and its border is located on the
+lattice's lines to rounding, with the corners where two limits meet.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from meshwright.base.errors import UsageError
+from meshwright.base.library import pointer
+from meshwright.flank.mesh import mesh
+from meshwright.flank.surface import Flank
+
+#: Limits that come from the surface itself, not from a size of blank or tool.
+SINGULAR = ("undercut", "regression", "spurious_sheet")
+
+#: Name of the limit where nothing in the design bounds the surface, and how far beyond what contact uses it then goes
+#: unless more is asked for, in natural sizes of the parameters.
+OPEN = "open"
+BEYOND = 0.5
+
+#: A ray from inside the region to its end: first step in natural sizes, growth of the steps, how many at most.
+FIRST_STEP, GROWTH, MAX_STEPS = 1.0 / 64.0, 1.3, 48
+
+#: The first lattice has this many cells between the ends of the rays, and reaches so many times as far.
+CELLS, REACH = 24, 2.0
+
+#: Fewer cells than this across the region are too few to show its form.
+FEWEST = 8
+REFINEMENTS = 6
+
+#: A place outside a limit is moved back this much further than to first order.
+OVERSHOOT = 1.05
+BISECTIONS = 56
+NEWTON_STEPS = 40
+
+
+@dataclass(frozen=True)
+class Uses:
+    """Where contact uses the flanks: parameters (P, k) of each by member, and the natural sizes of its parameters by
+    member (k,). ``edges`` gives further points (E, 3) of a member's flank in use, body frame. Where nothing ends a
+    surface it goes ``beyond`` what is used by so many natural sizes. Right-hand drive.
+    """
+
+    places: dict[str, np.ndarray]
+    sizes: dict[str, np.ndarray]
+    edges: Callable[[str], np.ndarray]
+    beyond: float
+
+    @classmethod
+    def of(cls, drive, unknowns, edges=lambda member: np.empty((0, 3)), beyond=BEYOND):
+        """From solutions (P, nx) of the drive's contact."""
+        scale = np.empty(drive.model.nx)
+        drive.model.scale(pointer(drive.state()), pointer(scale))
+        bodies = drive.design.description["bodies"]
+        return cls(
+            {b["name"]: unknowns[:, b["unknowns"]] for b in bodies},
+            {b["name"]: scale[b["unknowns"]] for b in bodies},
+            edges,
+            beyond,
+        )
+
+    def on(self, flank):
+        """Places (P, k) and sizes (k,) in the parameters of a flank, or of another region of its member.
+
+        Parameters that the flank lacks, such as a fillet's own, are 0 there and of size 1.
+        """
+        member = flank.body["name"]
+        if member not in self.places:
+            count = len(next(iter(self.places.values())))
+            return np.zeros((count, len(flank.parameters))), np.ones(len(flank.parameters))
+        names = list(Flank.of(flank.drive, member).parameters)
+        places, sizes = self.places[member], self.sizes[member]
+        column = [names.index(p) if p in names else None for p in flank.parameters]
+        return (
+            np.stack([np.zeros(len(places)) if c is None else places[:, c] for c in column], axis=1),
+            np.array([1.0 if c is None else sizes[c] for c in column]),
+        )
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Two of a surface's parameters as coordinates: ``free`` their numbers; the others follow from the surface's
+    conditions, from values near ``start`` (k,). ``sizes`` (k,) are natural sizes.
+    """
+
+    flank: Flank
+    free: tuple[int, int]
+    sizes: np.ndarray
+
+    @classmethod
+    def at(cls, flank, start, sizes):
+        """The chart that leaves out the parameter which the condition at ``start`` (k,) determines best."""
+        k, slopes = len(start), flank(start).conditions[0, :, 1:]
+        bound = set()
+        for row in np.abs(slopes * sizes):
+            bound.add(int(max((i for i in range(k) if i not in bound), key=lambda i: row[i])))
+        free = tuple(i for i in range(k) if i not in bound)
+        if len(free) != 2:
+            raise UsageError(f"the {flank.region} of the {flank.body['name']} is no surface of two free parameters")
+        return cls(flank, free, sizes)
+
+    def complete(self, coordinates, start):
+        """Parameters (N, k) at coordinates (N, 2), from nearby ones (N, k); NaN where there are none."""
+        q = start.copy()
+        q[:, self.free] = coordinates
+        bound = [i for i in range(q.shape[1]) if i not in self.free]
+        if not bound:
+            return q
+        for _ in range(NEWTON_STEPS):
+            conditions = self.flank(q).conditions
+            step = solved(conditions[:, :, [1 + i for i in bound]], conditions[:, :, 0])
+            largest = np.abs(step / self.sizes[bound]).max(axis=1)
+            q[:, bound] -= step * np.minimum(1.0, 0.5 / np.maximum(largest, 1e-300))[:, None]
+            if not (largest > 1e-13).any():
+                break
+        q[~(largest < 1e-9)] = np.nan
+        return q
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Everything that bounds a surface: the names of its own limits, and added ones, ``extra``: (name, function of
+    flank points to (N,)).
+    """
+
+    flank: Flank
+    extra: tuple = ()
+
+    @cached_property
+    def names(self):
+        """The limits' names, in the order of the columns of :meth:`values`."""
+        return ("undercut", *(m["event"] for m in self.flank.body["margins"]), *(name for name, _ in self.extra))
+
+    def values(self, found):
+        """The limit functions (N, L) of flank points: +inf where a limit is left open, -inf where there is no point."""
+        columns = [found.regular, *found.margins.values(), *(function(found) for _, function in self.extra)]
+        values = np.stack(columns, axis=1)
+        values[np.isnan(values)] = np.inf
+        values[~(np.isfinite(found.points).all(axis=1) & np.isfinite(found.normals).all(axis=1))] = -np.inf
+        return values
+
+    def least(self, found):
+        """The smallest limit function (N,)."""
+        return self.values(found).min(axis=1)
+
+    def with_(self, name, function):
+        """These and another one."""
+        return replace(self, extra=(*self.extra, (name, function)))
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Nodes over a chart: ``lines``, two ascending arrays; ``q`` (n, m, k) parameters, ``inside`` (n, m)."""
+
+    lines: tuple[np.ndarray, np.ndarray]
+    q: np.ndarray
+    inside: np.ndarray
+
+    @property
+    def shape(self):
+        return self.inside.shape
+
+
+@dataclass(frozen=True)
+class Region:
+    """A bounded surface: the ``chart`` it is found in, its ``limits``, an inner place ``seed`` (k,), None where the
+    limits leave nothing of it, and a ``box`` (2, 2), lower and upper coordinates, that holds it.
+    """
+
+    chart: Chart
+    limits: Limits
+    seed: np.ndarray | None
+    box: np.ndarray
+
+    @property
+    def flank(self):
+        return self.chart.flank
+
+    @property
+    def empty(self):
+        """Whether no part of the surface lies inside all limits."""
+        return self.seed is None
+
+    def lattice(self, cells):
+        """The :class:`Lattice` of cells × cells over the box, a cell more on every side: nodes that hang together with
+        the seed through nodes that only singular lines may part.
+        """
+        margin = (self.box[1] - self.box[0]) / np.asarray(cells)
+        lines = tuple(
+            np.linspace(low - step, high + step, count + 3)
+            for low, high, step, count in zip(*self.box, margin, cells, strict=True)
+        )
+        return flooded(self.chart, self.limits, lines, self.seed)
+
+
+def region(drive, member, name, uses):
+    """The :class:`Region` ``name`` (flank, fillet, …) of a member; ``uses`` says where contact uses the flanks."""
+    flank = drive.flank(member, name)
+    places, sizes = uses.on(flank)
+    limits = _limits(drive, flank, uses)
+    start = _start(flank, limits, places, sizes)
+    if start is None:
+        if not np.isfinite(flank(places).points).all(axis=1).any():
+            raise UsageError(f"the {name} of the {member} is not defined: give its sizes in [blank]")
+        chart = Chart.at(flank, _on_surface(flank, places[:1], sizes)[0], sizes)
+        return Region(chart, limits, None, np.zeros((2, 2)))
+    chart = Chart.at(flank, start, sizes)
+    limits = _closed(chart, limits, start, places, uses.beyond)
+    return _boxed(chart, limits, _deeper(chart, limits, start))
+
+
+def solved(matrix, residual):
+    """Solutions (N, c) of N systems of linear equations; NaN for singular ones."""
+    step = np.full(residual.shape, np.nan)
+    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
+    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    return step
+
+
+def _along(flank, points):
+    """The coordinate along the tooth (N,) of points (N, 3), for a flank on which it is one of space."""
+    return points[:, 2] if flank.body["lengthwise"] == "axial" else np.hypot(points[:, 0], points[:, 1])
+
+
+def lengthwise(flank, found):
+    """The coordinate along the tooth (N,) at flank points and its slopes by the parameters (N, k)."""
+    match flank.body["lengthwise"]:
+        case "axial":
+            return _along(flank, found.points), found.tangents[:, :, 2]
+        case "radius":
+            radius = _along(flank, found.points)
+            slopes = np.einsum("nkj,nj->nk", found.tangents[:, :, :2], found.points[:, :2])
+            return radius, slopes / radius[:, None]
+        case _:
+            slopes = np.zeros(found.parameters.shape)
+            slopes[:, -1] = 1.0
+            return found.parameters[:, -1], slopes
+
+
+def _limits(drive, flank, uses):
+    """A surface's own limits; along the tooth a region ends where its member's flank does, and that where its face
+    ends, or beyond what contact uses of it.
+    """
+    limits = Limits(flank)
+    if flank.region == "flank":
+        places, sizes = uses.on(flank)
+        found = flank(places)
+        if np.isfinite(found.margins.get("face", np.full(1, np.nan))).any():
+            return limits
+        visited, _ = lengthwise(flank, found)
+        visited = visited[np.isfinite(visited)]
+        if flank.body["lengthwise"]:
+            visited = np.concatenate([visited, _along(flank, uses.edges(flank.body["name"]))])
+        if not len(visited):
+            return limits
+        beyond = uses.beyond * _lengthwise_size(flank, found, sizes)
+        low, high, name = visited.min() - beyond, visited.max() + beyond, OPEN
+    else:
+        whole = region(drive, flank.body["name"], "flank", uses)
+        if whole.empty:
+            raise UsageError(f"the flank of the {flank.body['name']} is empty: nothing of it lies within the limits")
+        inner = mesh(whole, (CELLS, CELLS))
+        along, _ = lengthwise(whole.flank, whole.flank(inner.parameters))
+        low, high, name = along.min(), along.max(), "face"
+    return limits.with_(name, lambda at: lengthwise(flank, at)[0] - low).with_(
+        name, lambda at: high - lengthwise(flank, at)[0]
+    )
+
+
+def _lengthwise_size(flank, found, sizes):
+    """Natural size of the lengthwise coordinate: a parameter's own, or the least length of one that is a length."""
+    if flank.body["lengthwise"] not in ("axial", "radius"):
+        return float(sizes[-1])
+    units = {u["name"]: u["unit"] for u in flank.drive.design.description["unknowns"]}
+    lengths = [size for name, size in zip(flank.parameters, sizes, strict=True) if units.get(name) == "mm"]
+    return float(min(lengths)) if lengths else float(np.linalg.norm(found.tangents[0, 0]) * sizes[0])
+
+
+def _on_surface(flank, places, sizes):
+    """The places (N, k) moved to where the surface's own conditions hold, by the shortest way in natural sizes."""
+    q = places.copy()
+    if not flank.body["conditions"]:
+        return q
+    for _ in range(NEWTON_STEPS):
+        conditions = flank(q).conditions
+        step = np.linalg.pinv(np.nan_to_num(conditions[:, :, 1:] * sizes)) @ conditions[:, :, :1]
+        q = q - step[:, :, 0] * sizes
+    return q
+
+
+def _start(flank, limits, places, sizes):
+    """A place (k,) inside every limit, from the places that contact uses; None if no such place is found."""
+    q = _on_surface(flank, places[np.isfinite(places).all(axis=1)], sizes)
+    for _ in range(NEWTON_STEPS):
+        if not len(q):
+            return None
+        found = flank(q)
+        values = limits.values(found)
+        least = values.min(axis=1)
+        if (least >= 0.0).any():
+            return q[np.argmax(least)]
+        q = q[np.isfinite(least)]
+        if len(q):
+            q = _inwards(flank, limits, q, sizes)
+    return None
+
+
+def _inwards(flank, limits, q, sizes):
+    """Places (N, k) moved against the limits that they exceed, a little further than to first order, along the surface.
+    """
+    values, slopes = _slopes(flank, limits, q, sizes)
+    short = np.where(values < 0.0, values, 0.0) * OVERSHOOT
+    short[~np.isfinite(short)] = 0.0
+    slopes = np.nan_to_num(np.where(short[:, :, None] < 0.0, slopes, 0.0), posinf=0.0, neginf=0.0)
+    step = (np.linalg.pinv(slopes, rcond=1e-6) @ -short[:, :, None])[:, :, 0]
+    step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
+    return _on_surface(flank, q + step * sizes, sizes)
+
+
+def _slopes(flank, limits, q, sizes):
+    """Limit functions (N, L) and their slopes (N, L, k) by the parameters in natural sizes, by differences."""
+    h = 1e-6
+    values = limits.values(flank(q))
+    moved = [limits.values(flank(q + h * sizes * np.eye(q.shape[1])[i])) for i in range(q.shape[1])]
+    with np.errstate(invalid="ignore"):
+        return values, np.stack([(m - values) / h for m in moved], axis=2)
+
+
+def _deeper(chart, limits, start):
+    """A place about as far from the limits on either side of it, by halving chords through ``start`` (k,)."""
+    q = start
+    for axis in (0, 1, 0, 1):
+        ends = [_ray(chart, limits, q, axis, sign)[0] for sign in (-1.0, 1.0)]
+        if not all(math.isfinite(e) for e in ends):
+            continue
+        at = q[list(chart.free)].copy()
+        at[axis] = 0.5 * (ends[0] + ends[1])
+        moved = chart.complete(at[None], q[None])[0]
+        if limits.least(chart.flank(moved))[0] > 0.0:
+            q = moved
+    return q
+
+
+def _ray(chart, limits, start, axis, sign):
+    """Where a chart's line through an inner place leaves the region: coordinate (infinite if it does not), the limit
+    that ends it, and the last place (k,) inside.
+    """
+    q, step = start, FIRST_STEP * chart.sizes[chart.free[axis]]
+    at = start[list(chart.free)].copy()
+    for _ in range(MAX_STEPS):
+        further = at.copy()
+        further[axis] += sign * step
+        trial = chart.complete(further[None], q[None])[0]
+        values = limits.values(chart.flank(trial))[0]
+        if not values.min() >= 0.0:
+            return _halved(chart, limits, (q, at[axis], further[axis]), axis)
+        q, at, step = trial, further, GROWTH * step
+    return sign * math.inf, None, q
+
+
+def _halved(chart, limits, between, axis):
+    q, inner, outer = between
+    at, worst = q[list(chart.free)].copy(), None
+    for _ in range(BISECTIONS):
+        at[axis] = 0.5 * (inner + outer)
+        trial = chart.complete(at[None], q[None])[0]
+        values = limits.values(chart.flank(trial))[0]
+        if values.min() >= 0.0:
+            q, inner = trial, at[axis]
+        else:
+            outer, worst = at[axis], limits.names[int(np.argmin(values))]
+    return inner, worst, q
+
+
+def _closed(chart, limits, start, places, beyond):
+    """The limits, and those that close the surface in its free parameters where no size of blank or tool does: across
+    the tooth, the first one, on either side by itself; along it where the lengthwise limit is such a one too.
+    """
+    used, along = places[np.isfinite(places).all(axis=1)], OPEN not in limits.names
+    for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)):
+        number = chart.free[axis]
+        if axis == 0:
+            closed = _ends(chart, limits, start, sign)
+        if closed if axis == 0 else along:
+            continue
+        end = max((sign * used[:, number]).max(), sign * start[number]) + beyond * chart.sizes[number]
+        limits = limits.with_(OPEN, lambda at, sign=sign, end=end, i=number: end - sign * at.parameters[:, i])
+    return limits
+
+
+def _ends(chart, limits, start, sign):
+    """Whether a size of blank or tool ends the profile on one side: a limit that is reached, or that a singular line
+    only keeps from being reached.
+    """
+    _, name, last = _ray(chart, limits, start, 0, sign)
+    if name not in (None, OPEN, *SINGULAR):
+        return True
+    here, there = limits.values(chart.flank(np.stack([start, last])))
+    with np.errstate(invalid="ignore"):
+        nearer = np.isfinite(here) & (there < here)
+    return any(near and n not in (OPEN, "face", *SINGULAR) for near, n in zip(nearer, limits.names, strict=True))
+
+
+def _boxed(chart, limits, start):
+    """The region with a box that just holds it, found on ever finer lattices."""
+    here = start[list(chart.free)]
+    ends = np.array([[_ray(chart, limits, start, axis, sign)[0] for axis in (0, 1)] for sign in (-1.0, 1.0)])
+    ends = np.where(np.isfinite(ends), ends, here + np.array([[-1.0], [1.0]]) * chart.sizes[list(chart.free)])
+    low, high = here + REACH * (ends[0] - here), here + REACH * (ends[1] - here)
+    for _ in range(REFINEMENTS):
+        lines = tuple(_through(*row) for row in zip(low, high, here, strict=True))
+        lattice = flooded(chart, limits, lines, start)
+        rows, columns = np.flatnonzero(lattice.inside.any(axis=1)), np.flatnonzero(lattice.inside.any(axis=0))
+        grown, spans = False, []
+        for axis, found in enumerate((rows, columns)):
+            line = lines[axis]
+            spans.append(len(found))
+            width = line[-1] - line[0]
+            if found[0] == 0:
+                low[axis], grown = line[0] - 0.5 * width, True
+            else:
+                low[axis] = line[found[0] - 1]
+            if found[-1] == len(line) - 1:
+                high[axis], grown = line[-1] + 0.5 * width, True
+            else:
+                high[axis] = line[found[-1] + 1]
+        if not grown and min(spans) >= FEWEST:
+            break
+    return Region(chart, limits, start, np.array([low, high]))
+
+
+def _through(low, high, here):
+    """An ascending line from low to high with a node at ``here``."""
+    step = (high - low) / (2 * CELLS)
+    return here + step * np.arange(-math.ceil((here - low) / step), math.ceil((high - here) / step) + 1)
+
+
+def flooded(chart, limits, lines, seed):
+    """The :class:`Lattice` on two lines: nodes inside the limits that can be reached from ``seed`` (k,) node by node
+    without leaving any but singular limits.
+    """
+    if len(chart.sizes) == 2:
+        grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
+        q = grid.reshape(-1, 2)
+    else:
+        q = _completed_outwards(chart, lines, seed).reshape(-1, len(chart.sizes))
+    values = limits.values(chart.flank(q))
+    shape = tuple(len(line) for line in lines)
+    singular = np.array([name in SINGULAR for name in limits.names])
+    inside = (values.min(axis=1) >= 0.0).reshape(shape)
+    exists = np.isfinite(values.min(axis=1))
+    within = (exists & (values[:, ~singular].min(axis=1, initial=np.inf) >= 0.0)).reshape(shape)
+    return Lattice(lines, q.reshape(*shape, -1), inside & _connected(within, _nearest(lines, seed[list(chart.free)])))
+
+
+def _nearest(lines, place):
+    return tuple(int(np.argmin(np.abs(line - x))) for line, x in zip(lines, place, strict=True))
+
+
+def _connected(within, start):
+    """The nodes of a mask that hang together with the node ``start``, or with the nearest one in it."""
+    if not within.any():
+        return within
+    if not within[start]:
+        nodes = np.argwhere(within)
+        start = tuple(nodes[np.argmin(((nodes - start) ** 2).sum(axis=1))])
+    reached = np.zeros_like(within)
+    reached[start] = True
+    while True:
+        grown = reached.copy()
+        grown[1:] |= reached[:-1]
+        grown[:-1] |= reached[1:]
+        grown[:, 1:] |= reached[:, :-1]
+        grown[:, :-1] |= reached[:, 1:]
+        grown &= within
+        if (grown == reached).all():
+            return reached
+        reached = grown
+
+
+def _completed_outwards(chart, lines, seed):
+    """Parameters (n, m, k) on the lattice, each line solved from its neighbour on the side of the seed."""
+    shape, (i, j) = tuple(len(line) for line in lines), _nearest(lines, seed[list(chart.free)])
+    q = np.full((*shape, len(seed)), np.nan)
+    start = seed[None]
+    for order in (range(j, shape[1]), range(j - 1, -1, -1)):
+        near = start if order.step > 0 else q[i, j][None]
+        for b in order:
+            q[i, b] = near = chart.complete(np.array([[lines[0][i], lines[1][b]]]), near)
+    for order in (range(i + 1, shape[0]), range(i - 1, -1, -1)):
+        near = q[i]
+        for a in order:
+            places = np.stack([np.full(shape[1], lines[0][a]), lines[1]], axis=1)
+            q[a] = chart.complete(places, near)
+            near = np.where(np.isfinite(q[a]), q[a], near)
+    return q
+
+
+

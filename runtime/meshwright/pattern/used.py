@@ -1,0 +1,41 @@
+"""What contact uses of the flanks: where regions are looked for, and how far they go if nothing ends them."""
+
+import numpy as np
+
+from meshwright.base.errors import UsageError
+from meshwright.cycle.pairs import Mesh
+from meshwright.flank.region import Uses
+from meshwright.pattern.pattern import contours
+
+#: Angles of the window at which contact patches are looked at, and directions of each.
+PATCHES, DIRECTIONS = 5, 8
+
+
+def uses(drive):
+    """The :class:`~meshwright.flank.region.Uses` of a drive over the window of a pair, contact patches included."""
+    mesh = Mesh.of(drive)
+    return Uses.of(drive, _solutions(mesh), lambda member: _patches(mesh, member))
+
+
+def _solutions(mesh):
+    """Solutions that contact visits (P, nx), right hand: the window of a pair, or what there is about angle 0."""
+    window, pitch = mesh.window, mesh.drive.pitch()
+    if window.path is None:
+        unknowns, _ = mesh.drive.trace(np.array([-0.25, 0.0, 0.25]) * pitch)
+        unknowns = unknowns[np.isfinite(unknowns).all(axis=1)]
+        if not len(unknowns):
+            raise UsageError("the flanks do not touch: no part of them is in use; change the design or misalignment")
+        return unknowns
+    low, high = window.bounds if window.complete else (-pitch, pitch)
+    return window.path.unknowns[(window.path.angles >= low) & (window.path.angles <= high)]
+
+
+def _patches(mesh, member):
+    """Points (P, 3) of a flank on the edges of contact patches over the window, right hand; none without a window."""
+    window = mesh.window
+    if window.path is None or not window.complete:
+        return np.empty((0, 3))
+    angles = np.linspace(window.begin.angle, window.end.angle, PATCHES)
+    found = contours(mesh.drive, mesh.drive.tca(angles), DIRECTIONS)
+    points = [p.body_points[member] for p in found if p is not None]
+    return np.concatenate(points or [np.empty((0, 3))]) * [1.0, mesh.mirror, 1.0]

@@ -1,0 +1,70 @@
+"""Contact of random misaligned designs against mpmath in 50 digits, written from the machine's kinematics."""
+
+import numpy as np
+import pytest
+from mpmath import mp
+
+from meshwright import Drive
+from tests.bevel.exact import crown_pair, formate_cradle
+from tests.independent.bevel import Pair
+
+ARCSEC = np.pi / 648000
+
+
+def random_design(seed):
+    """A valid design near a crowned exact one: every setting that the machine has is in use."""
+    random = np.random.default_rng(seed)
+    flank, formate = ("convex", "concave")[seed % 2], seed % 4 >= 2
+    crowned = {"lengthwise": random.uniform(3.0, 5.0), "pressure_deg": random.uniform(17.0, 22.0)}
+    if formate:
+        tables = formate_cradle(flank, offset=random.uniform(5.0, 30.0), **crowned)
+    else:
+        crowned |= {"profile": random.uniform(0.0005, 0.002), "shaft_deg": random.uniform(80.0, 100.0)}
+        tables = crown_pair(flank, **crowned)
+    pinion, gear = tables["pinion"], tables["gear"]
+    pinion |= {"roll_2c": random.uniform(-0.03, 0.03), "roll_6d": random.uniform(-0.03, 0.03),
+               "roll_24e": random.uniform(-0.05, 0.05), "roll_120f": random.uniform(-0.1, 0.1),
+               "roll_720g": random.uniform(-0.1, 0.1), "helical_motion_mm_per_rad": random.uniform(-0.2, 0.2),
+               "blade_curvature_per_mm": random.uniform(0.0005, 0.002), "blade_reference_mm": 4.0}  # fmt: skip
+    pinion["tilt_deg"] = pinion.get("tilt_deg", 0.0) + random.uniform(-0.1, 0.1)
+    pinion["swivel_deg"] = pinion.get("swivel_deg", 0.0) + random.uniform(-0.2, 0.2)
+    pinion["blank_offset_mm"] = pinion.get("blank_offset_mm", 0.0) + random.uniform(-0.02, 0.02)
+    pinion["center_to_back_mm"] = random.uniform(-0.02, 0.02)
+    gear |= {"blade_curvature_per_mm": random.uniform(-0.0002, 0.0002), "tilt_deg": random.uniform(-0.05, 0.05),
+             "swivel_deg": random.uniform(-90.0, 90.0), "blank_offset_mm": random.uniform(-0.02, 0.02)}  # fmt: skip
+    tables["misalignment"] = {
+        "offset_mm": random.uniform(-0.03, 0.03), "pinion_axial_mm": random.uniform(-0.03, 0.03),
+        "gear_axial_mm": random.uniform(-0.03, 0.03), "shaft_angle_deg": random.uniform(-0.02, 0.02),
+    }  # fmt: skip
+    return tables
+
+
+def compared(seed):
+    """Largest differences (error in arcsec, position in mm, normal) over three angles of one random design."""
+    tables = random_design(seed)
+    drive = Drive.from_tables(tables)
+    angles = drive.design.reference_angle + np.radians([-4.0, 0.0, 4.0])
+    found = drive.tca(angles)
+    assert set(found.status) == {"converged"}
+    names = ["u_pinion", "theta_pinion", "phi_cradle_pinion", "u_gear", "theta_gear"]
+    names += [] if tables["gear"].get("method") == "formate" else ["phi_cradle_gear"]
+    with mp.workdps(50):
+        pair, worst = Pair(tables), np.zeros(3)
+        for k, angle in enumerate(angles):
+            start = [float(found.unknowns[name][k]) for name in names] + [float(found.wheel_angles[k])]
+            x = pair.solve(start, angle)
+            r, n, _ = pair.pinion.surface(*x[:3])
+            r, n = pair.place_pinion(r, n, mp.mpf(angle))
+            error = abs(pair.error(x, angle) - mp.mpf(found.error[k])) / mp.mpf(ARCSEC)
+            place = max(abs(a - mp.mpf(b)) for a, b in zip(r, found.points[k], strict=True))
+            normal = max(abs(a - mp.mpf(b)) for a, b in zip(n, found.normals[k], strict=True))
+            worst = np.maximum(worst, [float(error), float(place), float(normal)])
+    return worst
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_random_misaligned_design_agrees_with_fifty_digits(seed):
+    error, place, normal = compared(seed)
+    assert error < 2e-10
+    assert place < 1e-12
+    assert normal < 1e-12

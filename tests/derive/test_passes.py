@@ -1,0 +1,95 @@
+"""Passes keep the values of a program, and a pass that does not is caught; the program can be read after each."""
+
+from dataclasses import FrozenInstanceError, replace
+
+import pytest
+
+from derive import command, drives
+from derive.emit import text
+from derive.passes import check
+from derive.passes.fuse import fuse
+from derive.passes.order import order
+from derive.passes.quotients import reciprocals
+from derive.passes.schedule import schedule
+from derive.program.routine import routine
+
+DRIVE = "cylindrical_worm_zn_zn"
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return schedule(drives.catalogue([DRIVE])[DRIVE]())
+
+
+@pytest.fixture(scope="module")
+def step(plan):
+    return routine(plan.tape, plan.newton_step, frozenset(plan.state), name="step")
+
+
+def test_each_pass_computes_the_same_and_fusing_leaves_fewer_steps(step):
+    values = check.residues(step)
+    for done in (reciprocals(step), fuse(reciprocals(step)), order(fuse(reciprocals(step)))):
+        assert check.residues(done) == values
+        assert len(done.steps) <= len(step.steps)
+    assert len(fuse(step).steps) < len(step.steps) - 50
+
+
+@pytest.mark.parametrize("wrong", ["add", "sub", "mul", "sin"])
+def test_one_wrong_operation_is_caught(step, wrong):
+    other = {"add": "sub", "sub": "add", "mul": "add", "sin": "cos"}[wrong]
+    at = next(k for k, (_, operation) in enumerate(step.steps) if operation.op == wrong)
+    i, operation = step.steps[at]
+    harmed = replace(step, steps=(*step.steps[:at], (i, replace(operation, op=other)), *step.steps[at + 1 :]))
+    with pytest.raises(check.PassError, match="step computes other values"):
+        check.same("harm", step, harmed)
+
+
+def test_an_operation_before_its_arguments_is_caught(step):
+    last, before = step.steps[-1], step.steps[:-1]
+    with pytest.raises(check.PassError):
+        check.same("reverse", step, replace(step, steps=(last, *before)))
+
+
+def test_a_product_subtracted_from_the_wrong_side_is_caught(step):
+    fused = fuse(step)
+    at = next(k for k, (_, operation) in enumerate(fused.steps) if operation.op == "fms")
+    i, operation = fused.steps[at]
+    harmed = (*fused.steps[:at], (i, replace(operation, op="fnma")), *fused.steps[at + 1 :])
+    with pytest.raises(check.PassError):
+        check.same("fuse", step, replace(fused, steps=harmed))
+
+
+def test_a_wrong_entry_of_the_jacobian_and_a_wrong_step_are_caught(plan):
+    unknowns, jacobian = [plan.lower(u) for u in plan.unknowns], [list(row) for row in plan.jacobian]
+    check.derives("linearise", plan.tape, plan.residual, unknowns, jacobian)
+    check.solves("pivot order", plan.tape, plan.jacobian, plan.change, plan.residual)
+    jacobian[0][1], jacobian[0][0] = jacobian[0][0], jacobian[0][1]
+    with pytest.raises(check.PassError, match="entry 0, 0"):
+        check.derives("linearise", plan.tape, plan.residual, unknowns, jacobian)
+    with pytest.raises(check.PassError, match="equation 0"):
+        check.solves("pivot order", plan.tape, plan.jacobian, plan.change[::-1], plan.residual)
+
+
+def test_a_routine_is_immutable(step):
+    with pytest.raises(FrozenInstanceError):
+        step.steps = ()
+
+
+@pytest.mark.parametrize("after", text.PASSES)
+def test_the_program_can_be_read_after_each_pass(after, capsys):
+    assert command.main(["show", DRIVE, "--after", after]) == 0
+    shown = capsys.readouterr().out
+    assert "residual(" in shown or "eval(" in shown
+    assert "return " in shown and "operations" in shown
+
+
+def test_the_description_names_keys_rules_motions_and_equations(capsys):
+    assert command.main(["show", DRIVE]) == 0
+    shown = capsys.readouterr().out
+    for words in ("design.normal_module_mm: m_n [mm]", "rotation about z by phi_worm", "limit tip:", "contact, each 0"):
+        assert words in shown
+
+
+def test_show_says_which_drives_there_are(capsys):
+    assert command.main(["show", "nonsense"]) == 2
+    assert "no drive 'nonsense'" in capsys.readouterr().err

@@ -1,0 +1,135 @@
+"""First contact of two bounded flanks by brute force: no tangent, no normal and no equation of contact is used.
+
+A point of the wheel's flank is turned about the wheel's axis until it lies on the pinion's flank. On each line across
+the wheel's flank the largest such angle is looked for between the ends that all limits leave, found by bisection; then
+the line with the largest one, in ever finer windows. Only positions of flanks, their limits and the bodies' placements
+are used.
+"""
+
+import numpy as np
+
+from meshwright.base.library import pointer
+from meshwright.contact.placement import placements_at
+
+#: Samples of a line, lines of a window; how much narrower each window is, and how many.
+SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, 14
+BISECTIONS, STEPS = 46, 24
+
+
+class FirstTouch:
+    """The search for one drive (right hand) at one pinion angle; ``side`` +1: the wheel comes from larger angles."""
+
+    def __init__(self, drive, angle, known, side):
+        """``known``: unknowns of any contact of the pair; ``side``: from where the wheel comes."""
+        pinion, wheel = drive.design.description["bodies"]
+        self.error = drive.design.description["error"]
+        self.pinion, self.wheel, self.side = drive.flank(pinion["name"]), drive.flank(wheel["name"]), side
+        still = known.copy()
+        still[self.error] = 0.0
+        turned = still.copy()
+        turned[self.error] = 0.1
+        placed = placements_at(drive, np.array([angle, angle]), np.stack([still, turned])).matrices
+        self.fixed = placed[pinion["name"]][0]
+        self.still = np.linalg.inv(self.fixed) @ placed[wheel["name"]][0]
+        turn = placed[wheel["name"]][0, :3, :3].T @ placed[wheel["name"]][1, :3, :3]
+        self.turn = np.sign(np.arctan2(turn[1, 0], turn[0, 0]))
+        self.start = np.append(known[pinion["unknowns"]], known[self.error])
+        scale = np.empty(drive.model.nx)
+        drive.model.scale(pointer(drive.state()), pointer(scale))
+        self.sizes = np.append(scale[pinion["unknowns"]], 1.0)
+
+    def meet(self, q, start):
+        """Pinion parameters and wheel angle (N, k + 1) at which wheel points meet the pinion's flank; NaN for none."""
+        r = self.wheel(q).points
+        x, h = start.copy(), 1e-6
+        for _ in range(STEPS):
+            miss = self._miss(r, x)
+            slopes = np.stack(
+                [
+                    (self._miss(r, x + h * e) - self._miss(r, x - h * e)) / (2.0 * h)
+                    for e in np.eye(x.shape[1])
+                ],
+                axis=2,
+            )
+            good = np.isfinite(slopes).all(axis=(1, 2)) & np.isfinite(miss).all(axis=1)
+            good[good] = np.abs(np.linalg.det(slopes[good])) > 1e-14
+            step = np.full(x.shape, np.nan)
+            step[good] = np.linalg.solve(slopes[good], miss[good][:, :, None])[:, :, 0]
+            size = np.abs(step / self.sizes).max(axis=1, keepdims=True)
+            x = x - step * np.minimum(1.0, 0.5 / np.maximum(size, 1e-300))
+            if not (size > 1e-12).any():
+                break
+        x[~(size[:, 0] < 1e-9)] = np.nan
+        return x
+
+    def _miss(self, r, x):
+        found = self.pinion(x[:, :-1])
+        c, s = np.cos(self.turn * x[:, -1]), np.sin(self.turn * x[:, -1])
+        turned = np.stack([c * r[:, 0] - s * r[:, 1], s * r[:, 0] + c * r[:, 1], r[:, 2]], axis=1)
+        miss = found.points - turned @ self.still[:3, :3].T - self.still[:3, 3]
+        return np.concatenate([miss, found.conditions[:, :, 0]], axis=1)
+
+    def look(self, q, start):
+        """Wheel angle times side (N,), -inf outside any limit, and where the points meet (N, k + 1)."""
+        x = self.meet(q, start)
+        known = np.isfinite(x).all(axis=1)
+        inside = known.copy()
+        for found in (self.wheel(q), self.pinion(np.where(known[:, None], x[:, :-1], self.start[:-1]))):
+            for limit in (found.regular, *found.margins.values()):
+                inside &= ~(limit < 0.0)
+        return np.where(inside, self.side * x[:, -1], -np.inf), np.where(known[:, None], x, self.start)
+
+    def highest(self, box):
+        """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back)."""
+        (a_low, b_low), (a_high, b_high) = box
+        centre, half = 0.5 * (b_low + b_high), 0.5 * (b_high - b_low)
+        best = -np.inf
+        for window in range(WINDOWS):
+            lines = np.linspace(centre - half, centre + half, 5 * LINES if window == 0 else LINES)
+            values = self._on_lines(lines, a_low, a_high)
+            k = int(np.argmax(values))
+            best = max(best, values[k])
+            centre, half = lines[k], (3.0 * half if window == 0 else half * LINES) / (NARROWER * LINES / 2.0)
+        return self.side * best
+
+    def _on_lines(self, lines, low, high):
+        """The largest value on each line: samples between, and the ends of the stretches inside all limits."""
+        a = np.linspace(low, high, SAMPLES)
+        grid = np.stack(np.meshgrid(a, lines, indexing="ij"), axis=-1).reshape(-1, 2)
+        values, x = self.look(grid, np.tile(self.start, (len(grid), 1)))
+        values, x = values.reshape(SAMPLES, -1), x.reshape(SAMPLES, len(lines), -1)
+        best = values.max(axis=0)
+        inside = np.isfinite(values)
+        for i, other in (*((i, i + 1) for i in range(SAMPLES - 1)), *((i + 1, i) for i in range(SAMPLES - 1))):
+            edge = inside[i] & ~inside[other]
+            if edge.any():
+                best[edge] = np.maximum(best[edge], self._end(a[i], a[other], lines[edge], x[i][edge]))
+        top = values.argmax(axis=0)
+        some = np.isfinite(best)
+        if some.any():
+            at = x[top, np.arange(len(lines))][some]
+            best[some] = np.maximum(best[some], self._top(a, top[some], lines[some], at))
+        return best
+
+    def _end(self, inner, outer, lines, x):
+        inner, outer = np.full(len(lines), inner), np.full(len(lines), outer)
+        value = np.full(len(lines), -np.inf)
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (inner + outer)
+            found, at = self.look(np.stack([middle, lines], axis=1), x)
+            good = np.isfinite(found)
+            value, x = np.where(good, found, value), np.where(good[:, None], at, x)
+            inner, outer = np.where(good, middle, inner), np.where(good, outer, middle)
+        return value
+
+    def _top(self, a, top, lines, x):
+        centre, half, best = a[top], np.full(len(top), a[1] - a[0]), np.full(len(top), -np.inf)
+        for _ in range(14):
+            trial = centre[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 9)
+            places = np.stack([trial, np.broadcast_to(lines[:, None], trial.shape)], axis=-1).reshape(-1, 2)
+            values, _ = self.look(places, np.repeat(x, 9, axis=0))
+            values = values.reshape(trial.shape)
+            k = values.argmax(axis=1)
+            best = np.maximum(best, values.max(axis=1))
+            centre, half = trial[np.arange(len(k)), k], half / 3.0
+        return best

@@ -1,0 +1,168 @@
+"""The two bounded flanks of a tooth pair touch first where a brute-force search finds it: tangency, edge or corner."""
+
+import json
+
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.contact.results import ARCSEC
+from tests.independent.first_touch import FirstTouch
+from tests.worm.designs import plain
+
+#: A ZN worm with a ZA hob whose tangency at -40 degrees lies 6 micrometres inside the other flank at its face.
+EDGE_FIRST = {
+    "drive": "cylindrical-worm", "flank": "right",
+    "design": {
+        "normal_module_mm": 2.5, "worm_threads": 4, "wheel_teeth": 53, "worm_pitch_radius_mm": 17.0,
+        "pressure_angle_deg": 20.0, "worm_profile": "ZN", "hob_profile": "ZA", "hob_pitch_radius_mm": 17.6,
+    },
+    "misalignment": {"center_distance_mm": -0.03, "vertical_deg": 0.04},
+    "blank": {
+        "wheel_face_width_mm": 20.0, "worm_tip_radius_mm": 19.5, "worm_root_radius_mm": 14.0,
+        "wheel_throat_radius_mm": 71.75,
+    },
+}  # fmt: skip
+
+
+def worm(profiles, misalignment, angle, flank="right", face=16.0, tip=24.4, throat=87.62, **design):
+    """A plain worm drive with a blank, and a pinion angle in degrees."""
+    tables = plain(*profiles, hob_pitch_radius_mm=21.0, **design)
+    blank = {
+        "wheel_face_width_mm": face, "worm_tip_radius_mm": tip, "worm_root_radius_mm": 15.6,
+        "wheel_throat_radius_mm": throat, "wheel_tip_radius_mm": throat + 1.5, "hob_tip_addendum_mm": 4.9,
+    }  # fmt: skip
+    return tables | {"flank": flank, "misalignment": misalignment, "blank": blank}, angle
+
+
+def packaged(name, angle, **changes):
+    """A packaged design with changes, and a pinion angle in degrees."""
+    return (name, changes), angle
+
+
+DESIGNS = {
+    "face edge": (EDGE_FIRST, -40.0),
+    "tip edge": (EDGE_FIRST, 30.0),
+    "ZA": worm(("ZA",), {"vertical_deg": 0.1}, 20.0, face=10.0),
+    "ZA tips": worm(("ZA",), {"center_distance_mm": 0.1}, -60.0, tip=22.0, throat=85.0),
+    "ZI": worm(("ZI",), {"vertical_deg": -0.1, "axial_mm": 0.1}, 0.0, face=8.0),
+    "ZI left flank": worm(("ZI",), {"horizontal_deg": 0.1}, 45.0, flank="left", face=12.0),
+    "ZN": worm(("ZN",), {"vertical_deg": 0.2}, -90.0, face=20.0),
+    "ZN short": worm(("ZN",), {"center_distance_mm": -0.05}, 120.0, tip=22.5, throat=86.0),
+    "ZK": worm(("ZK",), {"vertical_deg": -0.15}, 60.0, face=14.0),
+    "ZC": worm(("ZC",), {"vertical_deg": 0.15, "center_distance_mm": 0.03}, -30.0, face=14.0),
+    "ZI by ZN": worm(("ZI", "ZN"), {"axial_mm": 0.2}, 10.0, face=10.0),
+    "ZK by ZA": worm(("ZK", "ZA"), {"horizontal_deg": -0.1, "vertical_deg": 0.05}, -15.0, face=18.0),
+    "ZK-ZN at 60°": packaged("zk-zn-60", 40.0, misalignment={"vertical_deg": 0.1}, blank={"wheel_face_width_mm": 8.0}),
+    "ZK-ZN at 90°": packaged("zk-zn-90", -30.0, misalignment={"vertical_deg": -0.1}),
+    "left hand": packaged("plain-zn", 33.0, misalignment={"vertical_deg": 0.1}, design={"hand": "left"},
+                          blank={"wheel_face_width_mm": 12.0}),
+    "convex": packaged("spherical-table-3-1-convex", 2.0, misalignment={"vertical_deg": 0.3}),
+    "concave": packaged("spherical-table-4-4-concave", -3.0, misalignment={"vertical_deg": -0.4},
+                        design={"face_width_mm": 12.0}),
+    "spur wheel": packaged("spherical-table-5-2-spur", 12.0, misalignment={"center_distance_mm": 0.2}),
+    "convex face gear": packaged("face-worm-conical-convex", 60.0, misalignment={"offset_mm": 0.05}),
+    "concave face gear": packaged("face-worm-cylindrical-concave", -120.0, misalignment={"shaft_angle_deg": 0.05}),
+    "short face gear": packaged("face-worm-conical-concave", 200.0, misalignment={"axial_mm": 0.05},
+                                blank={"gear_addendum_mm": 0.4}),
+}  # fmt: skip
+
+
+def drive_of(entry):
+    if isinstance(entry, dict):
+        return Drive.from_tables(entry)
+    name, changes = entry
+    return Drive.load(name).with_(**changes)
+
+
+def brute_force(drive, angle, found):
+    """Transmission error, rad, of the first contact by the independent search over the wheel's whole region."""
+    mirror = drive.design.mirror.sign
+    known, _ = drive.trace(np.linspace(-0.5, 0.5, 9) * drive.pitch())
+    at = mirror * angle
+    here = drive.tca([angle]).solutions
+    known = here[0] if np.isfinite(here).all() else known[np.isfinite(known).all(axis=1)][0]
+    side = np.sign(mirror * found.levers[0])
+    vertices = drive.region("wheel").lattice((24, 24)).q.reshape(-1, 2)
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    return mirror * FirstTouch(drive, at, known, side).highest(np.array([low, high]))
+
+
+def check(name):
+    entry, degrees = DESIGNS[name]
+    drive, angle = drive_of(entry), np.radians(degrees)
+    tangency = drive.tca([angle])
+    found = drive.first_contact([angle], tangency)
+    assert found.unresolved[0] <= 1e-4
+    expected = brute_force(drive, angle, found)
+    assert found.errors[0] == pytest.approx(expected, abs=1e-6 * ARCSEC)
+    if tangency.solved[0] and not tangency.flags[0]:
+        overlap = found.overlaps(tangency.error)[0]
+        assert overlap == pytest.approx(max(found.levers[0] * (expected - tangency.error[0]), 0.0), abs=1e-7)
+        assert (expected - tangency.error[0]) * found.levers[0] > -1e-6
+
+
+@pytest.mark.parametrize("name", ["face edge", "convex"])
+def test_first_contact_is_what_brute_force_finds(name):
+    check(name)
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("name", [n for n in DESIGNS if n not in ("face edge", "convex")])
+def test_first_contact_is_what_brute_force_finds_on_other_designs(name):
+    check(name)
+
+
+def test_a_tangency_that_the_edge_of_the_face_precedes_is_not_first(tmp_path, capsys):
+    """At −40° the tangency of the equations, −36.64″, overlaps by 6 µm where the face's edge touches at −16.84″."""
+    design = tmp_path / "edge.toml"
+    design.write_text(_toml(EDGE_FIRST), encoding="utf-8")
+    assert main(["tca", str(design), "--phi-deg=-40", "--json", "-"]) == 1
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    first = point["first_contact"]
+    assert point["flags"] == ["not_first"] and (first["kind"], first["member"]) == ("edge", "wheel")
+    assert first["transmission_error_arcsec"] == pytest.approx(-16.83688, abs=1e-5)
+    assert first["overlap_mm"] == pytest.approx(6.03e-3, abs=5e-6)
+
+
+def _toml(tables):
+    lines = [f"{key} = {json.dumps(value)}" for key, value in tables.items() if not isinstance(value, dict)]
+    for name, table in tables.items():
+        if isinstance(table, dict):
+            lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def test_an_aligned_drive_touches_first_where_its_tangency_is():
+    drive = Drive.load("plain-zi")
+    tangency = drive.tca(np.radians([-30.0, 0.0, 30.0]))
+    found = drive.first_contact(tangency.angles, tangency)
+    assert found.kinds == ("tangency",) * 3
+    assert found.errors == pytest.approx(tangency.error, abs=1e-11)
+    assert found.points == pytest.approx(tangency.points, abs=1e-6)
+
+
+def test_one_angle_has_one_first_contact_whichever_others_are_asked_for():
+    drive = Drive.from_tables(EDGE_FIRST)
+    angles = np.radians(np.arange(-40.0, 41.0, 20.0))
+    together = drive.first_contact(angles).errors
+    assert [drive.first_contact([a]).errors[0] for a in angles] == pytest.approx(together, abs=1e-14)
+
+
+def test_a_wheel_without_face_has_no_first_contact(capsys):
+    """The recess-action blank leaves the face open: nothing says where the flank would touch beyond what is known."""
+    assert main(["tca", "recess-action-full", "--phi-deg", "400", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["points"][0]["first_contact"] is None
+
+
+def test_the_mirror_image_touches_first_at_the_mirrored_place():
+    right = Drive.from_tables(EDGE_FIRST)
+    left = right.with_(design={"hand": "left"}, misalignment={"vertical_deg": -0.04})
+    one, other = right.first_contact([-0.7]), left.first_contact([0.7])
+    assert (one.kinds, one.members) == (other.kinds, other.members)
+    mirrored = [d.design.mirror.negated for d in (right, left)]
+    assert mirrored[0] == mirrored[1]
+    if "vertical_deg" in mirrored[0] or np.isclose(other.errors[0], -one.errors[0], atol=1e-12):
+        assert other.errors == pytest.approx(-one.errors, abs=1e-12)
+        assert other.points == pytest.approx(one.points * [1.0, -1.0, 1.0], abs=1e-9)
