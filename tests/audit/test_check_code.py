@@ -103,7 +103,7 @@ def one_change(text, function, pattern, other):
     [
         ("step", r"x\[1\] = (t\d+)", "x[1] = t2", "step: row|J dx"),
         ("along", r"MW_FMA\(", "MW_FNMA(", "along|step|not the derivative"),
-        ("start_eval", r"MW_FMS\(", "MW_FMA(", "start_eval"),
+        ("start_eval", r"J\[0\] = (t\d+)", "J[0] = t0", "start_eval"),
         ("curvature_flank_wheel", r"o\[6\] = (t\d+)", "o[6] = t2", "change of the normal|sum"),
     ],
 )
@@ -119,7 +119,8 @@ def test_a_change_of_lanes_and_of_tangents_is_caught(tmp_path, ending, change):
     for other in ("lanes", "sensitivity"):
         shutil.copy(GENERATED / "c" / f"{name}_{other}.h", tmp_path / f"drive_{other}.h")
     path = tmp_path / f"drive_{ending}.h"
-    path.write_text(path.read_text(encoding="utf-8").replace(*change, 1), encoding="utf-8")
+    head, last, body = path.read_text(encoding="utf-8").rpartition("static inline")
+    path.write_text(head + last + body.replace(*change, 1), encoding="utf-8")
     rejected(tmp_path, header(name), "lanes|tangent")
 
 
