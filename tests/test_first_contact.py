@@ -154,7 +154,7 @@ def test_one_angle_has_one_first_contact_whichever_others_are_asked_for():
 
 
 def test_flanks_without_any_tangency_touch_on_an_edge():
-    """A tilt of 0.15° moves the tangency off the hob's sheet at every angle; the bodies touch at the edge of the face."""
+    """A tilt of 0.15° takes the tangency away at every angle; the bodies touch at the edge of the face."""
     drive = Drive.from_tables(DESIGNS["ZK"][0])
     assert not drive.tca([0.0]).solved[0]
     found = drive.first_contact([0.0])
