@@ -1,15 +1,15 @@
 """The compiler: six stages from the definition of a drive to generated files.
 
-define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, symbols, parameters, limits
+define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources
 derive    ``derive.language`` → locus, normal, equation of meshing, placements
 reduce    ``derive.language`` → explicit surfaces, fewer unknowns
 prove     ``derive.prove``    → certificates for the identities behind them, and the record (``derive.audit``) of them
 schedule  ``derive.passes``   → one tape (``derive.program``) with derivatives, curvature, binding times, pivot order
-emit      ``derive.emit``     → C99, CasADi, JSON, text
+emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data
 
 Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
-a paper. The stages after that are common to all drives. Statements are proved once for all of them; which ones a
-drive rests on is looked up when its operations are known.
+a paper; what comes out is checked before and after it is scheduled. The stages after that are common to all drives.
+Statements are proved once for all of them; which ones a drive rests on is looked up when its operations are known.
 """
 
 import hashlib
@@ -18,7 +18,10 @@ from pathlib import Path
 
 from derive.audit.provenance import provenance
 from derive.emit import c99, casadi, lanes, metadata, sensitivity
+from derive.language import description
+from derive.language.validate import validate, validate_normals
 from derive.passes import guards
+from derive.passes.sample import observation
 from derive.passes.schedule import schedule
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -41,26 +44,36 @@ def compile_drive(drive, record, log, open_=None):
     """All generated files of one drive: relative path → text.
 
     ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
-    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason.
+    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. Raises
+    :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
     """
+    with log("validate", drive.name):
+        validate(drive)
     with log("schedule", drive.name):
         plan = schedule(drive)
+        validate_normals(drive, observation(plan), plan.sample)
     with log("prove", drive.name):
         origin = provenance(record, plan, open_)
     with log("emit", drive.name):
-        description = metadata.describe(plan, origin)
-        files = {
-            f"c/{drive.name}.h": c99.header(plan, description, RUNTIME),
-            f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
-        }
-        files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
-        # last: it adds the changes of the inputs to the tape
-        tangents = sensitivity.tangents(plan)
-        files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-        evaluated = [*guards.functions(plan), guards.along(plan), *tangents.functions()]
-        description["side_conditions"] = guards.side_conditions(plan, evaluated)
-        files[f"c/{drive.name}.json"] = json.dumps(description, indent=1, ensure_ascii=False) + "\n"
-        return files
+        return _files(plan, origin)
+
+
+def _files(plan, origin):
+    """What every printer makes of a schedule."""
+    drive, metadata_of = plan.drive, metadata.describe(plan, origin)
+    files = {
+        f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
+        f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
+        f"descriptions/{drive.name}.json": description.text(drive),
+    }
+    files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
+    # last: it adds the changes of the inputs to the tape
+    tangents = sensitivity.tangents(plan)
+    files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
+    evaluated = [*guards.functions(plan), guards.along(plan), *tangents.functions()]
+    metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
+    files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
+    return files
 
 
 def hashes(files):

@@ -71,6 +71,8 @@ def write(drive, record, folder, log, source=None):
 def _place(path):
     """Where a folder of drives has a generated file."""
     kind, name = path.split("/", 1)
+    if kind == "descriptions":
+        return path
     return f"include/{name}" if kind == "c" and name.endswith(".h") else name
 
 

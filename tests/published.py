@@ -73,7 +73,7 @@ def _block(rows, solved, misprints, chosen):
 def main():
     """Print both comparisons; exit status 1 if the implied radius does not reproduce the print."""
     rows, misprints = published_rows()
-    print("Recess-action worm drive (000_e4dc51872e8570c2.txt), Table 2: printed value, ours less printed; * misprint")
+    print("Recess-action worm drive (Chen and Tsay 2011), Table 2: printed value, ours less printed; * misprint")
     worst = {}
     for radius, suffix in (("20.063824 mm, implied by the table", ""), ("20 mm, as printed", "-printed-hob")):
         text, worst[suffix] = table(rows, solved_rows(rows, suffix), misprints)

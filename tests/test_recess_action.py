@@ -1,4 +1,4 @@
-"""The recess-action worm drive against its paper's Table 2 (000_e4dc51872e8570c2.txt)."""
+"""The recess-action worm drive against its paper's Table 2 (Chen and Tsay 2011)."""
 
 import numpy as np
 import pytest

@@ -2,8 +2,7 @@
 
 Frames: ``f`` fixed, z along the worm axis, x from worm to wheel; the wheel axis is (0, sin Σ, cos Σ) through
 (A, 0, 0). The worm turns by +φ1 about z, the wheel by +φ2 about minus its axis. Right hand; the left-hand drive is
-the mirror image y → −y. Sources: 000_e4dc51872e8570c2.txt (recess action), the conference paper at the end of
-003_1b02f86c27c1e1b1.txt (ZK worm, ZN hob).
+the mirror image y → −y.
 """
 
 from dataclasses import replace
@@ -16,7 +15,7 @@ from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Loading, Margin, Region, System, ToolUse, body_point
+from derive.language.drive import Body, Drive, Loading, Margin, Region, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit, merge_sum
 from derive.language.rack_and_pinion import Rack
 from derive.language.symbols import Guard, Rule, Table, Unknown, parameter, rotation_angle
@@ -27,6 +26,24 @@ from derive.tools.involute import involute
 from derive.tools.straight_blade import straight_blade
 from derive.tools.tip_rounding import tip_rounding
 from derive.tools.worm_body import WormBody
+
+SOURCES = (
+    Source(
+        "K.-Y. Chen, C.-B. Tsay",
+        "Contact characteristics of recess action worm gear drives with double-depth teeth",
+        2011,
+        "Journal of Mechanical Design 133: the whole drive, ZN worm and oversize ZN hob",
+    ),
+    Source(
+        "K.-Y. Chen, C.-B. Tsay",
+        "Contact characteristics of the ZK-type worm and ZN-type worm wheel meshing with a non-ninety-degree crossing "
+        "angle",
+        2009,
+        "JSME International Conference on Motion and Power Transmissions, GUD-02: ZK worm, ZN hob, shaft angle",
+    ),
+    Source("ISO", "ISO 10828, Worm gears: worm profiles and gear mesh geometry", 2015, "flank forms A, I, N, K, C"),
+    Source("author not named", "Right-angle cylindrical worm gear drives as rack and pinion", None, "limit points"),
+)
 
 #: ISO 10828 letters and the tools that make them.
 TOOLS = {"ZA": axial_blade, "ZI": involute, "ZN": straight_blade, "ZK": grinding_disc, "ZC": grinding_arc}
@@ -334,6 +351,7 @@ def cylindrical_worm(worm_profile, hob_profile):
             ToolUse("hob", hob_profile, hob_tool, tuple(own[b][d].key for d in hob_tool.data for b in ("worm", "hob"))),
         ),
         loading=Loading(pairs=5, torque_on="wheel"),
+        sources=SOURCES,
         handed="right",
         exclusive=(
             (normal_module.key, axial_module.key),

@@ -2,7 +2,7 @@
 
 Frames: ``f`` fixed, z the gear axis, x along the worm axis, y the common perpendicular; the worm axis lies at
 y = E_m, z = 0 and the gear body at z < 0. The worm turns by +φ1 about x, the gear by +φ2 about z. Right-hand thread.
-Source: 001_d957fec2e26e51c5.txt. A hob-cut reference design gives three points; the head-cutter whose blade passes
+A hob-cut reference design gives three points; the head-cutter whose blade passes
 through them copies its cone into the gear and, with a parabolic blade and plunge, envelopes the worm. One drive is
 one flank: both flanks have settings of their own.
 """
@@ -25,6 +25,7 @@ from derive.language.drive import (
     Margin,
     Region,
     Role,
+    Source,
     System,
     body_point,
 )
@@ -41,6 +42,16 @@ s, N_1, N_2, m_ax = (q.symbol for q in (k.flank, k.threads, k.teeth, k.axial_mod
 E_m, L, cone, alpha = (q.symbol for q in (k.offset, k.worm_position, k.cone_angle, k.profile_angle))
 R_in, R_out = k.inner_radius.symbol, k.outer_radius.symbol
 R_g, alpha_g, tilt_change = k.cutter_radius.symbol, k.blade_angle.symbol, k.tilt_change.symbol
+
+SOURCES = (
+    Source(
+        "F. L. Litvin, A. Nava, Q. Fan, A. Fuentes",
+        "New geometry of worm face gear drives with conical and cylindrical worms: generation, simulation of meshing, "
+        "and stress analysis",
+        2002,
+        "NASA/CR-2002-211895",
+    ),
+)
 
 #: Derived sizes that every formula shares.
 p_1 = m_ax * N_1 / 2
@@ -299,10 +310,11 @@ def face_worm():
         sample=k.SAMPLE,
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
-        together=tuple(tuple(f"{p.table.value}.{p.key}" for p in group) for group in k.TOGETHER),
+        together=tuple(tuple(f"{p.table}.{p.key}" for p in group) for group in k.TOGETHER),
         functions=_limit_functions(cutter, gear, worm, reference),
         tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),
+        sources=SOURCES,
         ascending_path=True,
         flanks_apart=True,
         absorbs_errors=True,

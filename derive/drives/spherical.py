@@ -3,7 +3,6 @@
 Frames: ``f`` fixed, origin at the centre of the pinion, x to the centre of the wheel, z along the wheel axis. Body
 frames ``pinion`` and ``wheel``: the tooth is centred on x, z along the gear's own axis, middle of the face at z = 0.
 The pinion turns by +φ1 about z and the wheel by +φ2 about −z; at φ1 = 0 the ideal pair touches in the pitch point.
-Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, chapters 2 and 3.
 """
 
 from dataclasses import dataclass
@@ -17,13 +16,22 @@ from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, System, ToolUse, body_point
+from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit
 from derive.language.functions import Function, LeastTeeth, Result
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Unknown, rotation_angle
 from derive.tools.rack_section import SPHERE_RADIUS, SWEEPS, RackBody, RackTool
+
+SOURCES = (
+    Source(
+        "National Science Council of Taiwan",
+        "Convex and concave spherical gears: tooth surfaces, undercutting, contact, stress (three-year project)",
+        2009,
+        "chapters 2 and 3",
+    ),
+)
 
 s, m, alpha = k.flank.symbol, k.module.symbol, k.pressure_angle.symbol
 dC, dh, dv = k.error_distance.symbol, k.error_horizontal.symbol, k.error_vertical.symbol
@@ -115,6 +123,7 @@ def spherical(pinion_form, wheel_form):
             for gear, form in ((PINION, pinion_form), (WHEEL, wheel_form))
         ),
         loading=Loading(pairs=3, torque_on="pinion"),
+        sources=SOURCES,
         functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
         least_teeth={
             tooth.gear.name: LeastTeeth(

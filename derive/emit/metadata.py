@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 import mpmath
 
+from derive.language.description import prefix, rules, sources
 from derive.language.symbols import interface_unit
 from derive.passes import sample
 from derive.program.tape import Stage
@@ -39,6 +40,9 @@ def describe(plan, provenance):
         "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
+        "reference_angle": prefix(drive.reference_angle),
+        "proportions": rules(drive.proportions),
+        "sources": sources(drive),
         "together": [list(group) for group in drive.together],
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,

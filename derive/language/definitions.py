@@ -75,6 +75,15 @@ class Definitions:
             expression = replaced(expression, {symbol: self._values[symbol] for symbol in known})
         return expression
 
+    def free(self, expression):
+        """The symbols without a definition on which the expression depends."""
+        open_, seen = set(sp.sympify(expression).free_symbols), set()
+        while named := {s for s in open_ if s in self._values}:
+            seen |= named
+            inner = set().union(*(self._values[s].free_symbols for s in named))
+            open_ = (open_ - named) | (inner - seen)
+        return open_
+
     def depends(self, expression, variable):
         """Whether the expression contains the variable, directly or through definitions."""
         symbols = sp.sympify(expression).free_symbols

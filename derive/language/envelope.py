@@ -14,6 +14,7 @@ from derive.language.differentiate import partial
 from derive.language.origin import EXPLICIT, Origin
 from derive.language.replace import replaced
 from derive.language.sampled import vanishes
+from derive.language.surface import Step
 from derive.language.symbols import Quantity
 
 
@@ -31,6 +32,7 @@ def envelope(surface, motion, variable):
         parameters=parameters,
         normal=v.scale(-1, surface.normal),
         conditions=(*surface.conditions, meshing),
+        made=(*surface.written_down.made, Step.of("envelope", motion=motion, variable=variable)),
     ).on("derivation/invariance", "derivation/envelope", *(("derivation/pole",) if surface.pole else ()))
 
 
@@ -51,7 +53,8 @@ def merge_sum(surface, kept, removed, name, meaning):
     total = Quantity(name, removed.unit, meaning, removed.frame, parity=removed.parity)
     value = total - kept
     parameters = tuple(total if p == removed else p for p in surface.parameters)
-    return substitute(replace(surface, parameters=parameters), {removed: value}).on("derivation/merge-sum"), total
+    merged = substitute(replace(surface, parameters=parameters), {removed: value})
+    return merged.on("derivation/merge-sum").by(Step.of("merged", total=total, kept=kept, removed=removed)), total
 
 
 def substitute(surface, replacement):
@@ -89,7 +92,8 @@ def explicit(surface):
         )
         remaining = tuple(p for p in surface.parameters if p != parameter)
         done = replace(surface, parameters=remaining, conditions=tuple(others))
-        return substitute(done, {parameter: named}).on(EXPLICIT), Solved(named, solution, slope)
+        made = Step.of("solved", parameter=parameter, value=solution)
+        return substitute(done, {parameter: named}).on(EXPLICIT).by(made), Solved(named, solution, slope)
     raise ValueError("the equation of meshing is linear in none of its parameters")
 
 
@@ -131,9 +135,8 @@ def explicit_angle(surface, angle, sign):
         angle.name, turn, angle.meaning, angle.unit, origin=origin, parity=angle.parity
     )
     remaining = tuple(p for p in surface.parameters if p != angle)
-    return substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named}).on(
-        "derivation/explicit-angle"
-    )
+    solved = substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
+    return solved.on("derivation/explicit-angle").by(Step.of("solved", parameter=angle, value=turn))
 
 
 def in_turn(condition, angle):

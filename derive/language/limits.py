@@ -1,23 +1,45 @@
 """Limits that a surface has by itself: where it is singular (an edge of regression, the edge of an undercut)."""
 
+from itertools import combinations
+
 
 def singular_function(lower, surface):
     """Node of the function that vanishes where a surface is singular, body frame.
 
-    Explicit surface: (∂r/∂a × ∂r/∂b)·n. Envelope with its condition f(a, b, c) = 0: the sum over cyclic (a, b, c)
-    of f_a n·(∂r/∂b × ∂r/∂c).
+    A surface r(q) of k + 2 parameters under k conditions is singular where its two directions of motion, those that
+    keep the conditions, fall together. They span the plane that the conditions' slopes leave, so that the function is
+    the sum over pairs of parameters (a, b) of ± n·(∂r/∂a × ∂r/∂b) times the minor of the slopes by all other
+    parameters, with the sign of the permutation (others…, a, b). Without a condition it is (∂r/∂a × ∂r/∂b)·n, with one,
+    f(a, b, c) = 0, the sum over cyclic (a, b, c) of f_a n·(∂r/∂b × ∂r/∂c).
     """
     tape = lower.tape
     parameters = [lower(p) for p in surface.parameters]
     point = [lower(c) for c in surface.body_point()]
     normal = [lower(c) for c in surface.body_normal()]
     tangents = [[tape.derivative(i, p) for i in point] for p in parameters]
-    if not surface.conditions:
+    slopes = [[tape.derivative(lower(condition), p) for p in parameters] for condition in surface.conditions]
+    if not slopes:
         return tape.triple(normal, *tangents)
-    (condition,) = surface.conditions
-    a, b, c = tangents
-    slopes = [tape.derivative(lower(condition), p) for p in parameters]
     total = tape.constant(0)
-    for slope, pair in zip(slopes, ((b, c), (c, a), (a, b)), strict=True):
-        total = tape.add(total, tape.mul(slope, tape.triple(normal, *pair)))
+    for others in combinations(range(len(parameters)), len(slopes)):
+        minor = _determinant(tape, [[row[k] for k in others] for row in slopes])
+        a, b = (k for k in range(len(parameters)) if k not in others)
+        pair = (a, b) if _is_even((*others, a, b)) else (b, a)
+        total = tape.add(total, tape.mul(minor, tape.triple(normal, *(tangents[k] for k in pair))))
     return total
+
+
+def _determinant(tape, rows):
+    """Node of a determinant, by the minors of its first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total = tape.constant(0)
+    for k, entry in enumerate(rows[0]):
+        term = tape.mul(entry, _determinant(tape, [row[:k] + row[k + 1 :] for row in rows[1:]]))
+        total = tape.sub(total, term) if k % 2 else tape.add(total, term)
+    return total
+
+
+def _is_even(order):
+    """Whether a permutation of 0, 1, … is even."""
+    return sum(order[i] > order[j] for i, j in combinations(range(len(order)), 2)) % 2 == 0

@@ -1,4 +1,4 @@
-"""The cylindrical worm drive as rack and pinion (002_4ec8cac32e4cad0f.txt): explicit contact and limit points.
+"""The cylindrical worm drive as rack and pinion: explicit contact and limit points.
 
 The worm, or the hob that cuts the wheel, slides along its axis as a rack of profile Rz(ψ) P(t); turning it by φ
 with the profile held at ψ = λ + φ is the same. Its parameter λ (``turn``) then enters the equation of meshing only

@@ -16,6 +16,24 @@ from derive.language.sampled import NEGLIGIBLE, sampled
 
 
 @dataclass(frozen=True)
+class Step:
+    """A step by which a surface was made: its name and what went into it, by name.
+
+    ``swept``: a ``curve`` in ``along`` carried by ``motion``, which ``sweep`` moves; the normal is ``outward`` times
+    the tangents' cross product. ``given``: point, tangents and normal written down. ``moved`` by ``motion``.
+    ``envelope`` under ``motion``, which ``variable`` moves. ``merged``: ``total`` = ``kept`` + ``removed`` replaces
+    ``removed``. ``solved``: the last condition solved for ``parameter``, whose value is ``value``.
+    """
+
+    word: str
+    data: tuple
+
+    @classmethod
+    def of(cls, word, **data):
+        return cls(word, tuple(data.items()))
+
+
+@dataclass(frozen=True)
 class Surface:
     """A surface in its body frame.
 
@@ -25,7 +43,8 @@ class Surface:
     positive length, and the tangents, of any length, span its plane. An envelope keeps the tangents of its
     generating surface, which touch it; they are then not its derivatives. ``pole`` is any other point of the
     normal's line, section frame: n·(ω × r) does not change along it, so that the equation of meshing may be formed
-    there. ``steps`` are the statements of the record on which its derivation so far rests.
+    there. ``steps`` are the statements of the record on which its derivation so far rests; ``made`` are the
+    :class:`Step` by which it came about, none for a surface that is written down.
     """
 
     definitions: Definitions
@@ -37,6 +56,7 @@ class Surface:
     conditions: tuple = ()
     pole: tuple | None = None
     steps: tuple[str, ...] = ()
+    made: tuple[Step, ...] = ()
 
     def on(self, *statements):
         """The same surface, resting on these statements of the record as well."""
@@ -51,6 +71,10 @@ class Surface:
         """The same surface, with another point of the normal's line, section frame."""
         return replace(self, pole=pole)
 
+    def in_order(self, *parameters):
+        """The same surface with its parameters in this order: across the tooth, then along it."""
+        return replace(self, parameters=parameters)
+
     def turned_over(self):
         """The same surface as the border of the body on its other side: a copy of the tool that stays at rest."""
         return replace(self, normal=v.scale(-1, self.normal))
@@ -60,7 +84,20 @@ class Surface:
         motion = self.motion
         for outer in reversed(motions):
             motion = outer @ motion
-        return replace(self, motion=motion)
+        moves = (Step.of("moved", motion=outer) for outer in reversed(motions))
+        return replace(self.written_down, motion=motion).by(*moves)
+
+    @property
+    def written_down(self):
+        """The same surface; one that no step has made is given as it stands."""
+        if self.made:
+            return self
+        data = {"point": self.point, "normal": self.normal, "motion": self.motion}
+        return self.by(Step.of("given", **data, first=self.tangents[0], second=self.tangents[1]))
+
+    def by(self, *steps):
+        """The same surface, made by these further steps."""
+        return replace(self, made=(*self.made, *steps))
 
     def body_point(self):
         return self.motion.point(self.point)
@@ -82,7 +119,10 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
     lengthwise = v.add(motion.local_velocity(sweep, section), definitions.derivative_vector(section, sweep))
     tangents = definitions.derivative_vector(section, along), v.scale(1 / sp.sympify(arm), lengthwise)
     normal = v.scale(outward, v.cross(*tangents))
-    return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",))
+    made = Step.of("swept", curve=section, along=along, motion=motion, sweep=sweep, outward=outward)
+    return Surface(
+        definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",), made=(made,)
+    )
 
 
 def revolved(definitions, profile, *, along, turn, outward, radius=0, sense=1, slope=None):
@@ -100,7 +140,10 @@ def revolved(definitions, profile, *, along, turn, outward, radius=0, sense=1, s
     across = v.cross(*tangents)
     normal = v.scale(outward, across) if slope is None else v.signed(outward, across)
     motion = Rz(sense * turn) @ station(x=radius)
-    return Surface(definitions, (along, turn), profile, tangents, normal, motion, steps=("derivation/revolved",))
+    made = Step.of("swept", curve=profile, along=along, motion=motion, sweep=turn, outward=sense * outward)
+    return Surface(
+        definitions, (along, turn), profile, tangents, normal, motion, steps=("derivation/revolved",), made=(made,)
+    )
 
 
 def require_parallel(derivative, slope):

@@ -77,6 +77,14 @@ def sample_contact(plan):
         return solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
 
 
+def observation(plan):
+    """What is observed of the sample's contact: name → numbers."""
+    nodes = [i for output in plan.observed for i in output.nodes]
+    with mpmath.workdps(DIGITS):
+        numbers = iter(plan.tape.evaluate(nodes, plan.sample, mpmath))
+    return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
+
+
 def in_double(inputs):
     """The same inputs as floats."""
     return {symbol: float(value) for symbol, value in inputs.items()}

@@ -11,7 +11,7 @@ def conical_hob(definitions, *, along, sweep, phase, pitch_radius, screw_paramet
 
     ``along`` = 0 is the middle of the profile, on the pitch cone; the radius there is ``pitch_radius`` at
     ``sweep`` = 0 and grows by screw_parameter·tan(cone_angle) a radian. ``flank`` is +1 where the gear tooth is
-    convex. Source: 001_d957fec2e26e51c5.txt, section 3, "existing design".
+    convex. Source: F. L. Litvin, A. Nava, Q. Fan and A. Fuentes, NASA/CR-2002-211895, section 3, "existing design".
     """
     edge = (
         pitch_radius + along * sp.cos(profile_angle),

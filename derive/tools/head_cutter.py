@@ -4,7 +4,7 @@ Frame: z along the axis, x outwards from it to the blade point u = 0 on the edge
 blade at θ = 0.
 
 The surfaces are those of the gear tooth that the tool leaves as its copy: normals point out of the gear.
-Source: 001_d957fec2e26e51c5.txt, sections 2 to 4, Figs. 5 and 11.
+Source: F. L. Litvin, A. Nava, Q. Fan and A. Fuentes, NASA/CR-2002-211895, sections 2 to 4, Figs. 5 and 11.
 """
 
 from dataclasses import dataclass

@@ -2,7 +2,7 @@
 
 Frame of the section, origin at the pitch point: x radially outwards from the gear axis, y along the rack, z along
 the gear axis. The edge bounds a space of the rack and envelops a tooth of the gear, which is centred on x at rest.
-Source: the spherical report at the beginning of 003_1b02f86c27c1e1b1.txt, (2.1) to (2.5).
+Source: National Science Council of Taiwan, report on spherical gears, 2009, (2.1) to (2.5).
 """
 
 from collections.abc import Callable, Mapping

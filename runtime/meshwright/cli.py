@@ -13,19 +13,25 @@ from meshwright.base import drives
 from meshwright.base.errors import DesignError, LibraryError, UsageError
 
 
-def parser():
-    """The argument parser of all commands."""
+def parser(names=tuple(commands.MODULES)):
+    """The argument parser of these commands."""
     top = argparse.ArgumentParser(prog="meshwright", description="Tooth contact analysis of gear drives.")
     top.add_argument("--version", action=_Version, help="show the version and exit")
     top.add_argument("--drives", action="append", default=[], metavar="DIR", help="folder of drives to search first")
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in commands.ALL:
-        name = module.__name__.rsplit(".", 1)[-1]
+    for name in names:
+        module = commands.module(name)
         summary = module.__doc__.strip().splitlines()[0]
         sub = subparsers.add_parser(name, help=summary, description=module.__doc__)
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
     return top
+
+
+def _asks_for_help(words, command):
+    """Whether help is asked for before the command, which is help on all commands."""
+    before = words[: words.index(command)]
+    return "-h" in before or "--help" in before
 
 
 class _Version(argparse.Action):
@@ -53,7 +59,10 @@ def joined(arguments):
 
 def main(arguments=None):
     """Run one command; returns the exit status."""
-    options = parser().parse_args(joined(sys.argv[1:] if arguments is None else arguments))
+    words = joined(sys.argv[1:] if arguments is None else arguments)
+    # a command waits for no other's imports; what names none is answered with all of them
+    named = [word for word in words if word in commands.MODULES][:1]
+    options = parser(*([named] if named and not _asks_for_help(words, named[0]) else [])).parse_args(words)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal without a letter of ours shows "?"
     try:

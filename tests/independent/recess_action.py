@@ -1,6 +1,6 @@
 """The recess-action paper's own system, in its own symbols, over any arithmetic.
 
-000_e4dc51872e8570c2.txt: index 1 hob, 2 gear, 3 worm; six equations (position, normal, meshing) in the six unknowns
+Chen and Tsay 2011: index 1 hob, 2 gear, 3 worm; six equations (position, normal, meshing) in the six unknowns
 (l1, θ1, φ1, l3, θ3, φ2′) at given φ3′. ``m`` is the arithmetic (math or mpmath). Angles γ are the supplements of the
 shaft angles; errors Δγh, Δγv have the signs of the paper.
 """

@@ -1,8 +1,8 @@
 """Every cylindrical worm drive written down a second time: profiles and normals typed by type, in mpmath arithmetic.
 
 Nothing of the compiler is used. A flank is its profile P(t) and unit normal n(t) in screw motion; for the ground
-forms the point on the grinding wheel comes from the wheel's own geometry (the conference paper at the end of
-003_1b02f86c27c1e1b1.txt for ZK; Newton on the arc angle for ZC). The drive is the papers' larger system: six
+forms the point on the grinding wheel comes from the wheel's own geometry (Chen and Tsay 2009
+for ZK; Newton on the arc angle for ZC). The drive is the papers' larger system: six
 unknowns (t_w, ψ_w, t_h, ψ_h, φ_h, φ2) with the hob's equation of meshing from angular velocities, at given φ1.
 """
 

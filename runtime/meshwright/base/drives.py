@@ -165,9 +165,14 @@ def _whole(folder):
         return False
 
 
-def _cache():
+def cache_folder():
+    """The folder of what is made on first use; it need not exist."""
     home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    place = Path(os.environ.get(CACHE) or Path(home) / "meshwright")
+    return Path(os.environ.get(CACHE) or Path(home) / "meshwright")
+
+
+def _cache():
+    place = cache_folder()
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,19 +1,23 @@
 """The compiled core library, its interface read from its own headers, and the drives' objects, loaded on first use."""
 
+import contextlib
 import ctypes
+import hashlib
+import os
 import re
+import runpy
+import tempfile
 import threading
 from functools import cache
+from pathlib import Path
 
-import cffi
 import numpy as np
 
-from meshwright.base.drives import SHIPPED, folders, object_of
+from meshwright.base.drives import SHIPPED, cache_folder, folders, object_of
 from meshwright.base.errors import LibraryError
 
 ABI = 1
 
-ffi = cffi.FFI()
 _loading, _thread = threading.Lock(), threading.local()
 
 
@@ -48,6 +52,41 @@ def _format(kind):
     if kind.kind == "array":
         return (_format(kind.item), kind.length)
     return {"double": "f8", "int": "i4", "unsigned int": "u4"}[kind.cname]
+
+
+def _parsed():
+    """cffi's view of the interface; parsing takes a third of a short command's time, so the result is kept."""
+    try:
+        declarations = _interface()
+    except OSError:  # nothing is built yet; whoever loads the library is told so
+        declarations = ""
+    kept = cache_folder() / f"interface-{hashlib.sha256(declarations.encode()).hexdigest()[:32]}.py"
+    try:
+        return runpy.run_path(str(kept))["ffi"]
+    except (OSError, KeyError, SyntaxError, ImportError, TypeError, ValueError):
+        return _written(declarations, kept)
+
+
+def _written(declarations, place):
+    """The interface, parsed and, if it can be, kept at ``place``."""
+    import cffi
+
+    made = cffi.FFI()
+    made.cdef(declarations)
+    made.set_source("interface", None)
+    with tempfile.TemporaryDirectory() as folder:
+        written = Path(folder) / "interface.py"
+        made.emit_python_code(str(written))
+        with contextlib.suppress(OSError):  # a cache that cannot be written costs time, nothing else
+            place.parent.mkdir(parents=True, exist_ok=True)
+            handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=".interface.")
+            with os.fdopen(handle, "w", encoding="utf-8") as stream:
+                stream.write(written.read_text(encoding="utf-8"))
+            os.replace(temporary, place)
+        return runpy.run_path(str(written))["ffi"]
+
+
+ffi = _parsed()
 
 
 def library():
@@ -92,7 +131,6 @@ def _loaded():
     path = SHIPPED / "libmeshwright.so"
     if not path.exists():
         raise LibraryError(f"{path} does not exist: run `make build` in the checkout, or install the wheel")
-    ffi.cdef(_interface())
     loaded = _Calls(ffi.dlopen(str(path)))
     if loaded.mw_abi() != ABI:
         raise LibraryError(

@@ -1,5 +1,16 @@
 """Commands: each module has ``add_arguments(parser)`` and ``run(options) -> exit status``."""
 
-from meshwright.commands import drives, explain, fe, limits, loaded, ratio, report, schema, show, surface, sweep, tca
+from importlib import import_module
 
-ALL = (drives, show, explain, tca, surface, ratio, limits, loaded, fe, sweep, report, schema)
+#: Command → module, imported when the command is asked for; the order is that of the help.
+MODULES = {
+    name: f"meshwright.commands.{name}"
+    for name in (
+        "drives", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report", "schema",
+    )
+}  # fmt: skip
+
+
+def module(name):
+    """The module of a command."""
+    return import_module(MODULES[name])

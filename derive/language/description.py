@@ -1,0 +1,281 @@
+"""A drive's description as plain data: what a checker, the runtime or a page reads instead of our Python.
+
+Expressions are nested prefix lists over named symbols and exact numbers, motions are lists of named factors, surfaces
+the steps by which they were made. ``derive/README.md`` documents the form; nothing in it needs SymPy.
+"""
+
+import json
+
+import sympy as sp
+
+from derive.language.chain import Motion, Placement, Rotation, Station, Swing, Translation
+from derive.language.choice import excess, unit_step
+
+SCHEMA = "meshwright.description/1"
+
+_FUNCTIONS = {
+    sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos", sp.atan: "atan",
+    sp.atan2: "atan2", sp.Abs: "abs", sp.Min: "min", sp.Max: "max", sp.sign: "sign",
+    unit_step: "unit_step", excess: "excess",
+}  # fmt: skip
+
+
+def prefix(expression):
+    """An expression as a prefix list: a symbol's name, an integer, or ``[operation, operand, …]``.
+
+    Rational numbers are ``["/", p, q]``. Raises TypeError for what has no exact form.
+    """
+    expression = sp.sympify(expression)
+    if expression.is_Symbol:
+        return expression.name
+    if expression.is_Integer:
+        return int(expression)
+    if expression.is_Rational:
+        return ["/", int(expression.p), int(expression.q)]
+    if expression is sp.pi:
+        return ["pi"]
+    operands = [prefix(argument) for argument in expression.args]
+    if expression.is_Add:
+        return ["+", *operands]
+    if expression.is_Mul:
+        return ["*", *operands]
+    if expression.is_Pow:
+        return ["sqrt", operands[0]] if expression.exp == sp.Rational(1, 2) else ["^", *operands]
+    if expression.func in _FUNCTIONS:
+        return [_FUNCTIONS[expression.func], *operands]
+    raise TypeError(f"{expression} has no exact form in a description")
+
+
+def _vector(vector):
+    return [prefix(c) for c in vector]
+
+
+def factor(elementary):
+    """A factor of a motion: its kind, then what it is made of."""
+    match elementary:
+        case Rotation():
+            return ["rotation", elementary.axis, prefix(elementary.angle)]
+        case Swing():
+            return ["swing", elementary.axis, prefix(elementary.angle), _vector(elementary.centre)]
+        case Station():
+            return ["station", _vector(elementary.offset)]
+        case Translation():
+            return ["translation", _vector(elementary.offset)]
+        case Placement():
+            return ["placement", [_vector(column) for column in elementary.columns]]
+    raise TypeError(f"{elementary} is no factor of a motion")
+
+
+def motion(product):
+    """The factors of a motion, leftmost acting last."""
+    return [factor(f) for f in product.factors]
+
+
+def quantity(symbol):
+    """A symbol with what is known of it."""
+    lower, upper = (prefix(end) if end.is_finite else None for end in symbol.domain)
+    return {
+        "name": symbol.name, "unit": symbol.unit, "frame": symbol.frame, "meaning": symbol.meaning,
+        "domain": [lower, upper], "parity": symbol.parity,
+    }  # fmt: skip
+
+
+def surface(described):
+    """A surface: its parameters, the steps by which it was made, and what they led to."""
+    described = described.written_down
+    return {
+        "parameters": [quantity(q) for q in described.parameters],
+        "made": [_step(step) for step in described.made],
+        "point": _vector(described.point),
+        "tangents": [_vector(t) for t in described.tangents],
+        "normal": _vector(described.normal),
+        "motion": motion(described.motion),
+        "conditions": [prefix(c) for c in described.conditions],
+    }
+
+
+def _step(step):
+    return {"step": step.word, **{name: _data(value) for name, value in step.data}}
+
+
+def _data(value):
+    if isinstance(value, Motion):
+        return motion(value)
+    return _vector(value) if isinstance(value, tuple) else prefix(value)
+
+
+def _key(drive, p):
+    return {
+        "key": p.key, "table": str(p.table), "symbol": quantity(p.symbol), "factor": prefix(p.factor),
+        "default": None if p.default is None else prefix(p.default), "required": p.required, "integer": p.integer,
+        "lower_included": p.lower_included, "above": p.above, "choices": dict(p.choices),
+        "tools": [use.word for use in drive.tools if p.key in use.keys],
+    }  # fmt: skip
+
+
+def _margin(m):
+    return {
+        "flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins, "positive": prefix(m.positive),
+        "relative": m.relative, "along": m.along and m.along.name,
+    }  # fmt: skip
+
+
+def _named(values):
+    return {symbol.name: prefix(value) for symbol, value in values.items()}
+
+
+def _body(body):
+    return {
+        "name": body.name,
+        "surface": surface(body.surface),
+        "motion": motion(body.motion),
+        "reference": _named(body.reference),
+        "regular": None if body.regular is None else prefix(body.regular),
+        "coordinates": [q.name for q in body.point],
+        "margins": [_margin(m) for m in body.margins],
+        "recovered": [quantity(q) for q in body.recovered],
+        "lengthwise": body.lengthwise,
+        "sizes": _named(body.sizes),
+        "search": _ranges(body.search),
+    }
+
+
+def _region(region):
+    return {
+        "member": region.member,
+        "region": region.name,
+        "surface": surface(region.surface),
+        "regular": prefix(region.regular),
+        "margins": [_margin(m) for m in region.margins],
+        "lengthwise": region.lengthwise,
+        "sizes": _named(region.sizes),
+        "search": _ranges(region.search),
+    }
+
+
+def _ranges(ranges):
+    """Search ranges by parameter: [lower, upper], None where there is no end."""
+    return {q.name: [None if end is None else prefix(end) for end in ends] for q, ends in ranges.items()}
+
+
+def _unknown(unknown):
+    return quantity(unknown.symbol) | {"scale": prefix(unknown.scale)}
+
+
+def _design_system(system):
+    return {
+        "name": system.name,
+        "unknowns": [_unknown(u) for u in system.unknowns],
+        "residual": _vector(system.residual),
+        "guess": _named(system.guess),
+        "fills": _named(system.fills),
+        "fixed": _named(system.fixed),
+        "homotopy": system.homotopy,
+        "message": system.message,
+        "keys": list(system.keys),
+        "regular": system.regular and {"surface": surface(system.regular[0]), "sign": prefix(system.regular[1])},
+    }
+
+
+def rules(listed):
+    """Rules as pairs of a symbol's name and its value."""
+    return [[rule.target.name, prefix(rule.value)] for rule in listed]
+
+
+def sources(drive):
+    """What the drive's page follows."""
+    return [{"author": s.author, "title": s.title, "year": s.year, "where": s.where} for s in drive.sources]
+
+
+def _words(data):
+    """Every text in plain data."""
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, list | dict):
+        for part in data.values() if isinstance(data, dict) else data:
+            yield from _words(part)
+
+
+def _definitions(drive, described):
+    """The named intermediate results that the rest of the description refers to, in their order."""
+    named = {symbol.name: quantity(symbol) | {"value": prefix(value)} for symbol, value in drive.definitions.items()}
+    wanted, found = [described], {}
+    while wanted:
+        new = named.keys() & {*_words(wanted)} - found.keys()
+        found |= {name: named[name] for name in new}
+        wanted = [named[name]["value"] for name in new]
+    return [entry for name, entry in named.items() if name in found]
+
+
+def text(drive):
+    """The description as JSON, one line an entry."""
+    described = describe(drive)
+    lines = []
+    for name, value in described.items():
+        if isinstance(value, list) and value:
+            entries = ",\n".join("  " + _compact(entry) for entry in value)
+            lines.append(f' {_compact(name)}: [\n{entries}\n ]')
+        else:
+            lines.append(f" {_compact(name)}: {_compact(value)}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _compact(data):
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+
+
+def describe(drive):
+    """The whole description of a drive; what its functions give is not in it."""
+    described = _describe(drive)
+    return described | {"definitions": _definitions(drive, described)}
+
+
+def _describe(drive):
+    return {
+        "schema": SCHEMA,
+        "name": drive.name,
+        "family": drive.family,
+        "title": drive.title,
+        "variant": dict(drive.variant),
+        "sources": sources(drive),
+        "keys": [_key(drive, p) for p in drive.parameters],
+        "tools": [
+            {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
+            for use in drive.tools
+        ],
+        "rules": rules(drive.rules),
+        "proportions": rules(drive.proportions),
+        "guards": [
+            {"positive": prefix(g.positive), "message": g.message, "keys": list(g.keys)} for g in drive.guards
+        ],
+        "design_systems": [_design_system(system) for system in drive.systems],
+        "sizes": [{"key": key, "value": prefix(value), "meaning": meaning} for key, value, meaning in drive.sizes],
+        "bodies": [_body(body) for body in drive.bodies],
+        "regions": [_region(region) for region in drive.regions],
+        "contact": {
+            "instant": quantity(drive.instant),
+            "error": drive.error.name,
+            "ratio": prefix(drive.ratio),
+            "wheel_angle": prefix(drive.wheel_angle),
+            "reference_angle": prefix(drive.reference_angle),
+            "unknowns": [_unknown(u) for u in drive.unknowns],
+            "residual": _vector(drive.residual),
+        },
+        "start": {
+            "unknowns": [_unknown(u) for u in drive.start.unknowns],
+            "residual": _vector(drive.start.residual),
+            "guess": _named(drive.guess),
+            "solution": _named(drive.start.outputs),
+            "fixed": _named(drive.start.fixed),
+        },
+        "functions": [
+            {
+                "name": f.name, "meaning": f.meaning, "arguments": [quantity(q) for q in f.arguments],
+                "results": [{"name": r.name, "unit": r.unit, "frame": r.frame} for r in f.results],
+            }
+            for f in drive.functions
+        ],
+        "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
+        "sample": {key: str(value) for key, value in drive.sample.items()},
+        "sample_angle": str(drive.sample_angle),
+    }  # fmt: skip

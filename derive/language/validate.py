@@ -1,0 +1,243 @@
+"""What a description must be before anything is derived from it: every name has one meaning, every limit a known one.
+
+:func:`validate` reads the description alone; :func:`validate_normals` looks at a solved contact of the sample design.
+"""
+
+import re
+from collections import Counter
+
+import sympy as sp
+
+from derive.language.drive import PATH, Role
+from derive.language.symbols import Table
+
+#: What a point of a flank may be marked with, "" where a region has no flag of its own.
+FLAGS = ("", "undercut", "interference", "beyond_regression", "spurious_sheet", "off_tip", "off_root", "off_face",
+         "off_tool", "edge_contact")  # fmt: skip
+
+#: What may end contact, and what may end a region.
+EVENTS = ("tip", "throat", "face", "root", "tool_end", "undercut", "regression", "fold", "spurious_sheet", "junction",
+          "bottom")  # fmt: skip
+
+
+class DescriptionError(ValueError):
+    """A description that contradicts itself; the message names the drive, the part and the remedy."""
+
+
+def validate(drive):
+    """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
+    checks = (_keys, _names, _completion, _guards, _sample, _systems, _limits)
+    for check in checks:
+        for message in check(drive):
+            raise DescriptionError(f"{drive.name}: {message}")
+
+
+def _keys(drive):
+    """Keys are unique; the table of misalignments may repeat a key, as the error of the size of that name.
+
+    A family's own tables, such as one a member, may have the same keys.
+    """
+    places = Counter((p.table, p.key) for p in drive.parameters)
+    for (table, key), count in places.items():
+        if count > 1:
+            yield f"the key {key!r} is declared {count} times in [{table}]; rename all but one"
+    tables = {}
+    for p in drive.parameters:
+        shared = p.table == Table.MISALIGNMENT or p.table not in list(Table)
+        if not shared and tables.setdefault(p.key, p.table) != p.table:
+            yield f"the key {p.key!r} is declared in [{tables[p.key]}] and in [{p.table}]; rename one"
+    flanks = [p.key for p in drive.parameters if p.table is Table.FLANK]
+    if len(flanks) != 1 or not all(p.choices for p in drive.parameters if p.table is Table.FLANK):
+        yield f"exactly one key of the table 'flank' with its words chooses the flank; found {flanks}"
+    known = _places(drive)
+    for group in drive.exclusive:
+        for key in group:
+            if key not in known:
+                yield f"the exclusive group {group} names the key {key!r}, which is not declared"
+    for place in (place for group in drive.together for place in group):
+        if place not in {f"{p.table}.{p.key}" for p in drive.parameters}:
+            yield f"the group of keys given together names {place!r}, which is not declared"
+    if drive.pinion_teeth not in known:
+        yield f"pinion_teeth names the key {drive.pinion_teeth!r}, which is not declared"
+
+
+def _places(drive):
+    """How keys may be named: as they are, and with their table."""
+    return {p.key for p in drive.parameters} | {p.place for p in drive.parameters}
+
+
+def _in_sample(p):
+    """How the sample design names a key."""
+    return p.key if p.table == Table.FLANK else p.place
+
+
+def _names(drive):
+    """A name stands for one number: two symbols of one name are one symbol to SymPy."""
+    taken = {}
+    groups = [("a parameter", [p.symbol for p in drive.parameters]), ("the input angle", [drive.instant])]
+    groups += [(f"a coordinate of the {body.name}", body.point) for body in drive.bodies]
+    groups += [("the share of a path", [PATH]), ("an unknown", [u.symbol for u in drive.unknowns])]
+    groups += [("a named intermediate result", [symbol for symbol, _ in drive.definitions.items()])]
+    for what, symbols in groups:
+        for symbol in symbols:
+            if (other := taken.setdefault(symbol.name, what)) is not what or [*symbols].count(symbol) > 1:
+                yield f"the name {symbol.name!r} is that of {other} and of {what}; rename one of them"
+    given = {p.symbol.name for p in drive.parameters} | {symbol.name for symbol, _ in drive.definitions.items()}
+    for region in drive.regions:
+        for q in region.surface.parameters:
+            if q.name in given:
+                yield f"the {region.name}'s surface parameter {q.name!r} is also {taken[q.name]}; rename one of them"
+    for function in drive.functions:
+        for q in function.arguments:
+            if q.name in given:
+                yield f"the argument {q.name!r} of {function.name} is also {taken[q.name]}; rename one of them"
+    for p in drive.parameters:
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", p.symbol.name):
+            yield f"the symbol {p.symbol.name!r} of the key {p.key!r} is no name in C; use letters, digits and _"
+
+
+def _strangers(drive, expression, known):
+    """Names in an expression that nothing gives a value."""
+    return sorted(q.name for q in drive.definitions.free(expression) if q not in known)
+
+
+def _completion(drive):
+    parameters = {p.symbol for p in drive.parameters}
+    for what, rules in (("rule", drive.rules), ("proportion", drive.proportions)):
+        for rule in rules:
+            if rule.target not in parameters:
+                yield f"a {what} fills {rule.target}, which is no parameter"
+            if strangers := _strangers(drive, rule.value, parameters):
+                yield f"the {what} for {rule.target} needs {', '.join(strangers)}, which no key gives"
+    for name, value, _ in drive.sizes:
+        if strangers := _strangers(drive, value, parameters):
+            yield f"the size {name} needs {', '.join(strangers)}, which no key gives"
+    if strangers := _strangers(drive, drive.reference_angle, parameters):
+        yield f"the reference angle needs {', '.join(strangers)}, which no key gives"
+
+
+def _guards(drive):
+    parameters, keys = {p.symbol for p in drive.parameters}, _places(drive)
+    for guard in drive.guards:
+        if not guard.keys:
+            yield f"the guard {guard.message!r} names no keys; name those that meet in it"
+        for key in guard.keys:
+            if key not in keys:
+                yield f"the guard {guard.message!r} names the key {key!r}, which is not declared"
+        if strangers := _strangers(drive, guard.positive, parameters):
+            yield f"the guard {guard.message!r} needs {', '.join(strangers)}, which no key gives"
+
+
+def _sample(drive):
+    keys = {_in_sample(p) for p in drive.parameters}
+    for key in drive.sample:
+        if key not in keys:
+            yield f"the sample design gives {key!r}, which is no key of the drive"
+    for p in drive.parameters:
+        if p.required and _in_sample(p) not in drive.sample:
+            yield f"the sample design lacks {_in_sample(p)!r}, which is required"
+    for group in drive.exclusive:
+        if len(drive.sample.keys() & {*group}) != 1:
+            yield f"the sample design must give exactly one of {', '.join(group)}"
+
+
+def _systems(drive):
+    if len(drive.residual) != len(drive.unknowns):
+        yield f"{len(drive.residual)} equations of contact for {len(drive.unknowns)} unknowns"
+    unknowns = {u.symbol for u in drive.unknowns}
+    if drive.error not in unknowns:
+        yield f"the transmission error {drive.error} is not among the unknowns"
+    for missing in unknowns - drive.start.outputs.keys():
+        yield f"the start gives no value for the unknown {missing}"
+    known = unknowns | {p.symbol for p in drive.parameters} | {drive.instant}
+    for equation in drive.residual:
+        if strangers := _strangers(drive, equation, known):
+            yield f"the equations of contact need {', '.join(strangers)}, which nothing gives"
+    parameters = {p.symbol for p in drive.parameters}
+    for system in drive.systems:
+        for target in system.fills.keys() - parameters:
+            yield f"the design system {system.name} fills {target}, which is no parameter"
+
+
+def _limits(drive):
+    surfaces = [(body.name, "flank", body.surface, body.point, body.margins) for body in drive.bodies]
+    surfaces += [(r.member, r.name, r.surface, (), r.margins) for r in drive.regions]
+    there = {(member, name) for member, name, *_ in surfaces}
+    parameters = {p.symbol for p in drive.parameters}
+    for member, name, surface, point, margins in surfaces:
+        known = parameters | {*surface.parameters} | {*point}
+        for m in margins:
+            where = f"the limit {m.event!r} of the {member}'s {name}"
+            if m.event not in EVENTS:
+                yield f"{where} is no known event; use one of {', '.join(EVENTS)}"
+            if m.flag not in FLAGS:
+                yield f"{where} has the unknown flag {m.flag!r}; use one of {', '.join(filter(None, FLAGS))}"
+            if not isinstance(m.role, Role):
+                yield f"{where} has the unknown role {m.role!r}; use one of {', '.join(r.name for r in Role)}"
+            if strangers := _strangers(drive, m.positive, known):
+                yield f"{where} needs {', '.join(strangers)}, which neither surface nor design gives"
+            if m.along is not None and m.along not in surface.parameters:
+                yield f"{where} runs along {m.along}, which is no parameter of the surface"
+            if m.joins and (member, m.joins) not in there:
+                yield f"{where} joins the region {m.joins!r}, which the {member} does not have"
+        if len(surface.parameters) != len(surface.conditions) + 2:
+            count = f"{len(surface.parameters)} parameters for {len(surface.conditions)} conditions"
+            yield f"the {member}'s {name} has {count}; a surface has two more"
+    if isinstance(drive.ratio, sp.Expr) and drive.ratio.is_zero:
+        yield "the ratio is zero"
+
+
+def validate_normals(drive, observed, values):
+    """Raise :class:`DescriptionError` unless both normals point out of their bodies at the sample's contact.
+
+    ``observed`` holds the observation of that contact, name → numbers, ``values`` its inputs, symbol → number. Two
+    normals out of two bodies that touch are opposite. Along them the bodies part: where all relative curvatures have
+    one sign it is positive, and both normals turned round make it negative, since each body is then taken for the space
+    beside it. A sample that interferes in one direction and parts in the other leaves that open; there a tooth must
+    narrow towards its tip: the normal has a component towards it.
+    """
+    first, second = (observed[f"normal_{body.name}_f"] for body in drive.bodies)
+    if not _dot(first, second) < 0:
+        names = " and ".join(body.name for body in drive.bodies)
+        raise DescriptionError(f"{drive.name}: the normals of {names} point the same way in contact; one points inward")
+    low, high = observed["curvature_gap"]
+    least = max(abs(low), abs(high)) / 10**6
+    if high < least or (low < -least and not _narrows(drive, observed, values)):
+        raise DescriptionError(
+            f"{drive.name}: both normals point inward: the bodies overlap along them (relative curvatures "
+            f"{float(low):.3g} and {float(high):.3g} per mm); turn round the surfaces from which the chains begin"
+        )
+
+
+def _narrows(drive, observed, values):
+    """Whether a tooth whose tip is a limit of its body coordinates is the narrower the nearer to it.
+
+    Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
+    """
+    found = [
+        _dot(_body_normal(drive, body, observed, values), _slope(body, m, observed, values)) < 0
+        for body in drive.bodies
+        for m in body.margins
+        if m.role is Role.TIP and {*body.point} & m.positive.free_symbols
+    ]
+    return not found or any(found)
+
+
+def _body_normal(drive, body, observed, values):
+    turned = body.motion.inverse().direction(tuple(map(sp.Float, observed[f"normal_{body.name}_f"])))
+    return [_number(drive.definitions.resolve(c), values) for c in turned]
+
+
+def _slope(body, margin, observed, values):
+    """Gradient of a margin by the body coordinates."""
+    at = values | dict(zip(body.point, observed[f"point_{body.name}"], strict=True))
+    open_ = {q: 1 for q in margin.positive.free_symbols if not sp.sympify(at.get(q, 0)).is_finite}
+    return [_number(sp.diff(margin.positive, q), at | open_) for q in body.point]
+
+
+def _number(expression, values):
+    return expression.evalf(subs={q: sp.Float(values[q]) for q in expression.free_symbols})
+
+
+def _dot(a, b):
+    return sum(p * q for p, q in zip(a, b, strict=True))

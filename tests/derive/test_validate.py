@@ -1,0 +1,133 @@
+"""A description that contradicts itself is refused before anything is derived from it, and the message says where."""
+
+from dataclasses import replace
+
+import mpmath
+import pytest
+import sympy as sp
+
+from derive import drives
+from derive.language import vectors as v
+from derive.language.contact import contact
+from derive.language.drive import Margin, Role
+from derive.language.symbols import Guard, Quantity, Rule, Table, parameter
+from derive.language.validate import DescriptionError, validate, validate_normals
+from derive.passes.sample import observation
+from derive.passes.schedule import schedule
+
+POINT = "spherical_convex_concave"
+
+
+def _drive(name=POINT):
+    return drives.catalogue([name])[name]()
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return _drive()
+
+
+def _with_key(drive, *keys, **changes):
+    return replace(drive, parameters=(*drive.parameters, *keys), **changes)
+
+
+def _with_margin(drive, margin):
+    return replace(drive, pinion=replace(drive.pinion, margins=(*drive.pinion.margins, margin)))
+
+
+@pytest.mark.parametrize("name", [*drives.catalogue(["spherical", "face_worm", "cylindrical_gears"]),
+                                  "cylindrical_worm_zk_zn", "cylindrical_worm_zc_za"])  # fmt: skip
+def test_every_drive_is_consistent(name):
+    validate(_drive(name))
+
+
+X = Quantity("x_at_pinion", "mm")
+GUARD = Guard(sp.Symbol("m"), "never", ())
+CASES = {
+    "symbol is a body coordinate": (
+        lambda d: _with_key(d, parameter("crown_mm", "x_at_pinion", "clash")), "x_at_pinion.*parameter.*coordinate"
+    ),
+    "symbol is an unknown": (
+        lambda d: _with_key(d, parameter("crown_mm", "l_pinion", "clash")), "l_pinion.*parameter.*unknown"
+    ),
+    "symbol is a named intermediate result": (
+        lambda d: _with_key(d, parameter("crown_mm", "ratio", "clash")), "ratio.*parameter.*intermediate"
+    ),
+    "two keys of one symbol": (lambda d: _with_key(d, parameter("crown_mm", "m", "clash")), "name 'm'"),
+    "symbol that is no name": (lambda d: _with_key(d, parameter("crown_mm", "c-1", "bad")), "no name in C"),
+    "key twice": (lambda d: _with_key(d, parameter("module_mm", "m_again", "twice")), "module_mm.*2 times"),
+    "key in two tables": (
+        lambda d: _with_key(d, parameter("module_mm", "m_blank", "twice", table=Table.BLANK)),
+        r"module_mm.*\[design\].*\[blank\]",
+    ),
+    "sample lacks a required key": (
+        lambda d: replace(d, sample={k: x for k, x in d.sample.items() if k != "module_mm"}), "lacks 'module_mm'"
+    ),
+    "sample gives an unknown key": (lambda d: replace(d, sample={**d.sample, "modul_mm": 4}), "gives 'modul_mm'"),
+    "rule for no parameter": (lambda d: replace(d, rules=(*d.rules, Rule(Quantity("q"), sp.S.One))), "fills q"),
+    "rule from no parameter": (
+        lambda d: replace(d, rules=(*d.rules, Rule(d.parameters[1].symbol, sp.Symbol("q")))), "needs q"
+    ),
+    "proportion from no parameter": (
+        lambda d: replace(d, proportions=(Rule(d.parameters[1].symbol, sp.Symbol("q")),)), "proportion.*needs q"
+    ),
+    "guard without keys": (lambda d: replace(d, guards=(*d.guards, GUARD)), "names no keys"),
+    "guard with an unknown key": (
+        lambda d: replace(d, guards=(replace(GUARD, keys=("modul_mm",)),)), "'modul_mm', which is not declared"
+    ),
+    "unknown flag": (lambda d: _with_margin(d, Margin("of_tip", "tip", X)), "unknown flag 'of_tip'"),
+    "unknown event": (lambda d: _with_margin(d, Margin("off_tip", "top", X, Role.TIP)), "'top'.*no known event"),
+    "unknown role": (lambda d: _with_margin(d, Margin("off_tip", "tip", X, "crest")), "unknown role 'crest'"),
+    "margin of strangers": (lambda d: _with_margin(d, Margin("off_tip", "tip", sp.Symbol("q"))), "needs q"),
+    "margin that joins nothing": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, joins="filet")), "joins the region 'filet'"
+    ),
+    "equation too many": (lambda d: replace(d, residual=(*d.residual, sp.S.Zero)), "6 equations.*5 unknowns"),
+    "exclusive group of no keys": (lambda d: replace(d, exclusive=(("module_mm", "modul_mm"),)), "'modul_mm'"),
+    "teeth of no key": (lambda d: replace(d, pinion_teeth="teeth"), "pinion_teeth.*'teeth'"),
+    "together of no keys": (lambda d: replace(d, together=(("design.modul_mm",),)), "design.modul_mm"),
+    "reference angle of strangers": (lambda d: replace(d, reference_angle=sp.Symbol("q")), "reference angle needs q"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_contradiction_is_refused(drive, case):
+    change, message = CASES[case]
+    with pytest.raises(DescriptionError, match=message):
+        validate(change(drive))
+
+
+def test_an_event_has_its_role_without_saying_so():
+    assert Margin("off_tip", "tip", X).role is Role.TIP
+    with pytest.raises(ValueError, match="crest"):
+        Margin("off_tip", "crest", X)
+
+
+def _turned_round(body):
+    return replace(body, surface=replace(body.surface, normal=v.scale(-1, body.surface.normal)))
+
+
+def _checked(drive):
+    plan = schedule(drive)
+    with mpmath.workdps(30):
+        validate_normals(drive, observation(plan), plan.sample)
+
+
+@pytest.mark.parametrize("name", [POINT, "spherical_spur_spur", "spherical_concave_concave", "cylindrical_worm_zn_zn",
+                                  "cylindrical_worm_zc_zn", "face_worm", "cylindrical_gears"])  # fmt: skip
+def test_normals_that_point_inward_are_found(name):
+    """One alone, or both, which no equation of contact sees: with point contact, line contact, and interference."""
+    drive = _drive(name)
+    _checked(drive)
+    pinion, wheel = map(_turned_round, drive.bodies)
+    for change in ({"pinion": pinion}, {"wheel": wheel}):
+        with pytest.raises(DescriptionError, match="point the same way in contact; one points inward"):
+            _checked(_meshing(drive, **change))
+    with pytest.raises(DescriptionError, match="both normals point inward"):
+        _checked(_meshing(drive, pinion=pinion, wheel=wheel))
+
+
+def _meshing(drive, **bodies):
+    changed = replace(drive, **bodies)
+    order = (changed.wheel, changed.pinion) if changed.family == "face-worm" else changed.bodies
+    return replace(changed, residual=contact(*(body.placed for body in order)))
