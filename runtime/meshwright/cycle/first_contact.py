@@ -6,13 +6,12 @@ extreme of these over what both limits leave is the first contact. C searches a 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.base.library import ffi, library, model, pointer
 from meshwright.contact.placement import placements_at
-from meshwright.cycle.edge import FLAG as EDGE_FLAG
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
 
@@ -21,7 +20,6 @@ CELLS = (12, 24)
 
 #: A contact further inside the other flank than this, mm, is not the first.
 OVERLAP = 1e-6
-FLAG = "not_first"
 
 #: Turn of the wheel by which its sense of rotation is read off, rad.
 TURN = 0.01
@@ -82,27 +80,31 @@ class FirstContacts:
         }
 
 
-def flagged(result, first):
-    """The :class:`~meshwright.contact.results.TCA` with :data:`FLAG` at every tangency inside all its limits that
-    another place of the same flanks precedes.
-    """
-    late = result.solved & (first.overlaps(result.error) > OVERLAP)
-    late &= np.array([not any(f != EDGE_FLAG for f in words) for words in result.flags], dtype=bool)
-    if not late.any():
-        return result
-    flags = tuple((*words, FLAG) if on else words for on, words in zip(late, result.flags, strict=True))
-    return replace(result, flags=flags)
-
-
 def first_contacts(drive, angles, result=None):
     """:class:`FirstContacts` at pinion angles (N,), rad. ``result``: a TCA of the same angles, if there is one."""
     result = drive.tca(angles) if result is None else result
     mirror = drive.design.mirror
     found = [None] * len(angles)
-    search, reason = _Search.of(drive, result)
+    search, reason = _Search.of(drive, mirror.sign * result.angles, result.solutions)
     if search is not None:
         found = search.at(mirror.sign * np.asarray(angles))
     return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
+
+
+def pair_errors(mesh):
+    """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
+    first, NaN where they never do; None where the blank does not bound them.
+    """
+    drive, path = mesh.drive, mesh.window.path
+    search, _ = _Search.of(drive, path.angles, path.unknowns)
+    if search is None:
+        return None
+
+    def errors(angles):
+        found = search.at(mesh.mirror * np.asarray(angles))
+        return mesh.mirror * np.array([math.nan if f is None else f.wheel_turn for f in found])
+
+    return errors
 
 
 def _gathered(drive, angles, found, reason):
@@ -159,11 +161,11 @@ class _Search:
     sense: float
 
     @classmethod
-    def of(cls, drive, result):
-        """The search, or None and why there is none."""
+    def of(cls, drive, angles, solutions):
+        """The search, or None and why there is none; solutions (N, nx) of contacts at angles (N,), right hand."""
         here = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
-        angles = np.concatenate([here, drive.design.mirror.sign * result.angles])
-        solutions = np.concatenate([drive.trace(here)[0], result.solutions])
+        angles = np.concatenate([here, angles])
+        solutions = np.concatenate([drive.trace(here)[0], solutions])
         known, errors = np.isfinite(solutions).all(axis=1), None
         if not known.any():
             errors = drive.design.given().get("misalignment", {})
