@@ -114,10 +114,10 @@ def _generated(m, definitions):
     phi_f = Quantity(f"phi_fillet_{name}", "rad", "turn of the cradle where it cuts the fillet", "gen")
     fillet = explicit_angle(rolled(blade.tip(tau, theta), phi_f), tau, _upward)
     arc = definitions.let(f"u_{name}", blade.arc_length(solved.symbol), "along the blade from its tip", "mm", "tool")
-    sign = HAND[name] * SIDE[name]
+    sign = -HAND[name] * SIDE[name]
     return Tooth(
-        m, flank.on("bevel/linear"), fillet, blade, arc, sign * solved.denominator,
-        sign * Quantity(f"{tau}_cosine"), tau, (arc,),
+        m, flank.in_order(phi, theta).on("bevel/linear"), fillet.in_order(phi_f, theta), blade, arc,
+        sign * solved.denominator, sign * Quantity(f"{tau}_cosine"), tau, (arc,),
     )  # fmt: skip
 
 
@@ -300,7 +300,7 @@ class _MeanPoint:
         point, normal = tooth.flank.body_point(), tooth.flank.body_normal()
         along, below_tip = _cone(m, point)
         height = (tooth.arc - tooth.blade.junction) * sp.cos(m.blade_angle.symbol)
-        names = (k.mean_theta_gear, k.mean_cradle_gear) if tooth.recovered else (k.mean_u_gear, k.mean_theta_gear)
+        names = (k.mean_cradle_gear if tooth.recovered else k.mean_u_gear), k.mean_theta_gear
         return DesignSystem(
             name="gear_mean_point",
             unknowns=_unknowns(tooth),
@@ -342,7 +342,7 @@ class _MeanPoint:
             residual=(v.radius(x, y) - v.radius(a, b), z - height),
             guess=_guess(tooth),
             fills=_filled(
-                (k.mean_theta_pinion, k.mean_cradle_pinion, *k.mean_point_pinion), (*tooth.flank.parameters, x, y, z)
+                (k.mean_cradle_pinion, k.mean_theta_pinion, *k.mean_point_pinion), (*tooth.flank.parameters, x, y, z)
             ),
             message="the settings of the pinion cut no point where the gear's mean point meets it",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.blank_offset),
@@ -353,19 +353,18 @@ class _MeanPoint:
     def start(self, phi_1, error, ratio):
         """The mean point, followed along the path by the rolls of either member."""
         ahead = phi_1 - k.mean_pinion_angle.symbol
-        theta, phi = self.pinion.flank.parameters
+        phi, theta = self.pinion.flank.parameters
         outputs = {
             theta: k.mean_theta_pinion.symbol,
             phi: k.mean_cradle_pinion.symbol + ahead / PINION.ratio_of_roll.symbol,
             error: k.mean_gear_angle.symbol - ratio * k.mean_pinion_angle.symbol,
         }
+        across, theta = self.gear.flank.parameters
+        outputs[theta] = k.mean_theta_gear.symbol
         if self.gear.recovered:
-            theta, phi = self.gear.flank.parameters
-            outputs[theta] = k.mean_theta_gear.symbol
-            outputs[phi] = k.mean_cradle_gear.symbol + ratio * ahead / GEAR.ratio_of_roll.symbol
+            outputs[across] = k.mean_cradle_gear.symbol + ratio * ahead / GEAR.ratio_of_roll.symbol
         else:
-            u, theta = self.gear.flank.parameters
-            outputs |= {u: k.mean_u_gear.symbol, theta: k.mean_theta_gear.symbol}
+            outputs[across] = k.mean_u_gear.symbol
         return System(name="start", definitions=self.definitions, unknowns=(), residual=(), outputs=outputs)
 
 
@@ -383,8 +382,8 @@ def _guess(tooth):
     mean, q = m.outer_cone_distance.symbol - m.face_width.symbol / 2, m.cradle_angle.symbol
     radial = m.radial.symbol
     theta = v.arc(-radial * sp.sin(q), mean - radial * sp.cos(q)) - m.swivel.symbol - q
-    first, second = tooth.flank.parameters
-    return {first: theta, second: sp.Integer(0)} if tooth.recovered else {first: sp.Integer(0), second: theta}
+    across, along = tooth.flank.parameters
+    return {across: sp.Integer(0), along: theta}
 
 
 def catalogue():

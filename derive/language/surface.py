@@ -71,6 +71,10 @@ class Surface:
         """The same surface, with another point of the normal's line, section frame."""
         return replace(self, pole=pole)
 
+    def in_order(self, *parameters):
+        """The same surface with its parameters in this order: across the tooth, then along it."""
+        return replace(self, parameters=parameters)
+
     def turned_over(self):
         """The same surface as the border of the body on its other side: a copy of the tool that stays at rest."""
         return replace(self, normal=v.scale(-1, self.normal))

@@ -29,7 +29,7 @@ def functions_in(header, prefix):
     """Name without prefix → text of each function of a generated header."""
     start = rf"^(?:static inline|MW_INLINE) [\w ]+?\*?(?:MW_LANE_NAME\()?{prefix}_(\w+)\)?\("
     parts = re.split(start, header, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
+    return {name: text.partition("\n}\n")[0] for name, text in zip(parts[1::2], parts[2::2], strict=True)}
 
 
 def partial_operations(body):

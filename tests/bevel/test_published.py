@@ -59,5 +59,5 @@ def test_the_root_at_the_toe_is_where_the_report_has_it(member, side):
     def place(q):
         return flank([q]).points[0] / INCH
 
-    found = fsolve(lambda q: [np.hypot(*place(q)[:2]) - radius, place(q)[2] - z], [-2.19, 0.1], xtol=1e-13)
+    found = fsolve(lambda q: [np.hypot(*place(q)[:2]) - radius, place(q)[2] - z], [0.1, -2.19], xtol=1e-13)
     np.testing.assert_allclose(place(found), printed, atol=1e-7)

@@ -1,7 +1,7 @@
 """Bevel and hypoid gears: blade, machine frames, meshing as a screw, conjugate settings, assembly."""
 
 from derive.audit.claims import Document, scope
-from derive.audit.identities.conventions import identity
+from derive.audit.identities.conventions import identity, proper
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -36,6 +36,10 @@ DOCUMENT = Document(
         "rho": ("ρf", "mm", "rounding of the blade's tip"),
         "lam": ("λ", "rad", "angle on the rounding"),
         "h": ("h", "-", "hand, +1 right"),
+        "m": ("m", "-", "N1/N2"),
+        "E": ("E", "mm", "offset"),
+        "Sigma": ("Σ", "rad", "shaft angle"),
+        "phi1": ("φ1", "rad", "angle of the pinion"),
         "s": ("s", "-", "+1 outside blade"),
     },
 )
@@ -83,9 +87,32 @@ k = vec(0, 0, 1)
 origin = base + XD*axis
 screw = dot(n_gen, h*cross(k, r_gen) - h*rate*cross(axis, r_gen - origin) - H*k)
 f = dot(n_body, d(r_body, phi) + rate*d(r_body, work))
+turn_sum = mat([cos(theta + j), -h*sin(theta + j), 0], [h*sin(theta + j), cos(theta + j), 0], [0, 0, 1])
+theta_other = mat([cos(theta), h*sin(theta), 0], [-h*sin(theta), cos(theta), 0], [0, 0, 1])
+swivel_other = mat([cos(j), h*sin(j), 0], [-h*sin(j), cos(j), 0], [0, 0, 1])
+cradle_other = mat([cos(q + phi), h*sin(q + phi), 0], [-h*sin(q + phi), cos(q + phi), 0], [0, 0, 1])
+work_other = mat([cos(work), -h*sin(work), 0], [h*sin(work), cos(work), 0], [0, 0, 1])
+gen_other = cradle_other@(vec(Sr, 0, 0) + swivel_other@(Ry(i)@(theta_other@edge)))
+r_other = work_other@(lay@(gen_other - vec(0, -h*Em, XB + H*phi)) - vec(0, 0, XD))
+plain = lay@(turn_cradle@head - vec(0, h*Em, XB)) - vec(0, 0, XD)
+r_rolled = mat([cos(w), h*sin(w), 0], [-h*sin(w), cos(w), 0], [0, 0, 1])@plain
+r_shifted = mat([cos(w - e), h*sin(w - e), 0], [-h*sin(w - e), cos(w - e), 0], [0, 0, 1])@plain
+turn_shift = mat([cos(e), -h*sin(e), 0], [h*sin(e), cos(e), 0], [0, 0, 1])
+head = vec(p1, p2, p3)
 """,
     jets={"ex": ("u",), "ez": ("u",), "nx": ("u",), "nz": ("u",)},
     signs=["h", "s"],
+)
+
+PAIR = scope(
+    "bevel.pair",
+    """
+half = mat([-1, 0, 0], [0, -1, 0], [0, 0, 1])
+flip = mat([1, 0, 0], [0, -1, 0], [0, 0, -1])
+k = vec(0, 0, 1)
+axis_of_work = vec(sin(Sigma), 0, -cos(Sigma))
+r1 = vec(x, y, z)
+""",
 )
 
 CLAIMS = (
@@ -131,10 +158,84 @@ CLAIMS = (
     identity(
         "fillet-join",
         "fillet",
-        "The rounding joins the edge in place and normal.",
-        ["joint*t0 + rho*n0 - rho*vec(-s*cos(alpha), 0, -sin(alpha)) = joint*t0", "dot(m_round, d(rounding, lam)) = 0"],
+        "The rounding joins the edge in place and normal, and touches the tip plane.",
+        [
+            "centre.z = -rho",
+            "joint*t0 + rho*n0 - rho*vec(-s*cos(alpha), 0, -sin(alpha)) = joint*t0",
+            "dot(m_round, d(rounding, lam)) = 0",
+        ],
         BLADE,
         conditions=["cos α ≠ 0"],
+    ),
+    identity(
+        "frames",
+        "machine",
+        "Every frame of the machine is orthogonal with determinant +1, for either hand.",
+        [text for name in ("turn_theta", "turn_swivel", "turn_cradle", "turn_work", "lay") for text in proper(name)],
+        MACHINE,
+    ),
+    identity(
+        "hand",
+        "machine",
+        "The other hand is the mirror image y → -y at equal blade and cradle angles: only the senses of turns change.",
+        [
+            "r_body.x = r_other.x",
+            "r_body.y = -r_other.y",
+            "r_body.z = r_other.z",
+        ],
+        MACHINE,
+    ),
+    identity(
+        "rotation-of-blade",
+        "machine",
+        "Without tilt, blade angle and swivel enter as their sum.",
+        "turn_swivel@turn_theta = turn_sum",
+        MACHINE,
+    ),
+    identity(
+        "plain-roll",
+        "machine",
+        "With plain roll a change of the cradle angle only turns the member: the flank depends on q + φc.",
+        "r_shifted = turn_shift@r_rolled",
+        MACHINE,
+    ),
+    identity(
+        "apex",
+        "machine",
+        "Centre to back and sliding base together shift the cutter along the machine plane.",
+        "lay@(r_gen - base - vec(0, 0, l*tan(gamma))) - vec(0, 0, XD - l/cos(gamma))"
+        " = lay@(r_gen + vec(l, 0, 0) - base) - vec(0, 0, XD)",
+        MACHINE,
+        conditions=["cos γm ≠ 0"],
+    ),
+    identity(
+        "crown",
+        "conjugate pairs",
+        "A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch "
+        "line, the same line for both members.",
+        "h*k - h*axis/sin(gamma) = -h*cos(gamma)/sin(gamma)*vec(1, 0, 0)",
+        MACHINE,
+        conditions=["sin δ ≠ 0"],
+    ),
+    identity(
+        "formate-cradle",
+        "conjugate pairs",
+        "Where the pinion's cradle is the gear itself, γm = Σ - 90°, Em = E, XD = 0 and R = N2/N1, the machine moves "
+        "as the pair in mesh does: what it cuts is conjugate to the gear, for any offset.",
+        "flip@(cross(axis_of_work, flip@r1 - vec(0, -E, 0))/m - cross(k, flip@r1))"
+        " = (m*cross(k, r1) + cross(vec(sin(Sigma), 0, cos(Sigma)), r1 - vec(0, E, 0)))/m",
+        PAIR,
+    ),
+    identity(
+        "assembly-axis",
+        "assembly",
+        "The pinion's axis is (sin Σ, 0, cos Σ); it turns by φ1 about minus that axis.",
+        [
+            "Ry(Sigma)@(half@vec(0, 0, 1)) = vec(sin(Sigma), 0, cos(Sigma))",
+            "d(Ry(Sigma)@(half@(Rz(-phi1)@r1)), phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), "
+            "Ry(Sigma)@(half@(Rz(-phi1)@r1)))",
+        ],
+        PAIR,
     ),
 )
 
