@@ -4,12 +4,15 @@
 other programs (:mod:`derive.exchange.rexs`) and the ``drives``: for each what its own description says
 (:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks,
 JSON Schema and errors offer from it what is derived and compiled on first use.
+``outline`` says how a first design is made (:mod:`derive.language.outline`), where the family has one.
 """
 
 import json
 
+from derive.drives.outlines import OUTLINES
 from derive.emit import metadata
 from derive.exchange import rexs
+from derive.language.description import prefix
 
 
 def table(drives):
@@ -21,8 +24,24 @@ def table(drives):
     for name, listed in members.items():
         parameters = []
         described = [_drive(drive, parameters) for drive in listed]
-        families[name] = {"parameters": parameters, "exchange": rexs.table(listed), "drives": described}
+        families[name] = {
+            "parameters": parameters, "exchange": rexs.table(listed), "drives": described, "outline": _outline(name),
+        }  # fmt: skip
     return {"schema": "meshwright.families/1", "families": families}
+
+
+def _outline(family):
+    if family not in OUTLINES:
+        return None
+    outline = OUTLINES[family]()
+    suggestions = [
+        {
+            "place": s.place, "name": s.symbol.name, "values": [prefix(v) for v in s.values], "why": s.why,
+            "decimals": s.decimals, "whole": s.whole,
+        }
+        for s in outline.suggestions
+    ]  # fmt: skip
+    return {"options": outline.options, "words": outline.words, "suggestions": suggestions}
 
 
 def text(families):

@@ -22,6 +22,7 @@ class Family:
     or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
     ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
     file holds (:mod:`meshwright.rexs`), None if nothing.
+    ``outline`` says how a first design is made; None where the family does not say it.
     """
 
     name: str
@@ -30,7 +31,8 @@ class Family:
     variant_defaults: dict
     handed: str
     listed: dict
-    exchange: dict | None
+    exchange: dict | None = None
+    outline: dict | None = None
 
     @classmethod
     def of(cls, name, drives):
@@ -44,9 +46,11 @@ class Family:
                 listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
         own = {name: drive["parameters"] for name, drive in named.items()}
-        exchange = next((drive["exchange"] for drive in drives if drive.get("exchange")), None)
         handed = max(drive["handed"] for drive in named.values())
-        return cls(name, parameters, variants, defaults, handed, own, exchange)
+        exchange, outline = (
+            next((drive[kind] for drive in drives if drive.get(kind)), None) for kind in ("exchange", "outline")
+        )
+        return cls(name, parameters, variants, defaults, handed, own, exchange, outline)
 
 
 def _joint(family, place, found, everywhere):
@@ -82,7 +86,8 @@ def _drives_in(folder):
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
                 own = [family["parameters"][k] for k in drive["parameters"]]
-                yield drive | {"parameters": own, "exchange": family.get("exchange")}
+                shared = {kind: family.get(kind) for kind in ("exchange", "outline")}
+                yield drive | {"parameters": own} | shared
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
     else:
