@@ -3,20 +3,37 @@
 ``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats and the ``drives``: for
 each what its own description says (:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``,
 as places in that list. Checks, JSON Schema and errors offer from it what is derived and compiled on first use.
+``outline`` says how a first design is made (:mod:`derive.language.outline`), where the family has one.
 """
 
 import json
 
+from derive.drives.outlines import OUTLINES
 from derive.emit import metadata
+from derive.language.description import prefix
 
 
 def table(drives):
     """The table of these drives (:class:`~derive.language.drive.Drive`), as plain data."""
     families = {}
     for drive in drives:
-        family = families.setdefault(drive.family, {"parameters": [], "drives": []})
+        family = families.setdefault(drive.family, {"parameters": [], "drives": [], "outline": _outline(drive.family)})
         family["drives"].append(_drive(drive, family["parameters"]))
     return {"schema": "meshwright.families/1", "families": families}
+
+
+def _outline(family):
+    if family not in OUTLINES:
+        return None
+    outline = OUTLINES[family]()
+    suggestions = [
+        {
+            "place": s.place, "name": s.symbol.name, "values": [prefix(v) for v in s.values], "why": s.why,
+            "decimals": s.decimals, "whole": s.whole,
+        }
+        for s in outline.suggestions
+    ]  # fmt: skip
+    return {"options": outline.options, "words": outline.words, "suggestions": suggestions}
 
 
 def text(families):

@@ -6,7 +6,8 @@ from importlib import import_module
 MODULES = {
     name: f"meshwright.commands.{name}"
     for name in (
-        "drives", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report", "schema",
+        "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
+        "schema",
     )
 }  # fmt: skip
 

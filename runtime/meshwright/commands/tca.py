@@ -1,7 +1,7 @@
 """Tooth contact analysis: contact point, transmission error and ellipse over the pinion angle.
 
 Where the blank bounds the flanks, also where the two flanks touch first: at that point, on an edge or at a corner. Exit
-status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
+status 1 if a point has no contact, or one that bodies cannot make; contact along a line is a result.
 """
 
 import sys

@@ -20,6 +20,7 @@ class Family:
     ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
     key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows,
     or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
+    ``outline`` says how a first design is made; None where the family does not say it.
     """
 
     name: str
@@ -27,6 +28,7 @@ class Family:
     variants: dict
     variant_defaults: dict
     handed: str
+    outline: dict | None = None
 
     @classmethod
     def of(cls, name, drives):
@@ -39,7 +41,9 @@ class Family:
             for parameter in named[drive]["parameters"]:
                 listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
-        return cls(name, parameters, variants, defaults, max(drive["handed"] for drive in named.values()))
+        handed = max(drive["handed"] for drive in named.values())
+        outline = next((drive["outline"] for drive in drives if drive.get("outline")), None)
+        return cls(name, parameters, variants, defaults, handed, outline)
 
 
 def _joint(family, place, found, everywhere):
@@ -74,7 +78,8 @@ def _drives_in(folder):
     if table.exists():
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
-                yield drive | {"parameters": [family["parameters"][k] for k in drive["parameters"]]}
+                own = [family["parameters"][k] for k in drive["parameters"]]
+                yield drive | {"parameters": own, "outline": family["outline"]}
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
     else:
