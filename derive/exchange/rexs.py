@@ -164,7 +164,7 @@ def table(drives):
     exchange = drives[0].exchange
     if exchange is None:
         return None
-    _check(exchange)
+    check(exchange)
     rules = {(rule.target.name, str(rule.value)): rule for drive in drives for rule in drive.completion}
     solved = {target for drive in drives for system in drive.systems for target in system.fills}
     used = set().union(*(sp.Tuple(a.value).free_symbols for a in exchange.attributes))
@@ -200,7 +200,7 @@ def table(drives):
 
 def _keys(written):
     """The design keys that an attribute holds."""
-    hand = ["design.hand"] if HAND in sp.Tuple(written.value).free_symbols else []
+    hand = ["design.hand"] if written.agrees and HAND in sp.Tuple(written.value).free_symbols else []
     return [place(p) for p in written.parameters] + hand
 
 
@@ -221,7 +221,7 @@ def _known(kind, name):
     return {ours: entry[theirs] for ours, theirs in _KNOWN.items() if theirs in entry}
 
 
-def _check(exchange):
+def check(exchange):
     """Whether the schema has all of it; raises ValueError."""
     kinds = {c.name: c.kind for c in exchange.components}
     for relation in exchange.relations:

@@ -4,6 +4,7 @@ else stays as it was, to the byte.
 No document type and no entities are taken, and no more than :data:`LARGEST_FILE` bytes.
 """
 
+import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
@@ -14,6 +15,9 @@ LARGEST_FILE = 2**26
 NAMESPACE = "https://www.rexs.info"
 
 _DEEPEST = 32
+
+#: A tag from < to >, whose quoted values may hold either.
+_TAG = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""")
 
 
 class RexsError(UsageError):
@@ -149,16 +153,7 @@ class _Builder:
 
     def _close(self, at):
         """The place of the > that ends a tag."""
-        quote = None
-        for k in range(at, len(self.source)):
-            c = self.source[k : k + 1]
-            if quote:
-                quote = None if c == quote else quote
-            elif c in (b'"', b"'"):
-                quote = c
-            elif c == b">":
-                return k
-        return len(self.source)
+        return _TAG.match(self.source, at).end() - 1
 
     def _end(self, _name):
         element = self.open.pop()

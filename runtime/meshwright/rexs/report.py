@@ -68,6 +68,8 @@ def _shown(family, tables, symbols, name):
     """The value of a key in its unit: the design's, or what its rules give."""
     if (given := _value(tables, name)) is not None:
         return given
+    if (word := {full(key): w for key, w in words_of(family, tables).items()}.get(name)) is not None:
+        return word
     p = next(p for p in family.parameters if place(p["table"], p["key"]) == name)
     number = symbols[p["name"]]
     return None if math.isnan(number) else values.converted(number, p["factor"])
