@@ -1,7 +1,7 @@
 """Tooth contact analysis: contact point, transmission error and ellipse over the pinion angle.
 
 Where the blank bounds the flanks, also where the two flanks touch first: at that point, on an edge or at a corner. Exit
-status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
+status 1 if a point has no contact, or one that bodies cannot make; contact along a line is a result.
 """
 
 import sys
@@ -13,6 +13,7 @@ from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.velocities import velocities
 from meshwright.cycle.edge import not_first
 from meshwright.pattern.pattern import contour
 
@@ -54,6 +55,8 @@ def run(options):
     points = result.to_points()
     for k, point in enumerate(points):
         point["first_contact"] = first.point(k, result.error)
+    for point, moving in zip(points, velocities(drive, result).plain(), strict=True):
+        point |= moving
     _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
