@@ -1,6 +1,7 @@
 """Where contact begins and ends, how many teeth share it, and what the drive transmits."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -190,3 +191,22 @@ def test_a_contact_ratio_of_flanks_that_cut_into_each_other_says_so(capsys):
     assert "bodies cannot make this contact everywhere from begin to end: interference" in capsys.readouterr().out
     assert main([*command, "design.shaft_angle_deg=90"]) == 0
     assert json.loads(capsys.readouterr().out)["impossible"] == []
+
+
+def test_a_sliver_of_a_further_pair_counts():
+    """A window of 3.00413 pitches: a fourth pair is in contact over 0.00413 of each pitch, however short that is."""
+    mesh = Mesh.of(Drive.load("spherical-table-3-1-concave"))
+    pitch, begin = mesh.drive.pitch(), mesh.window.begin
+    end = replace(mesh.window.end, angle=begin.angle + 3.00413 * pitch)
+    longer = Mesh(mesh.drive, replace(mesh.window, end=end))
+    assert longer.average_over_pitch() == pytest.approx(3.00413, abs=1e-12)
+    assert longer.average_begin_to_end() == pytest.approx((16 * 0.00413 + 9 * (1 - 0.00413)) / 3.00413, abs=1e-12)
+
+
+def test_a_path_with_a_gap_at_angle_0_still_says_which_way_the_wheel_is_pushed():
+    mesh = Mesh.of(Drive.load("plain-za"))
+    path = mesh.window.path
+    unknowns = path.unknowns.copy()
+    unknowns[np.argmin(np.abs(path.angles))] = np.nan
+    broken = Mesh(mesh.drive, replace(mesh.window, path=replace(path, unknowns=unknowns)))
+    assert broken.sense == mesh.sense

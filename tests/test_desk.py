@@ -53,3 +53,60 @@ def test_a_misspelt_key_is_named_before_the_missing_one():
 def test_the_package_is_a_command():
     shown = subprocess.run([sys.executable, "-m", "meshwright", "show", "plain-za"], capture_output=True, text=True)
     assert shown.returncode == 0 and 'drive = "cylindrical-worm"' in shown.stdout
+
+
+FIRST = [
+    "cylindrical-worm --m 4 --z 2:40 --a 100 --profile ZI",
+    "cylindrical-worm --m 2 --z 1:60 --profile ZN",
+    "cylindrical-gears --m 2 --z 20:45",
+    "spherical --m 3 --z 20:40",
+    "face-worm --m 1.5 --z 2:60",
+    "bevel --m 3 --z 14:40",
+]
+
+
+@pytest.mark.parametrize("words", FIRST)
+def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", *words.split(), "--out", "first.toml"]) == 0
+    shown = capsys.readouterr().out
+    assert "first.toml written" in shown and "meshwright report first.toml" in shown
+    drive = Drive.load("first.toml")
+    result = drive.tca([0.0])
+    assert result.status == ("converged",) and not any(flag != "off_face" for flag in result.flags[0])
+    assert drive.contact_ratio().contact_ratio > 1.0
+
+
+def test_a_first_worm_pair_stands_at_the_centre_distance_asked_for(tmp_path, monkeypatch):
+    """ISO/TR 10828: q = 2a/m − z2 = 10 leaves the wheel without profile shift: r1 = qm/2 = 20, a = 100."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "2:40", "--a", "100", "--name", "pair"]) == 0
+    design = Drive.load("pair.toml").design
+    assert design.value("worm_pitch_radius_mm") == 20.0
+    assert design.value("center_distance_mm") == pytest.approx(100.0)
+    assert design.sizes["wheel_pitch_radius_mm"] == pytest.approx(80.0, abs=1e-12)
+
+
+REFUSED = {
+    "new cylindrical-wurm --m 4 --z 2:40": "did you mean 'cylindrical-worm'",
+    "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",
+    "new spherical --m 4 --z 20:40 --a 100": "centre distance of this family follows from its teeth",
+    "new cylindrical-worm --m 4 --z 2:40 --set design.wheel_tooth=40": "wheel_tooth.*unknown key",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_first_design_that_cannot_be_is_refused(tmp_path, monkeypatch, capsys, words):
+    import re
+
+    monkeypatch.chdir(tmp_path)
+    assert main(words.split()) == 2
+    assert re.search(REFUSED[words], capsys.readouterr().err)
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text("precious")
+    assert main(["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--name", "mine"]) == 2
+    assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"

@@ -79,7 +79,10 @@ def drive_of(entry):
 def brute_force(drive, angle, found):
     """Transmission error, rad, of the first contact by the independent search over the wheel's whole region."""
     mirror = drive.design.mirror.sign
-    known, _ = drive.trace(np.linspace(-0.5, 0.5, 9) * drive.pitch())
+    places = np.linspace(-0.5, 0.5, 9) * drive.pitch()
+    known, _ = drive.trace(places)
+    if not np.isfinite(known).all(axis=1).any():  # only the aligned drive has a tangency
+        known, _ = drive.with_(misalignment=dict.fromkeys(drive.design.given()["misalignment"], 0.0)).trace(places)
     at = mirror * angle
     here = drive.tca([angle]).solutions
     known = here[0] if np.isfinite(here).all() else known[np.isfinite(known).all(axis=1)][0]
@@ -148,6 +151,14 @@ def test_one_angle_has_one_first_contact_whichever_others_are_asked_for():
     angles = np.radians(np.arange(-40.0, 41.0, 20.0))
     together = drive.first_contact(angles).errors
     assert [drive.first_contact([a]).errors[0] for a in angles] == pytest.approx(together, abs=1e-14)
+
+
+def test_flanks_without_any_tangency_touch_on_an_edge():
+    """A tilt of 0.15° takes the tangency away at every angle; the bodies touch at the edge of the face."""
+    drive = Drive.from_tables(DESIGNS["ZK"][0])
+    assert not drive.tca([0.0]).solved[0]
+    found = drive.first_contact([0.0])
+    assert (found.kinds, found.members, found.limits) == (("edge",), ("wheel",), (("face",),))
 
 
 def test_a_wheel_without_face_has_no_first_contact(capsys):

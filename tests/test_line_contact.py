@@ -81,6 +81,6 @@ def test_line_contact_begins_earlier_and_ends_later_than_contact_at_a_point():
 def test_the_command_draws_the_line(capsys):
     equal = _equal_helicoids().design.value("hob_pitch_radius_mm")
     setting = ["--set", f"design.hob_pitch_radius_mm={equal!r}"]
-    assert main(["tca", "recess-action-full", *setting, "--phi-deg", "1000", "--contour", "8", "--json", "-"]) == 1
+    assert main(["tca", "recess-action-full", *setting, "--phi-deg", "1000", "--contour", "8", "--json", "-"]) == 0
     (point,) = json.loads(capsys.readouterr().out)["points"]
     assert point["contour"] == [] and len(point["contact_line_mm"]) > 10

@@ -8,7 +8,6 @@ from meshwright.contact.placement import inverse, placements_at
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import envelopes
-from meshwright.flank.grids import grid
 from tests.independent import gap_search
 
 PENETRATION_MM = 1e-7
@@ -91,7 +90,7 @@ def test_no_point_of_the_wheel_enters_the_pinion(design, errors):
     """Foot points on the pinion flank by least squares; each pair at its own angle, the wheel where the drive is."""
     drive = Drive.load(design).with_(misalignment=errors)
     mesh = Mesh.of(drive)
-    wheel = grid(drive, "wheel", (41, 61)).points
+    wheel = drive.surface("wheel", (41, 61)).points
     closest = np.inf
     for angle in mesh.window.begin.angle + mesh.drive.pitch() * np.array([0.1, 0.6]):
         transmitted = _transmitted(mesh, angle)

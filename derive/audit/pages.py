@@ -15,6 +15,7 @@ from markupsafe import Markup
 from derive.audit.claims import Document
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
+from derive.audit.mutations import measured
 from derive.audit.published import comparisons
 from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference, raised
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
@@ -118,6 +119,7 @@ def pages(
             functions=functions,
             ledger=ledger,
             kinds=Counter(item["object"] for item in ledger.objects.values()),
+            mutations=measured(),
         ),
         "side-conditions.html": _render(
             "side-conditions.html.jinja", **common, guards=GUARDS, conditions=conditions

@@ -410,6 +410,7 @@ def cylindrical_worm(worm_profile, hob_profile):
             },
         ),
         proportions=PROPORTIONS,
+        exchange=_exchange(),
         sources=SOURCES,
         handed="right",
         exclusive=(
@@ -436,6 +437,13 @@ def _solids():
         "face_last": (face_width.symbol / 2, "mm"),
     }
     return solid("pinion", worm), solid("wheel", wheel)
+
+
+def _exchange():
+    """The family in REXS; that page reads this one's keys."""
+    from derive.drives.cylindrical_worm_rexs import EXCHANGE
+
+    return EXCHANGE
 
 
 def _rack_sizes(same_profile):

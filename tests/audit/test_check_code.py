@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check_code
+from derive.audit import check_code, mutations
 from meshwright.base.drives import folder_of
 
 ALL_ATTEMPTS = check_code.ATTEMPTS
@@ -24,7 +24,9 @@ def test_every_generated_header_is_its_own_mathematics():
 
 
 def header(name):
-    return (folder_of(name) / "include" / f"{name}.h").read_text(encoding="utf-8")
+    generated = GENERATED / "c" / f"{name}.h"
+    path = generated if generated.is_file() else folder_of(name) / "include" / f"{name}.h"
+    return path.read_text(encoding="utf-8")
 
 
 def rejected(tmp_path, text, match):
@@ -86,6 +88,54 @@ def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path):
     with capsys.disabled():
         print(f"\n{caught} of {total} changed signs in generated C caught")
     assert caught == total >= 30
+
+
+def one_change(text, function, pattern, other):
+    """The first match inside a function's body replaced."""
+    start = text.index(f"_{function}(const")
+    at = re.compile(pattern).search(text, start)
+    assert at and at.start() < text.index("\n}", start)
+    return text[: at.start()] + other + text[at.end() :]
+
+
+@pytest.mark.parametrize(
+    ("function", "pattern", "other", "reason"),
+    [
+        ("step", r"x\[1\] = (t\d+)", "x[1] = t2", "step: row|J dx"),
+        ("along", r"MW_FMA\(", "MW_FNMA(", "along|step|not the derivative"),
+        ("start_eval", r"J\[0\] = (t\d+)", "J[0] = t0", "start_eval"),
+        ("curvature_flank_wheel", r"o\[6\] = (t\d+)", "o[6] = t2", "change of the normal|sum"),
+    ],
+)
+def test_a_change_of_other_functions_is_caught(tmp_path, function, pattern, other, reason):
+    rejected(tmp_path, one_change(header("cylindrical_worm_zn_zn"), function, pattern, other), reason)
+
+
+@pytest.mark.parametrize(
+    ("ending", "change"), [("lanes", ("MW_FMA(", "MW_FNMA(")), ("sensitivity", ("dR[1] = ", "dR[1] = 2.0 * "))]
+)
+def test_a_change_of_lanes_and_of_tangents_is_caught(tmp_path, ending, change):
+    name = "cylindrical_worm_zn_zn"
+    for other in ("lanes", "sensitivity"):
+        shutil.copy(GENERATED / "c" / f"{name}_{other}.h", tmp_path / f"drive_{other}.h")
+    path = tmp_path / f"drive_{ending}.h"
+    head, last, body = path.read_text(encoding="utf-8").rpartition("static inline")
+    path.write_text(head + last + body.replace(*change, 1), encoding="utf-8")
+    rejected(tmp_path, header(name), "lanes|tangent")
+
+
+@pytest.mark.parametrize("digits", ["0.008333333333330948", "1.5707963267341256", "-0.0013888888888887398"])
+def test_a_changed_constant_of_sine_and_cosine_is_caught(tmp_path, digits):
+    wrong = digits[:-6] + str(int(digits[-6]) ^ 1) + digits[-5:]
+    rejected(tmp_path, header("spherical_convex_convex").replace(digits, wrong), "sincos")
+
+
+@pytest.mark.validate
+def test_changes_of_the_residual_the_step_and_the_flanks_are_refused():
+    """Of the functions that the checker decides, at least 97 of 100 random changes are refused."""
+    decided = ("eval", "step", "along", "start_eval", "step_lanes", "set_phi_lanes", "tangent")
+    rows = [row for row in mutations.measure(["cylindrical_worm_zn_zn"], 10) if row.function in decided]
+    assert sum(row.refused for row in rows) >= 0.97 * sum(row.made for row in rows) >= 50
 
 
 def test_a_wrong_header_is_refused_within_seconds(tmp_path, monkeypatch):

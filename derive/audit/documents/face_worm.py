@@ -159,12 +159,12 @@ CLAIMS = (
         "Definitions of unitless stresses.",
         kind="definition",
     ),
-    FigureClaim(
+    Claim(
         "modulus",
         "§6",
         "Young's Modulus E = 2.068 x 10^8 mN/mm",
-        "206.8 GPa is 2.068 x 10^8 mN/mm²: the square of the unit is missing (or lost in the extraction).",
-        [Figure("206.8*1000*1000/100000000", "2.068", "10^8 mN/mm²")],
+        "206.8 GPa is 2.068 x 10^8 mN/mm²; mN/mm is no unit of a modulus.",
+        missing="the square of the unit, in the print or lost in the extraction",
     ),
     Claim(
         "captions",

@@ -229,13 +229,13 @@ CLAIMS = (
         "With R = mT/2 the condition holds at 24 teeth and fails at 23.",
         [Figure(reserve(24, "20", 20), ">0"), Figure(reserve(23, "20", 20), "<0")],
     ),
-    FigureClaim(
+    Claim(
         "free-36",
         "§2.6",
         "凸狀 14.5°, face width 20 mm: no undercut at the ends from 36 teeth on",
-        "With R = mT/2, the radius that makes the 24-tooth statement true, 36 teeth are undercut at the ends of the "
-        "face. The spherical radius used is not given.",
-        [Figure(reserve(36, "14.5", 20), ">0")],
+        "With R = mT/2 36 teeth are undercut at the ends of the face; with R = 150 mm 36 and 24 teeth are free of "
+        "undercut. The text can be meant either way.",
+        missing="the spherical radius R that was used",
     ),
     Claim(
         "eq-3.3",
@@ -314,14 +314,13 @@ CLAIMS = (
             for value, printed in values
         ],
     ),
-    FigureClaim(
+    Claim(
         "one-pressure",
         "Table 4.3",
         "contact stress 930.2 MPa on the pinion and 631.8 MPa on the wheel",
         "Two bodies press on each other with one and the same pressure: the two numbers cannot both be the contact "
-        "pressure of one contact.",
-        [Figure("930.2", "631.8", "MPa")],
-        final=True,
+        "pressure of one contact. They may be other stresses, von Mises say, which differ between the bodies.",
+        missing="which stress is meant, and where",
     ),
     Claim(
         "table-4.4",

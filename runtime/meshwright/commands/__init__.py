@@ -6,9 +6,10 @@ from importlib import import_module
 MODULES = {
     name: f"meshwright.commands.{name}"
     for name in (
-        "drives", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report", "schema",
+        "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
+        "schema", "grid",
     )
-}  # fmt: skip
+} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
 
 
 def module(name):

@@ -1,6 +1,6 @@
 """A page that an engineer reads: figures, tables and the teeth in contact, in one self-contained HTML file.
 
-Exit status 1 if a position has no contact, touches along a line, or is one that bodies cannot make.
+Exit status 1 if a position has no contact, or one that bodies cannot make; contact along a line is a result.
 """
 
 from meshwright.base.errors import UsageError

@@ -1,7 +1,7 @@
 """Tooth contact analysis: contact point, transmission error and ellipse over the pinion angle.
 
 Where the blank bounds the flanks, also where the two flanks touch first: at that point, on an edge or at a corner. Exit
-status 1 if a point has no contact, touches along a line, or is one that bodies cannot make.
+status 1 if a point has no contact, or one that bodies cannot make; contact along a line is a result.
 """
 
 import sys
@@ -13,7 +13,8 @@ from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.contact_line import contact_line
-from meshwright.cycle.first_contact import flagged
+from meshwright.contact.velocities import velocities
+from meshwright.cycle.edge import not_first
 from meshwright.pattern.pattern import contour
 
 #: More directions than this are taken for a mistake.
@@ -50,10 +51,12 @@ def run(options):
         raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
     result = drive.tca(common.angles_of(options, drive))
     first = drive.first_contact(result.angles, result)
-    result = flagged(result, first)
+    result = not_first(result, first)
     points = result.to_points()
     for k, point in enumerate(points):
         point["first_contact"] = first.point(k, result.error)
+    for point, moving in zip(points, velocities(drive, result).plain(), strict=True):
+        point |= moving
     _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)

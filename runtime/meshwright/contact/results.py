@@ -12,6 +12,9 @@ ARCSEC = np.pi / 648000.0
 #: Status words of points that have numbers.
 SOLVED = ("converged",)
 
+#: Status words of angles at which the flanks touch, at a point or along a line.
+TOUCHING = ("converged", "line_contact")
+
 #: Flag of points beyond the tip of a member.
 OFF_TIP = "off_tip"
 
@@ -76,8 +79,10 @@ class TCA:
 
     @property
     def complete(self):
-        """Whether every point converged to a contact that bodies can make."""
-        return bool(self.solved.all()) and not any(impossible(f) for flags in self.flags for f in flags)
+        """Whether every point has a contact, at a point or along a line, that bodies can make."""
+        return all(word in TOUCHING for word in self.status) and not any(
+            impossible(f) for flags in self.flags for f in flags
+        )
 
     def without_contact(self, rows):
         """The same, but at these points (N,) of bool the flanks do not touch."""

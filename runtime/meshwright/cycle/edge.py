@@ -8,6 +8,7 @@ import dataclasses
 
 import numpy as np
 
+from meshwright.cycle.first_contact import OVERLAP
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import rides_on_edge
 from meshwright.cycle.windows import contact_window
@@ -37,4 +38,14 @@ def flagged(result, window):
         return result
     on_edge = result.solved & inside(window, result.angles)
     flags = tuple((*words, FLAG) if on else words for on, words in zip(on_edge, result.flags, strict=True))
+    return dataclasses.replace(result, flags=flags)
+
+
+def not_first(result, first):
+    """The :class:`~meshwright.contact.results.TCA` with the flag ``not_first`` at every tangency inside all its limits
+    that another place of the same flanks, a first contact, precedes.
+    """
+    late = result.solved & (first.overlaps(result.error) > OVERLAP)
+    late &= np.array([not any(f != FLAG for f in words) for words in result.flags], dtype=bool)
+    flags = tuple((*words, "not_first") if on else words for on, words in zip(late, result.flags, strict=True))
     return dataclasses.replace(result, flags=flags)

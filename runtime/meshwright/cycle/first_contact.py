@@ -6,13 +6,12 @@ extreme of these over what both limits leave is the first contact. C searches a 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.base.library import ffi, library, model, pointer
 from meshwright.contact.placement import placements_at
-from meshwright.cycle.edge import FLAG as EDGE_FLAG
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
 
@@ -21,7 +20,6 @@ CELLS = (12, 24)
 
 #: A contact further inside the other flank than this, mm, is not the first.
 OVERLAP = 1e-6
-FLAG = "not_first"
 
 #: Turn of the wheel by which its sense of rotation is read off, rad.
 TURN = 0.01
@@ -29,6 +27,9 @@ TURN = 0.01
 #: Contacts at so many angles, over so many pitches to either side, show where the flanks are; where nothing ends a
 #: flank it is searched so many natural sizes beyond them.
 ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
+
+#: Steps from the aligned drive.
+LEAD = 12
 
 #: Steps of the pinion from an angle at which a contact is known, per pitch.
 STEPS_PER_PITCH = 24
@@ -79,27 +80,31 @@ class FirstContacts:
         }
 
 
-def flagged(result, first):
-    """The :class:`~meshwright.contact.results.TCA` with :data:`FLAG` at every tangency inside all its limits that
-    another place of the same flanks precedes.
-    """
-    late = result.solved & (first.overlaps(result.error) > OVERLAP)
-    late &= np.array([not any(f != EDGE_FLAG for f in words) for words in result.flags], dtype=bool)
-    if not late.any():
-        return result
-    flags = tuple((*words, FLAG) if on else words for on, words in zip(late, result.flags, strict=True))
-    return replace(result, flags=flags)
-
-
 def first_contacts(drive, angles, result=None):
     """:class:`FirstContacts` at pinion angles (N,), rad. ``result``: a TCA of the same angles, if there is one."""
     result = drive.tca(angles) if result is None else result
     mirror = drive.design.mirror
     found = [None] * len(angles)
-    search, reason = _Search.of(drive, result)
+    search, reason = _Search.of(drive, mirror.sign * result.angles, result.solutions)
     if search is not None:
         found = search.at(mirror.sign * np.asarray(angles))
     return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
+
+
+def pair_errors(mesh):
+    """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
+    first, NaN where they never do; None where the blank does not bound them.
+    """
+    drive, path = mesh.drive, mesh.window.path
+    search, _ = _Search.of(drive, path.angles, path.unknowns)
+    if search is None:
+        return None
+
+    def errors(angles):
+        found = search.at(mesh.mirror * np.asarray(angles))
+        return mesh.mirror * np.array([math.nan if f is None else f.wheel_turn for f in found])
+
+    return errors
 
 
 def _gathered(drive, angles, found, reason):
@@ -141,7 +146,9 @@ def _held(bodies, found):
 
 @dataclass(frozen=True)
 class _Search:
-    """The mesh over the wheel's flank and what the search starts from."""
+    """The mesh over the wheel's flank and what the search starts from: ``solutions`` (N, nx) at angles ``solved_at``,
+    and ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
+    """
 
     drive: object
     table: object
@@ -149,18 +156,24 @@ class _Search:
     work: np.ndarray
     solutions: np.ndarray
     solved_at: np.ndarray
+    lead: tuple
     turn: float
     sense: float
 
     @classmethod
-    def of(cls, drive, result):
-        """The search, or None and why there is none."""
+    def of(cls, drive, angles, solutions):
+        """The search, or None and why there is none; solutions (N, nx) of contacts at angles (N,), right hand."""
         here = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
-        angles = np.concatenate([here, drive.design.mirror.sign * result.angles])
-        solutions = np.concatenate([drive.trace(here)[0], result.solutions])
-        known = np.isfinite(solutions).all(axis=1)
+        angles = np.concatenate([here, angles])
+        solutions = np.concatenate([drive.trace(here)[0], solutions])
+        known, errors = np.isfinite(solutions).all(axis=1), None
         if not known.any():
-            return None, "the flanks do not touch: there is nothing to start from"
+            errors = drive.design.given().get("misalignment", {})
+            aligned = drive.with_(misalignment=dict.fromkeys(errors, 0.0))
+            solutions[:ANGLES] = aligned.trace(here)[0]
+            known = np.isfinite(solutions).all(axis=1)
+        if not known.any():
+            return None, "the flanks do not touch, not even aligned: there is nothing to start from"
         used = solutions[:ANGLES][known[:ANGLES]] if known[:ANGLES].any() else solutions[known]
         solutions, angles = solutions[known], angles[known]
         uses = Uses.of(drive, used, beyond=BEYOND)
@@ -190,7 +203,10 @@ class _Search:
         table.bound = bound[0] if bound else -1
         work = np.empty(library().mw_first_contact_work(table.vertices))
         turn, sense = _senses(drive, angles[middle], solutions[middle])
-        return cls(drive, table, (kept, views), work, solutions, angles, turn, sense), ""
+        if errors is not None:
+            solutions, angles = solutions[middle : middle + 1], angles[middle : middle + 1]
+        lead = () if errors is None else _misaligned(drive, errors, angles, solutions)
+        return cls(drive, table, (kept, views), work, solutions, angles, lead, turn, sense), ""
 
     def at(self, angles):
         """``mw_first`` or None at angles (N,) of the right-hand drive."""
@@ -204,22 +220,31 @@ class _Search:
         steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
         angles = self.solved_at[nearest] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1))
         x = self.solutions[nearest]
-        pinion, wheel = (np.ascontiguousarray(m[:, :3, :].reshape(steps, 12)) for m in self._placed(angles, x))
+        placed = [*self.lead, _placed(self.drive, angles, x)]
+        pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in placed]) for k in (0, 1))
         start = np.concatenate([x[b["unknowns"]] for b in self.drive.design.description["bodies"][::-1]])
         start = np.append(start, x[self.drive.design.description["error"]])
         found = ffi.new("mw_first *")
         library().mw_first_contact(
-            compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), steps, self.turn, self.sense,
+            compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), len(pinion), self.turn, self.sense,
             pointer(start), pointer(self.work), found,
         )  # fmt: skip
         return found if found.status >= 0 else None
 
-    def _placed(self, angles, x):
-        """Placements of pinion and wheel, the wheel without transmission error."""
-        still = np.tile(x, (len(angles), 1))
-        still[:, self.drive.design.description["error"]] = 0.0
-        matrices = placements_at(self.drive, angles, still).matrices
-        return [matrices[b["name"]] for b in self.drive.design.description["bodies"]]
+
+def _placed(drive, angles, x):
+    """Placements (N, 4, 4) of pinion and wheel at angles (N,), the wheel without transmission error."""
+    still = np.tile(x, (len(angles), 1))
+    still[:, drive.design.description["error"]] = 0.0
+    matrices = placements_at(drive, angles, still).matrices
+    return [matrices[b["name"]] for b in drive.design.description["bodies"]]
+
+
+def _misaligned(drive, errors, angles, solutions):
+    """Placements that lead from the aligned drive to the given one."""
+    shares = np.arange(LEAD) / LEAD
+    drives = [drive.with_(misalignment={key: share * value for key, value in errors.items()}) for share in shares]
+    return [_placed(part, angles, solutions[0]) for part in drives]
 
 
 def _senses(drive, angle, x):

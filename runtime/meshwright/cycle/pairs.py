@@ -6,7 +6,7 @@ largest (or, on the other flank, smallest) transmission error of all pairs: the 
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -57,8 +57,11 @@ class Mesh:
     def sense(self):
         """+1 where the wheel is pushed to larger angles, −1 to smaller: the side on which the gap opens."""
         path = self.window.path
-        middle = path.angles[np.argmin(np.abs(path.angles))]
-        return self.mirror * float(np.sign(path.levers([middle])[0]))
+        for angle in path.angles[np.argsort(np.abs(path.angles))]:
+            (lever,) = path.levers([angle])
+            if math.isfinite(lever) and lever != 0.0:
+                return self.mirror * math.copysign(1.0, lever)
+        return math.nan
 
     @property
     def contact_ratio(self):
@@ -137,17 +140,51 @@ class Mesh:
 
     @cached_property
     def _steps(self):
-        """The number of teeth in contact over one pitch from the smaller end of the window: lengths and counts."""
-        start, pitch = min(self.window.begin.angle, self.window.end.angle), self.drive.pitch()
-        places = start + pitch * (np.arange(SAMPLES + 1) + 0.5) / (SAMPLES + 1)
-        counts = [self.teeth_in_contact(p) for p in places]
-        jumps = [
-            self._jump(a, b, first)
-            for a, b, first, last in zip(places, places[1:], counts, counts[1:], strict=False)
-            if first != last
-        ]
-        kept = [counts[0], *(b for a, b in zip(counts, counts[1:], strict=False) if a != b)]
-        return np.diff([start, *jumps, start + pitch]), np.array(kept)
+        """The number of teeth in contact over one pitch from the smaller end of the window: lengths and counts.
 
-    def _jump(self, a, b, first):
-        return bracketed(lambda p: 0.5 - (self.teeth_in_contact(p) != first), a, b, ANGLE_TOLERANCE, (0.5, -0.5))
+        The ends of the windows are changes by themselves: with span n·pitch + f, n + 1 pairs are inside over f and n
+        over the rest, however short either is.
+        """
+        pitch = self.drive.pitch()
+        whole, part = divmod(self.window.span, pitch)
+        lengths, counts = np.array([part, pitch - part]), np.array([whole + 1.0, whole])
+        if not self.allowance > 0.0:
+            return lengths, counts
+        start = min(self.window.begin.angle, self.window.end.angle)
+        parts = [self._closed(start + a, start + b) for a, b in ((0.0, part), (part, pitch)) if b > a]
+        return tuple(np.concatenate(columns) for columns in zip(*parts, strict=True))
+
+    def _closed(self, low, high):
+        """Lengths and counts, ascending, of the pairs that the allowance closes between two changes of the windows."""
+        inner = min(1e-9 * (high - low), ANGLE_TOLERANCE)
+        places = np.linspace(low + inner, high - inner, max(3, math.ceil((high - low) / self.drive.pitch() * SAMPLES)))
+        places = np.sort(np.concatenate([places, self._turning(places)]))
+        counts, ends, kept = [self.teeth_in_contact(p) for p in places], [low], []
+        for a, b, count, last in zip(places, places[1:], counts, counts[1:], strict=False):
+            while count != last:
+                changed = partial(self._differs, count)
+                a = bracketed(changed, a, b, ANGLE_TOLERANCE, (0.5, -0.5))
+                ends.append(a)
+                kept.append(count)
+                a = min(a + 2.0 * ANGLE_TOLERANCE, b)
+                count = self.teeth_in_contact(a)
+        return np.diff([*ends, high]), np.array([*kept, counts[-1]], dtype=float)
+
+    def _differs(self, count, angle):
+        """Negative where another number of pairs is in contact than ``count``."""
+        return 0.5 - (self.teeth_in_contact(angle) != count)
+
+    def _turning(self, places):
+        """Where the separation of a pair may come to the allowance and go back between two of ascending places (P,)."""
+        present = [{pair.number: pair.separation - self.allowance for pair in self.pairs(p)} for p in places]
+        found = []
+        for number in set().union(*present):
+            values = np.array([entry.get(number, math.nan) for entry in present])
+            before, here, after = values[:-2], values[1:-1], values[2:]
+            with np.errstate(invalid="ignore", divide="ignore"):
+                bend = before - 2.0 * here + after
+                shift = 0.5 * (before - after) / bend
+                dips = (here * (here - 0.125 * (before - after) ** 2 / bend) < 0.0) & (np.abs(shift) < 1.0)
+                dips &= (before * here > 0.0) & (after * here > 0.0)
+            found.append((places[1:-1] + shift * (places[1] - places[0]))[dips])
+        return np.concatenate(found or [np.empty(0)])

@@ -1,0 +1,190 @@
+"""First designs of the families: proportions of the standards, and what makes contact a point.
+
+Sources: ISO/TR 10828:2015 (worm gears), ISO 53:1998 and ISO 21771:2007 (cylindrical gears), ISO 23509:2016 (bevel
+gears, uniform depth); the packaged spherical and face worm designs, scaled, for the families that no standard treats.
+"""
+
+import sympy as sp
+
+from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
+
+
+def _clipped(value, least, most):
+    return sp.Min(sp.Max(value, least), most)
+
+
+def _worm():
+    quotient = Suggestion(
+        "", (_clipped(2 * a / m - z_2, 7, 20), 10 + 0 * m), name="q", decimals=4,
+        why="diameter quotient: the wheel needs no profile shift at the centre distance given, else 10",
+    )  # fmt: skip
+    q = quotient.symbol
+    radius = Suggestion("design.worm_pitch_radius_mm", (q * m / 2,), "diameter quotient times module", "r_1", 4)
+    r_1 = radius.symbol
+    hob = Suggestion(
+        "design.hob_pitch_radius_mm", (r_1 * sp.Rational(103, 100),),
+        "3 % larger than the worm: an oversize hob gives contact in a point, an equal one along a line", "r_h", 3,
+    )  # fmt: skip
+    distance = Suggestion("", (a, m * (q + z_2) / 2), name="A")
+    A = distance.symbol
+    backlash = m / 50
+    throat = Suggestion(
+        "blank.wheel_throat_radius_mm", (A - r_1 + m,), "one module above the worm's reference cylinder", "throat", 3
+    )
+    return Outline(
+        {"m": "axial module", "z": "threads of the worm : teeth of the wheel", "a": "centre distance"},
+        {"worm_profile": "ZI", "hob_profile": ""},
+        (
+            Suggestion("design.axial_module_mm", (m,)),
+            Suggestion("design.worm_threads", (z_1,), whole=True),
+            Suggestion("design.wheel_teeth", (z_2,), whole=True),
+            quotient,
+            radius,
+            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO/TR 10828"),
+            Suggestion("design.center_distance_mm", (a,), "as asked for"),
+            hob,
+            distance,
+            Suggestion(
+                "design.cutting_center_distance_mm",
+                (A + hob.symbol - r_1 - backlash / (2 * sp.sin(sp.pi / 9)),),
+                "the hob goes deeper than contact without backlash by what leaves 0.02 modules of normal backlash",
+                decimals=4,
+            ),
+            Suggestion("design.grinding_wheel_radius_mm", (sp.Integer(250),), "a wheel of 500 mm"),
+            Suggestion("design.profile_arc_radius_mm", (6 * m,), "six modules", decimals=2),
+            Suggestion("blank.worm_tip_radius_mm", (r_1 + m,), "addendum of one axial module", decimals=3),
+            Suggestion("blank.worm_root_radius_mm", (r_1 - sp.Rational(6, 5) * m,), "and clearance 0.2", decimals=3),
+            throat,
+            Suggestion("blank.wheel_tip_radius_mm", (throat.symbol + m / 2,), "half a module beyond it", decimals=3),
+            Suggestion(
+                "blank.wheel_face_width_mm", (2 * m * (sp.Rational(1, 2) + sp.sqrt(q + 1)) * sp.Rational(4, 5),),
+                "four fifths of the chord of the worm's tip circle", decimals=1,
+            ),
+            Suggestion("blank.hob_tip_addendum_mm", (sp.Rational(6, 5) * m,), "cuts the root clearance", decimals=3),
+            Suggestion("blank.hob_tip_rounding_mm", (m / 5,), "the root fillet", decimals=3),
+        ),
+    )  # fmt: skip
+
+
+def _spherical():
+    return Outline(
+        {"m": "module", "z": "teeth of the pinion : teeth of the wheel"},
+        {"pinion_form": "convex", "wheel_form": "convex"},
+        (
+            Suggestion("design.module_mm", (m,)),
+            Suggestion("design.pinion_teeth", (z_1,), whole=True),
+            Suggestion("design.wheel_teeth", (z_2,), whole=True),
+            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53"),
+            Suggestion(
+                "design.pinion_sphere_radius_mm", (m * z_1 / 2,), "the pitch radius: contact in a point", decimals=4
+            ),
+            Suggestion("design.wheel_sphere_radius_mm", (m * z_2 / 2,), "the pitch radius", decimals=4),
+            Suggestion("design.face_width_mm", (4 * m,), "four modules", decimals=2),
+        ),
+    )
+
+
+def _cylindrical():
+    return Outline(
+        {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
+        {},
+        (
+            Suggestion("design.normal_module_mm", (m,)),
+            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53"),
+            Suggestion("design.pinion_teeth", (z_1,), whole=True),
+            Suggestion("design.wheel_teeth", (z_2,), whole=True),
+            Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand"),
+            Suggestion("design.wheel_helix_angle_deg", (sp.Integer(0),), "the opposite hand on parallel axes"),
+            Suggestion("design.center_distance_mm", (a,), "as asked for; without it: no backlash"),
+            Suggestion("design.face_width_mm", (10 * m,), "ten modules", decimals=2),
+            Suggestion(
+                "design.pinion_lead_crowning_um", (sp.Integer(8),),
+                "crowning makes contact a point; unmodified involute flanks touch along a line",
+            ),
+            Suggestion("design.pinion_profile_crowning_um", (sp.Integer(5),), "the same across the profile"),
+        ),
+    )  # fmt: skip
+
+
+def _face_worm():
+    size = m / sp.Rational(1334, 1000)
+    share = z_2 / 60
+
+    def scaled(key, value, why=""):
+        return Suggestion(key, (sp.Rational(value) * size * share,), why, decimals=3)
+
+    return Outline(
+        {"m": "axial module", "z": "threads of the worm : teeth of the gear"},
+        {},
+        (
+            Suggestion("design.worm_threads", (z_1,), whole=True),
+            Suggestion("design.gear_teeth", (z_2,), whole=True),
+            Suggestion("design.axial_module_mm", (m,)),
+            scaled("design.offset_mm", "35", "proportions of NASA/CR-2002-211895, Table 1, from here on"),
+            scaled("design.worm_axial_position_mm", "29.907"),
+            scaled("design.worm_pitch_diameter_mm", "11.48"),
+            Suggestion("design.worm_cone_angle_deg", (sp.Integer(5),)),
+            scaled("design.gear_inner_radius_mm", "38.53"),
+            scaled("design.gear_outer_radius_mm", "52.5"),
+            Suggestion("design.profile_angle_deg", (sp.Integer(10),)),
+            Suggestion("design.plunge_mm_per_rad2", (sp.Rational(3, 1000) * size,), "crowning along the path"),
+            Suggestion("design.blade_parabola_per_mm", (sp.Rational(1, 100) / size,), "crowning across it"),
+        ),
+    )
+
+
+def _bevel():
+    """A face-milled spiral bevel pair of uniform depth at 90°: crown-gear generated, the pinion crowned lengthwise."""
+    degree = 180 / sp.pi
+    pitch = Suggestion("", (sp.atan2(z_1, z_2),), name="delta_1")
+    d_1 = pitch.symbol
+    cone = Suggestion("", (m * z_1 / (2 * sp.sin(d_1)),), name="A_o")
+    face = Suggestion("", (cone.symbol * sp.Rational(29, 100),), name="F", decimals=1)
+    mean = Suggestion("", (cone.symbol - face.symbol / 2,), name="A_m")
+    cutter = Suggestion(
+        "", (mean.symbol * sp.Rational(96, 100),), "cutter radius on the pitch plane", name="r_0", decimals=1
+    )
+    deep, high = sp.Rational(925, 1000) * m, sp.Rational(3, 4) * m
+    spiral, blade = sp.rad(35), sp.rad(20)
+
+    def member(table, radius, side, delta):
+        along = mean.symbol - radius * sp.sin(spiral)
+        across = radius * sp.cos(spiral)
+        return (
+            Suggestion(f"{table}.point_radius_mm", (radius - side * deep * sp.tan(blade),), "of the blade's line"),
+            Suggestion(f"{table}.blade_angle_deg", (sp.Integer(20),)),
+            Suggestion(f"{table}.radial_setting_mm", (sp.sqrt(along**2 + across**2),), "spiral angle 35° at mid face"),
+            Suggestion(f"{table}.cradle_angle_deg", (sp.atan2(across, along) * degree,)),
+            Suggestion(f"{table}.root_angle_deg", (delta * degree,), "uniform depth"),
+            Suggestion(f"{table}.sliding_base_mm", (-deep,), "dedendum"),
+            Suggestion(f"{table}.ratio_of_roll", (1 / sp.sin(delta),), "a crown gear generates both members"),
+            Suggestion(f"{table}.pitch_angle_deg", (delta * degree,)),
+            Suggestion(f"{table}.pitch_apex_mm", (sp.Integer(0),)),
+            Suggestion(f"{table}.face_angle_deg", (delta * degree,)),
+            Suggestion(f"{table}.face_apex_mm", (high / sp.sin(delta),), "addendum over the pitch cone"),
+            Suggestion(f"{table}.outer_cone_distance_mm", (cone.symbol,)),
+            Suggestion(f"{table}.face_width_mm", (face.symbol,), "0.29 outer cone distances"),
+        )
+
+    return Outline(
+        {"m": "outer transverse module", "z": "teeth of the pinion : teeth of the gear"},
+        {},
+        (
+            Suggestion("design.pinion_teeth", (z_1,), whole=True),
+            Suggestion("design.gear_teeth", (z_2,), whole=True),
+            Suggestion("design.shaft_angle_deg", (sp.Integer(90),)),
+            pitch, cone, face, mean, cutter,
+            *member("pinion", cutter.symbol + m / 2, 1, d_1),
+            *member("gear", cutter.symbol, -1, sp.pi / 2 - d_1),
+        ),
+    )  # fmt: skip
+
+
+#: By the family's name in design files.
+OUTLINES = {
+    "cylindrical-worm": _worm,
+    "spherical": _spherical,
+    "cylindrical-gears": _cylindrical,
+    "face-worm": _face_worm,
+    "bevel": _bevel,
+}

@@ -1,0 +1,44 @@
+"""A first design: how a family turns module and numbers of teeth into a design file, and why each size is what it is.
+
+Suggestions are made in order; each may use the options and the suggestions before it, under their names. Nothing here
+takes part in analysis: the file that is written gives its numbers like any other.
+"""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derive.language.symbols import Quantity
+
+#: What a person gives: module (mm), numbers of teeth or threads, centre distance (mm; not a number if left out).
+m, z_1, z_2, a = (Quantity(name, unit) for name, unit in (("m", "mm"), ("z_1", ""), ("z_2", ""), ("a", "mm")))
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """``place`` ("table.key") takes the first of ``values`` that is a number, in the unit of the key; none: it is open.
+
+    Without a place it only has a ``name`` by which later suggestions use it. ``decimals`` round it, ``whole`` makes it
+    an integer. ``why`` becomes the comment in the file.
+    """
+
+    place: str
+    values: tuple
+    why: str = ""
+    name: str = ""
+    decimals: int | None = None
+    whole: bool = False
+
+    @property
+    def symbol(self):
+        """The name by which later suggestions use this one."""
+        return sp.Symbol(self.name or self.place.replace(".", "_"), real=True)
+
+
+@dataclass(frozen=True)
+class Outline:
+    """What ``meshwright new`` needs of a family: what its options mean, words that choose a drive, suggestions."""
+
+    options: dict[str, str]
+    words: dict[str, str]
+    suggestions: tuple[Suggestion, ...]

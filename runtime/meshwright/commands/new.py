@@ -1,0 +1,89 @@
+"""Write a first design of a family from module and numbers of teeth: a commented TOML file to change from there.
+
+Sizes follow proportions that the family declares; each is written with the reason. --set gives any key its own value.
+"""
+
+import argparse
+import difflib
+import math
+import re
+from pathlib import Path
+
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_text
+from meshwright.commands import options as common
+from meshwright.design import description, outline
+from meshwright.design import design as designs
+
+
+def add_arguments(parser):
+    parser.add_argument("family", metavar="FAMILY", help="`meshwright drives` lists them")
+    parser.add_argument("--m", type=common.positive, required=True, metavar="M", help="module, mm")
+    parser.add_argument("--z", type=_teeth, required=True, metavar="Z1:Z2", help="threads or teeth of pinion and wheel")
+    parser.add_argument("--a", type=common.positive, default=math.nan, metavar="A", help="centre distance, mm")
+    parser.add_argument("--profile", metavar="WORD[:WORD]", help="words that choose the drive, in the family's order")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="a value of your own; repeatable"
+    )
+    parser.add_argument("--name", help="name of the design and, unless --out says otherwise, of the file")
+    parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml, which must not exist")
+
+
+def _teeth(text):
+    match = re.fullmatch(r"([1-9]\d*):([1-9]\d*)", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"{text}: not two whole numbers Z1:Z2, for example 2:40")
+    return int(match[1]), int(match[2])
+
+
+def run(options):
+    family = _family(options.family)
+    words = _words(family, options.profile)
+    given = {"m": options.m, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
+    if math.isfinite(options.a) and "a" not in family.outline["options"]:
+        raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
+    name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
+    first = outline.first_design(family, name, words, given, dict(common.setting(text) for text in options.set))
+    designs.check(designs.parsed(first.text, name))
+    place = options.out or f"{name}.toml"
+    if options.out is None and Path(place).exists():
+        raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
+    write_text(place, first.text)
+    if place != "-":
+        write_text("-", _next_steps(place, first))
+    return 0
+
+
+def _family(name):
+    known = description.families()
+    if name not in known:
+        near = difflib.get_close_matches(name, known, n=1)
+        remedy = f"did you mean {near[0]!r}?" if near else f"use one of {', '.join(known)}"
+        raise UsageError(f"FAMILY = {name!r}: no such family of drives; {remedy}")
+    if known[name].outline is None:
+        raise UsageError(f"FAMILY = {name!r}: declares no first design; copy one: `meshwright show` prints any")
+    return known[name]
+
+
+def _words(family, text):
+    """The words that choose the drive: those given, in the family's order, the outline's for the rest."""
+    asked = text.split(":") if text else []
+    keys = family.outline["words"]
+    if len(asked) > len(keys):
+        raise UsageError(f"--profile {text}: more words than {', '.join(keys) or 'this family has'}; give fewer")
+    words = dict(zip(keys, asked, strict=False)) | {key: word for key, word in [*keys.items()][len(asked) :] if word}
+    if words:
+        # a key that may be left out follows another
+        whole = words | {key: words.get(key, words.get(other)) for key, other in family.variant_defaults.items()}
+        if not any(all(whole.get(k) in v for k, v in variant.items()) for variant in family.variants.values()):
+            offered = {k: sorted({w for v in family.variants.values() for w in v.get(k, ())}) for k in keys}
+            listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in offered.items())
+            raise UsageError(f"--profile {text}: no drive of this family has these words; {listed}")
+    return words
+
+
+def _next_steps(place, first):
+    lines = [f"{place} written; assumed:"]
+    lines += [f"  {key} = {value}: {why}" for key, value, why in first.assumed if why]
+    lines += ["go on with", f"  meshwright tca {place}", f"  meshwright report {place} --html report.html"]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,71 @@
+"""A first design: the suggestions that a family declares, as a commented design file."""
+
+import json
+import math
+from dataclasses import dataclass
+
+from meshwright.design.expression import value
+
+
+@dataclass(frozen=True)
+class FirstDesign:
+    """The text of a design file, and what it assumes: (key, value, reason)."""
+
+    text: str
+    assumed: tuple[tuple[str, object, str], ...]
+
+
+def first_design(family, name, words, given, own):
+    """The :class:`FirstDesign` of a :class:`~meshwright.design.description.Family`.
+
+    ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" that replace
+    suggestions or stand beside them.
+    """
+    usable = _places(family, words)
+    symbols, chosen = dict(given), {}
+    for suggestion in family.outline["suggestions"]:
+        place = suggestion["place"]
+        if place and place not in usable:
+            continue
+        number = _number(suggestion, symbols)
+        if place in own and isinstance(own[place], int | float):
+            number = own[place]
+        symbols[suggestion["name"]] = number
+        if place and place not in own and math.isfinite(number):
+            chosen[place] = number, suggestion["why"]
+    written = chosen | {place: (number, "as given") for place, number in own.items()}
+    flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
+    lines = [f'drive = "{family.name}"', f"name = {_toml(name)}", f'flank = "{next(iter(flank))}"']
+    tables = dict.fromkeys(["design", *(place.partition(".")[0] for place in written if "." in place)])
+    for table in tables:
+        lines += ["", f"[{table}]"]
+        if table == "design":
+            lines += [f'{key} = "{word}"' for key, word in words.items()]
+        for place, (number, why) in written.items():
+            if place.partition(".")[0] == table:
+                entry = f"{place.partition('.')[2]} = {_toml(number)}"
+                lines.append(f"{entry:<44}  # {why}" if why else entry)
+    assumed = tuple((place, number, why) for place, (number, why) in chosen.items())
+    return FirstDesign("\n".join(lines) + "\n", assumed)
+
+
+def _places(family, words):
+    """The keys ("table.key") that the drive of these words has: those of the family and those of the tools named."""
+    chosen = {*words.values()}
+    return {f"{p['table']}.{p['key']}" for p in family.parameters if not p["tools"] or chosen & {*p["tools"]}}
+
+
+def _number(suggestion, symbols):
+    """The first of a suggestion's values that is a number, rounded as it says; NaN if none is."""
+    found = next((v for e in suggestion["values"] if math.isfinite(v := value(e, symbols))), math.nan)
+    if suggestion["whole"] and math.isfinite(found):
+        return int(found)
+    return found if suggestion["decimals"] is None else round(found, suggestion["decimals"])
+
+
+def _toml(number):
+    if isinstance(number, str):
+        return json.dumps(number, ensure_ascii=False)
+    if isinstance(number, bool):
+        return "true" if number else "false"
+    return repr(number)
