@@ -142,9 +142,12 @@ class Drive:
         """Ends, teeth in contact, transmission error: :class:`~meshwright.cycle.contact_ratio.ContactRatio`."""
         return contact_ratio.contact_ratio(self)
 
-    def surface(self, member, shape=(21, 41), region="flank"):
-        """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`."""
-        return grids.grid(self, member, shape, region, self.uses)
+    def surface(self, member, shape=(21, 41), region="flank", inset=0.0):
+        """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`.
+
+        ``inset`` is the share of the lengths by which the points stay off the ends of the flank.
+        """
+        return grids.grid(self, member, shape, region, self.uses, inset)
 
     @cached_property
     def uses(self):

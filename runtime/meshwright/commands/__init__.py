@@ -7,9 +7,9 @@ MODULES = {
     name: f"meshwright.commands.{name}"
     for name in (
         "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
-        "live", "schema",
+        "live", "schema", "grid",
     )
-}  # fmt: skip
+} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
 
 
 def module(name):

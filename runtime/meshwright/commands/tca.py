@@ -13,6 +13,7 @@ from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.velocities import velocities
 from meshwright.cycle.edge import not_first
 from meshwright.pattern.pattern import contour
 
@@ -34,7 +35,7 @@ def add_arguments(parser):
     )
     parser.add_argument(
         "--all-contacts", action="store_true",
-        help="search for further contacts of the same tooth pair at each angle (worm drives; CSV gives their number)",
+        help="search for further contacts of the same tooth pair at each angle (CSV gives their number)",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
@@ -54,6 +55,8 @@ def run(options):
     points = result.to_points()
     for k, point in enumerate(points):
         point["first_contact"] = first.point(k, result.error)
+    for point, moving in zip(points, velocities(drive, result).plain(), strict=True):
+        point |= moving
     _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)

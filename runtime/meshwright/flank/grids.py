@@ -38,8 +38,11 @@ class Grid:
     mesh: Triangulation | None = None
 
 
-def grid(drive, member, shape, name, uses):
+def grid(drive, member, shape, name, uses, inset=0.0):
     """The :class:`Grid` of the region ``name`` of a member; ``uses`` as of :func:`~meshwright.flank.region.region`.
+
+    ``inset`` is the share of its length by which the grid stays off either end of the region along the tooth, and of
+    the profile's parameter off either end of each line across it.
 
     Raises :class:`~meshwright.base.errors.UsageError` if nothing of the surface lies within the limits.
     """
@@ -52,7 +55,7 @@ def grid(drive, member, shape, name, uses):
             f"the {name} of the {member} is empty: no part of its surface lies within the limits of the design;"
             " change [blank] or [design]"
         )
-    values = _Lines.over(whole, triangles, shape[1]).rows(shape[0])
+    values = _Lines.over(whole, triangles, shape[1], inset).rows(shape[0], inset)
     return _of_design(drive, whole.flank, shape, values, triangles)
 
 
@@ -88,11 +91,12 @@ class _Lines:
     upper: np.ndarray
 
     @classmethod
-    def over(cls, whole, triangles, count):
-        """``count`` lines from one end of the region to the other; NaN where a line misses it."""
+    def over(cls, whole, triangles, count, inset):
+        """``count`` lines from near one end of the region to the other; NaN where a line misses it."""
         flank, known = whole.flank, triangles.parameters
         reached, _ = lengthwise(flank, flank(known))
-        along = np.linspace(reached.min(), reached.max(), count)
+        off = inset * np.ptp(reached)
+        along = np.linspace(reached.min() + off, reached.max() - off, count)
         room = np.ptp(known[:, 0]) / SAMPLES
         profile = np.linspace(known[:, 0].min() - room, known[:, 0].max() + room, SAMPLES)
         places = np.stack(np.meshgrid(profile, along, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -107,10 +111,10 @@ class _Lines:
             end[missed] = np.nan
         return cls(whole, along, *ends)
 
-    def rows(self, count):
+    def rows(self, count, inset):
         """Parameters (count·M, k): equal steps of the profile's parameter on every line."""
         rows, start = [], self.lower
-        for share in np.linspace(0.0, 1.0, count):
+        for share in np.linspace(inset, 1.0 - inset, count):
             profile = self.lower[:, 0] + share * (self.upper[:, 0] - self.lower[:, 0])
             start = np.where(
                 (share in (0.0, 1.0)),

@@ -1,0 +1,70 @@
+"""Files of measured points: what is written is read back; what is wrong is named by line and column."""
+
+import numpy as np
+import pytest
+
+from meshwright.base.errors import UsageError
+from meshwright.shop.deviations import pitch_deviations, trace_deviations
+from meshwright.shop.tables import COLUMNS, Points, csv_text, dmis_text, read_csv
+
+SAMPLE = Points(
+    np.array([1, 1, 2]), ("right", "left", "right"), np.array([0, 1, 0]), np.array([0, 0, 1]),
+    np.array([[1 / 3, 2.0, -3e-17], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]), np.eye(3), np.array([1.25e-3, np.nan, -2e-3]),
+)  # fmt: skip
+
+
+def test_points_come_back_to_the_last_bit(tmp_path):
+    (tmp_path / "p.csv").write_text(csv_text(SAMPLE, {"ball_radius_mm": 1.0}, 1.0))
+    found, remarks = read_csv(tmp_path / "p.csv")
+    assert remarks == {"ball_radius_mm": "1.0"}
+    assert (found.points == SAMPLE.points).all() and (found.normals == SAMPLE.normals).all()
+    assert found.flank == SAMPLE.flank and (found.tooth == SAMPLE.tooth).all()
+    assert np.allclose(found.deviations, SAMPLE.deviations, rtol=1e-15, equal_nan=True)
+
+
+def test_a_ball_touches_from_outside():
+    last = csv_text(SAMPLE, {}, 2.0).splitlines()[1].split(",")
+    assert [float(v) for v in last[-3:]] == pytest.approx([1 / 3 + 2.0, 2.0, -3e-17])
+
+
+BROKEN = {
+    "empty": ("", "holds no table"),
+    "no points": (",".join(COLUMNS), "holds no points"),
+    "column": (",".join(COLUMNS[:-1]) + "\n", "column deviation_um is missing"),
+    "short line": (",".join(COLUMNS) + "\n1,right,0\n", "line 2: 3 cells below 11"),
+    "word": (",".join(COLUMNS) + "\n1,right,0,0,x,0,0,1,0,0,1\n", "line 2: x_mm = 'x' is not a finite number"),
+    "nan": (",".join(COLUMNS) + "\n1,right,0,0,nan,0,0,1,0,0,1\n", "line 2: x_mm = 'nan' is not a finite number"),
+    "index": (",".join(COLUMNS) + "\n1,right,0.5,0,0,0,0,1,0,0,1\n", "line 2: i = '0.5' is not a whole number"),
+    "binary": ("\x00\x01", "holds no table|column"),
+}
+
+
+@pytest.mark.parametrize("kind", BROKEN)
+def test_a_broken_file_is_refused_with_its_line(tmp_path, kind):
+    text, words = BROKEN[kind]
+    (tmp_path / "p.csv").write_text(text)
+    with pytest.raises(UsageError, match=words):
+        read_csv(tmp_path / "p.csv")
+
+
+def test_dmis_has_a_feature_and_a_measurement_a_point():
+    text = dmis_text(SAMPLE, "wheel 'a'")
+    assert text.count("FEAT/POINT,CART") == text.count("PTMEAS/CART") == 3
+    assert "F(P2)=FEAT/POINT,CART,4.000000000,5.000000000,6.000000000,0.000000000,1.000000000,0.000000000" in text
+
+
+def test_a_straight_deviation_is_slope_alone_and_a_bow_is_form():
+    x = np.linspace(0.0, 10.0, 11)
+    straight = trace_deviations(x, 0.2 * x + 3.0)
+    assert (straight.total, straight.slope, straight.form) == pytest.approx((2.0, 2.0, 0.0), abs=1e-12)
+    bow = trace_deviations(x, (x - 5.0) ** 2)
+    assert (bow.total, bow.slope, bow.form) == pytest.approx((25.0, 0.0, 25.0), abs=1e-12)
+
+
+def test_pitch_deviations_of_an_eccentric_gear():
+    """Runout e: arcs e·sin(2πk/T); F_p = 2e, largest single pitch 2e·sin(π/T)."""
+    teeth, e = 40, 0.02
+    found = pitch_deviations(e * np.sin(2 * np.pi * np.arange(teeth) / teeth))
+    assert found.total == pytest.approx(2 * e, rel=1e-12)
+    assert found.largest == pytest.approx(2 * e * np.sin(np.pi / teeth), rel=1e-2)
+    assert found.single.sum() == pytest.approx(0.0, abs=1e-12)
