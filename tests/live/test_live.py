@@ -1,5 +1,6 @@
 """The live page: the bits of the native solver in WebAssembly, one file that needs nothing, a browser that drags."""
 
+import functools
 import importlib.util
 import math
 import re
@@ -21,13 +22,16 @@ DESIGNS = ("recess-action-full", "face-worm-conical-convex", "spherical-table-2-
 pytest.importorskip("ziglang", reason="no compiler for WebAssembly: pip install 'meshwright[live]'")
 
 
+module_of = functools.cache(live.compiled)
+
+
 class Wasm:
     """The page's module outside a browser."""
 
     def __init__(self, drive):
         wasmtime = pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser")
         self.store = wasmtime.Store()
-        program = wasmtime.Module(self.store.engine, live.compiled(drive.design.description["name"]))
+        program = wasmtime.Module(self.store.engine, module_of(drive.design.description["name"]))
         assert not program.imports
         self.exports = wasmtime.Instance(self.store, program, []).exports(self.store)
         self.model, self.length = drive.model, self("row_length")

@@ -1,5 +1,5 @@
 /* What the live page calls: one design, completed and solved at many input angles. No C library, no heap; all numbers
- * pass through the buffers below. Compile with -DLIVE_HEADER='"face_worm.h"' -DLIVE_DRIVE=face_worm.
+ * pass through the buffers below. Compile with -DLIVE_DRIVE=NAME and -DLIVE_HEADER, its header in quotes.
  * SPDX-License-Identifier: MIT-0 */
 #include LIVE_HEADER
 #include "complete.c"

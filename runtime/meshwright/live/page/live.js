@@ -29,7 +29,7 @@ function field(key) {
   const number = made("input", { type: "number", step: "any", id, value: String(key.value) });
   const slider = made("input", { type: "range", min: -STEPS, max: STEPS, step: 1, value: 0, id: `slide-${key.place}` });
   slider.setAttribute("aria-label", key.key);
-  box.append(made("label", { htmlFor: id }, key.key.replaceAll("_", "_\u200b")), number, made("span", { className: "unit" }, key.unit), slider,
+  box.append(made("label", { htmlFor: id }, key.key.replaceAll("_", "_\u200b")), number, made("span", { className: "unit" }, key.unit.replaceAll("_", "_\u200b")), slider,
              made("span", { className: "meaning" }, `[${key.table}] ${key.meaning}`));
   const it = { key, box, number, slider, value: key.value };
   slider.addEventListener("input", () => {
