@@ -186,3 +186,17 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
     for label, number in expected.items():
         assert float(after[label]) == float(f"{number:.9g}"), label
     assert after["transmission error"] != before["transmission error"]
+
+
+@pytest.mark.validate
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_cycle_of_200_positions_is_solved_within_5_ms(name, pages, tmp_path):
+    """The fastest of many: what else the machine does at the time is not the page's."""
+    browser = Browser(tmp_path / "profile")
+    try:
+        browser.open(pages(name).as_uri())
+        assert browser.value("data.positions") == 200
+        assert browser.value("Math.min(...Array.from({length: 40}, () => { solve(); return state.time; }))") < 5.0
+    finally:
+        browser.close()
