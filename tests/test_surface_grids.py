@@ -3,6 +3,7 @@
 import json
 import struct
 import xml.etree.ElementTree as xml
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -181,7 +182,7 @@ def _outside(drive, member, region):
     points = np.concatenate([found.points[known], found.mesh.points])
     radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
     beyond = [np.full(1, -np.inf)]
-    for key, value in drive.design.tables["blank"].items():
+    for key, value in drive.design.tables.get("blank", {}).items():
         match (member, key):
             case ("wheel", "wheel_tip_radius_mm") | ("pinion", "worm_tip_radius_mm") if value:
                 beyond.append(radius - value)
@@ -203,9 +204,19 @@ def _outside(drive, member, region):
 @pytest.mark.parametrize("name", SOME)
 def test_no_exported_point_lies_outside_the_blank(name):
     drive = Drive.load(name)
-    regions = [(b["name"], "flank") for b in drive.design.description["bodies"]]
-    for member, region in regions:
-        assert _outside(drive, member, region) < 1e-6
+    for body in drive.design.description["bodies"]:
+        assert _outside(drive, body["name"], "flank") < 1e-6
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("name", sorted(path.name[:-5] for path in (files("meshwright") / "designs").iterdir()))
+def test_no_exported_point_of_any_packaged_design_lies_outside_its_blank_or_limits(name):
+    """Beside the radii of the blank, every limit function of the surface itself."""
+    drive = Drive.load(name)
+    for body in drive.design.description["bodies"]:
+        assert _outside(drive, body["name"], "flank") < 1e-6
+        region, mesh = drive.region(body["name"]), drive.surface(body["name"], (9, 17)).mesh
+        assert region.limits.least(region.flank(mesh.parameters)).min() > -1e-6
 
 
 def test_two_limits_meet_in_a_corner_of_the_mesh():

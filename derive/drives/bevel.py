@@ -15,6 +15,7 @@ import sympy as sp
 
 from derive.drives import bevel_keys as k
 from derive.drives.bevel_keys import GEAR, PINION, Settings
+from derive.drives.bevel_rexs import EXCHANGE
 from derive.language import vectors as v
 from derive.language.chain import Ry, Rz, translation
 from derive.language.contact import contact
@@ -195,6 +196,7 @@ def bevel(cut_gear):
         variant={"pinion.method": "generated", "gear.method": "formate" if formate else "generated"},
         handed="left",
         loading=Loading(pairs=5, torque_on="wheel"),
+        exchange=EXCHANGE,
         sources=(Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 21, 22"),),
         flanks_apart=True,
         absorbs_errors=True,

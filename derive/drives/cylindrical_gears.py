@@ -12,6 +12,7 @@ import sympy as sp
 
 from derive.drives import cylindrical_gears_keys as k
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
+from derive.drives.cylindrical_gears_rexs import EXCHANGE
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, placement, translation
 from derive.language.choice import excess, is_zero, only_where_zero
@@ -140,6 +141,7 @@ def cylindrical_gears():
         sample_angle=0.03,
         pinion_teeth=PINION.teeth.key,
         loading=Loading(pairs=3, torque_on="pinion"),
+        exchange=EXCHANGE,
         functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
         least_teeth={
             g.name: LeastTeeth(g.teeth.key, (g.tip_relief.radius.key, g.root_relief.radius.key))

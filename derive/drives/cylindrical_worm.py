@@ -351,6 +351,7 @@ def cylindrical_worm(worm_profile, hob_profile):
             ToolUse("hob", hob_profile, hob_tool, tuple(own[b][d].key for d in hob_tool.data for b in ("worm", "hob"))),
         ),
         loading=Loading(pairs=5, torque_on="wheel"),
+        exchange=_exchange(),
         sources=SOURCES,
         handed="right",
         exclusive=(
@@ -358,6 +359,13 @@ def cylindrical_worm(worm_profile, hob_profile):
             (lead_angle.key, pitch_radius.key),
         ),
     )
+
+
+def _exchange():
+    """The family in REXS; that page reads this one's keys."""
+    from derive.drives.cylindrical_worm_rexs import EXCHANGE
+
+    return EXCHANGE
 
 
 def _rack_sizes(same_profile):

@@ -1,8 +1,9 @@
 """Print the table of families: what is known of every drive before it is derived.
 
-``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats and the ``drives``: for
-each what its own description says (:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``,
-as places in that list. Checks, JSON Schema and errors offer from it what is derived and compiled on first use.
+``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats, the ``exchange`` with
+other programs (:mod:`derive.exchange.rexs`) and the ``drives``: for each what its own description says
+(:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks,
+JSON Schema and errors offer from it what is derived and compiled on first use.
 ``outline`` says how a first design is made (:mod:`derive.language.outline`), where the family has one.
 """
 
@@ -10,15 +11,22 @@ import json
 
 from derive.drives.outlines import OUTLINES
 from derive.emit import metadata
+from derive.exchange import rexs
 from derive.language.description import prefix
 
 
 def table(drives):
     """The table of these drives (:class:`~derive.language.drive.Drive`), as plain data."""
-    families = {}
+    members = {}
     for drive in drives:
-        family = families.setdefault(drive.family, {"parameters": [], "drives": [], "outline": _outline(drive.family)})
-        family["drives"].append(_drive(drive, family["parameters"]))
+        members.setdefault(drive.family, []).append(drive)
+    families = {}
+    for name, listed in members.items():
+        parameters = []
+        described = [_drive(drive, parameters) for drive in listed]
+        families[name] = {
+            "parameters": parameters, "exchange": rexs.table(listed), "drives": described, "outline": _outline(name),
+        }  # fmt: skip
     return {"schema": "meshwright.families/1", "families": families}
 
 
@@ -37,8 +45,13 @@ def _outline(family):
 
 
 def text(families):
-    """The file of a table."""
-    return json.dumps(families, indent=1, ensure_ascii=False) + "\n"
+    """The file of a table; an exchange, whose expressions are nested, takes a line."""
+    compact = {name: json.dumps(f["exchange"], ensure_ascii=False) for name, f in families["families"].items()}
+    marked = {name: family | {"exchange": f"@{name}"} for name, family in families["families"].items()}
+    written = json.dumps(families | {"families": marked}, indent=1, ensure_ascii=False) + "\n"
+    for name, line in compact.items():
+        written = written.replace(f'"exchange": "@{name}"', f'"exchange": {line}')
+    return written
 
 
 def _drive(drive, known):

@@ -196,7 +196,8 @@ class Drive:
     ``reference_angle`` (a parameter, or 0) is the input angle at which the pair meets in the middle of its flanks: the
     start values lead there, and relative transmission errors refer to it.
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
-    contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows.
+    contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows,
+    ``exchange`` what of it a neutral file holds (:class:`~derive.exchange.rexs.Exchange`).
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     ``least_teeth``, by member, says how the least number of teeth without undercut is sought; ``tool_clearance`` what
@@ -243,6 +244,7 @@ class Drive:
     reference_angle: sp.Expr = sp.S.Zero
     proportions: tuple[Rule, ...] = ()
     loading: Loading | None = None
+    exchange: object = None
     sources: tuple[Source, ...] = ()
 
     @property

@@ -509,8 +509,9 @@ static int carry(search *h, const mw_model *m, const double *s, const mw_flank_m
     double from[MAX_K];
     memcpy(from, P->q, sizeof from);
     for (int k = 1; k <= WALK; k++) {
+        const double share = (double)k / (double)WALK;
         place next = *P;
-        for (int i = 0; i < h->nw; i++) next.q[i] = from[i] + (q[i] - from[i]) * k / WALK;
+        for (int i = 0; i < h->nw; i++) next.q[i] = from[i] + share * (q[i] - from[i]);
         if (meet(h, &next)) *P = next;
         else if (k == WALK) return MW_DIVERGED;
     }

@@ -9,7 +9,7 @@ MODULES = {
         "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
         "schema", "grid", "identify",
     )
-}  # fmt: skip
+} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
 
 
 def module(name):

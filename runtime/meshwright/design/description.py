@@ -20,6 +20,8 @@ class Family:
     ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
     key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows,
     or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
+    ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
+    file holds (:mod:`meshwright.rexs`), None if nothing.
     ``outline`` says how a first design is made; None where the family does not say it.
     """
 
@@ -28,6 +30,8 @@ class Family:
     variants: dict
     variant_defaults: dict
     handed: str
+    listed: dict
+    exchange: dict | None = None
     outline: dict | None = None
 
     @classmethod
@@ -41,9 +45,12 @@ class Family:
             for parameter in named[drive]["parameters"]:
                 listed.setdefault((parameter["table"], parameter["key"]), []).append(parameter)
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
+        own = {name: drive["parameters"] for name, drive in named.items()}
         handed = max(drive["handed"] for drive in named.values())
-        outline = next((drive["outline"] for drive in drives if drive.get("outline")), None)
-        return cls(name, parameters, variants, defaults, handed, outline)
+        exchange, outline = (
+            next((drive[kind] for drive in drives if drive.get(kind)), None) for kind in ("exchange", "outline")
+        )
+        return cls(name, parameters, variants, defaults, handed, own, exchange, outline)
 
 
 def _joint(family, place, found, everywhere):
@@ -79,7 +86,8 @@ def _drives_in(folder):
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
                 own = [family["parameters"][k] for k in drive["parameters"]]
-                yield drive | {"parameters": own, "outline": family["outline"]}
+                shared = {kind: family.get(kind) for kind in ("exchange", "outline")}
+                yield drive | {"parameters": own} | shared
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")
     else:

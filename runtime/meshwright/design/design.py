@@ -18,7 +18,7 @@ import pydantic
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, pointer, text
 from meshwright.design import description as metadata
-from meshwright.design import schema
+from meshwright.design import expression, schema
 from meshwright.design.mirror import Mirror
 
 PACKAGED = Path(__file__).parent.parent / "designs"
@@ -206,15 +206,20 @@ def _shown(parameter, number):
     return words.get(number, number / parameter["factor"])
 
 
-def check(tables):
-    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+def validated(tables):
+    """Family and tables of a design, each key checked by itself; raises :class:`DesignError`."""
     known = metadata.families()
     if "drive" not in tables:
         raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
     family = tables["drive"]
     if not isinstance(family, str) or family not in known:
         raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
-    checked = _validated(family, tables)
+    return family, _validated(family, tables)
+
+
+def check(tables):
+    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
+    family, checked = validated(tables)
     description = _variant(family, checked)
     _check_exclusive(description, tables["design"])
     _check_needed(description, checked)
@@ -230,6 +235,33 @@ def check(tables):
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
     return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked))
+
+
+def by_rules(tables):
+    """A design without its compiled drive: tables with every word filled in, and its parameters by their symbols.
+
+    Numbers are in inner units, NaN where the design leaves them open or a design system finds them. What the drive's
+    tools have to say of each other is not checked; raises :class:`DesignError` for all else.
+    """
+    family, checked = validated(tables)
+    known = metadata.families()[family]
+    words = words_of(known, checked)
+    drive = next(name for name, variant in known.variants.items() if all(words[k] in v for k, v in variant.items()))
+    description = {
+        "title": f"{family} drive", "family": family, "parameters": known.listed[drive], "together": [],
+        "exclusive": known.exchange["exclusive"],
+    }  # fmt: skip
+    for check_of_keys in (_check_needed, _check_order):
+        check_of_keys(description, checked)
+    _check_exclusive(description, tables["design"])
+    symbols = {p["name"]: math.nan for p in known.parameters}
+    given = zip(description["parameters"], _vector(description, checked), strict=True)
+    symbols |= {p["name"]: float(number) for p, number in given}
+    symbols = expression.completed(known.exchange["rules"], symbols)
+    for guard in known.exchange["guards"]:
+        if expression.value(guard["positive"], symbols) <= 0.0:
+            raise _guard_error(guard, checked)
+    return checked, symbols
 
 
 def _validated(family, tables):
@@ -290,13 +322,20 @@ def _known_keys(family, place):
 
 def _variant(family, checked):
     """The drive for the design's words; words left out follow the word they default to."""
-    known = metadata.families()[family]
-    for place, source in known.variant_defaults.items():
+    return metadata.choose(family, words_of(metadata.families()[family], checked))
+
+
+def words_of(family, checked):
+    """The words that choose the drive of a :class:`~meshwright.design.description.Family`, by place.
+
+    Those left out are filled in, in place, with the word that they default to.
+    """
+    for place, source in family.variant_defaults.items():
         table, key = metadata.table_and_key(place)
         if checked[table][key] is None:
             checked[table][key] = _given(checked, source)
-    places = {place for variant in known.variants.values() for place in variant}
-    return metadata.choose(family, {place: _given(checked, place) for place in places})
+    places = {place for variant in family.variants.values() for place in variant}
+    return {place: _given(checked, place) for place in places}
 
 
 def _given(tables, place):
