@@ -20,7 +20,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, DesignSystem, Drive, Loading, Margin, Region, Role, Source, System, body_point
 from derive.language.envelope import envelope, explicit
-from derive.language.functions import Function, LeastTeeth, Result
+from derive.language.functions import Function, LeastTeeth, Result, solid
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Quantity, Unknown, rotation_angle
@@ -142,7 +142,7 @@ def cylindrical_gears():
         pinion_teeth=PINION.teeth.key,
         loading=Loading(pairs=3, torque_on="pinion"),
         exchange=EXCHANGE,
-        functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
+        functions=tuple(function for tooth in teeth for function in (*_undercut(tooth), _solid(tooth))),
         least_teeth={
             g.name: LeastTeeth(g.teeth.key, (g.tip_relief.radius.key, g.root_relief.radius.key))
             for g in (PINION, WHEEL)
@@ -173,6 +173,24 @@ def _undercut(tooth):
             (Result("edge_position", (rack.along,), "mm", gear.name),),
         ),
     )
+
+
+def _solid(tooth):
+    """A modified flank meets the tip near the end of the edge, not far beyond it."""
+    gear, half_face = tooth.gear, tooth.gear.face_width.symbol / 2
+    sizes = {
+        "module": (m, "mm"),
+        "teeth": (gear.teeth.symbol, ""),
+        "root_radius": (gear.reference_radius + gear.shift - k.dedendum.symbol, "mm"),
+        "face_first": (-half_face, "mm"),
+        "face_last": (half_face, "mm"),
+        "flank_root": (k.EDGE_START, "mm"),
+        "tip_first": (k.EDGE_START, "mm"),
+        "tip_last": (gear.edge_end + m / 4, "mm"),
+        "fillet_junction": (0, "rad"),
+        "fillet_land": (sp.pi / 2 - alpha, "rad"),
+    }
+    return solid(gear.name, sizes)
 
 
 def _body(tooth, motion):

@@ -13,10 +13,12 @@ import sympy as sp
 from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
+from derive.language.choice import excess
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, Drive, Loading, Margin, Region, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit, merge_sum
+from derive.language.functions import solid
 from derive.language.rack_and_pinion import Rack
 from derive.language.symbols import Guard, Rule, Table, Unknown, parameter, rotation_angle
 from derive.tools.axial_blade import axial_blade
@@ -186,6 +188,52 @@ RULES = (
     Rule(hob_tip.symbol, (2 * m_n + shift.symbol) * preset.symbol),
 )
 
+#: Proportions of ISO/TR 10828 over the axial module: addendum, clearance, rounding, and how far the outside cylinder of
+#: a throated wheel lies beyond its throat.
+STANDARD_ADDENDUM, STANDARD_CLEARANCE, STANDARD_ROUNDING, BEYOND_THROAT = (
+    sp.Rational(n, 10) for n in (10, 2, 3, 5)
+)  # fmt: skip
+
+#: Part used of the angle about the hob over which it cuts the wheel.
+SHEET_USED = sp.Rational(6, 10)
+
+#: Distance from the wheel's axis to the tip cylinder of the hob.
+hob_end = A_gen - r_h - hob_tip.symbol
+
+
+def _standard_rounding():
+    """Rounding of the hob's tip: the standard one, or what clearance and hob allow if that is less.
+
+    On a straight-sided profile a rounding ϱ takes ϱ(1 − sin α) from the height, where the clearance is (ISO 53), and
+    ϱ(1 − sin α)/cos α from the land on either side.
+    """
+    land = excess(sp.pi * m_n - groove_width - 2 * hob_tip.symbol * sp.tan(alpha_h))
+    allowed = sp.Min(STANDARD_CLEARANCE * m_x, land * sp.cos(alpha_h) / 2) / (1 - sp.sin(alpha_h))
+    return sp.Min(STANDARD_ROUNDING * m_x, allowed)
+
+
+def _standard_face():
+    """The chord that the worm's tip circle cuts from its pitch line; less where the hob's flank does not reach so far.
+
+    The flank ends where the hob's normal has no part along the centre line: at tan = tan α/sin λ.
+    """
+    chord = 2 * m_x * sp.sqrt(2 * r_1 / m_x + 1)
+    sheet = sp.atan2(sp.tan(alpha), sp.sin(lam))
+    return sp.Min(chord, 2 * r_1 * sp.sin(SHEET_USED * sheet))
+
+
+#: What completes a blank. Of two rules for one size the second serves a wheel without a throat.
+PROPORTIONS = (
+    Rule(hob_tip.symbol, (STANDARD_ADDENDUM + STANDARD_CLEARANCE) * m_x + shift.symbol),
+    Rule(wheel_tip.symbol, wheel_throat.symbol + BEYOND_THROAT * m_x),
+    Rule(wheel_tip.symbol, r_2 + STANDARD_ADDENDUM * m_x - shift.symbol),
+    Rule(hob_rounding.symbol, _standard_rounding()),
+    Rule(worm_tip.symbol, A - hob_end - STANDARD_CLEARANCE * m_x),
+    Rule(worm_root.symbol, A - wheel_throat.symbol - STANDARD_CLEARANCE * m_x),
+    Rule(worm_root.symbol, A - wheel_tip.symbol - STANDARD_CLEARANCE * m_x),
+    Rule(face_width.symbol, _standard_face()),
+)
+
 GUARDS = (
     Guard(
         1 - m_n * T_1 / (2 * r_1),
@@ -342,15 +390,26 @@ def cylindrical_worm(worm_profile, hob_profile):
         pinion_teeth=threads.key,
         variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
         variant_defaults={"hob_profile": "worm_profile"},
-        functions=generation_functions(
-            worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered,
-            _rack_sizes(worm_profile == hob_profile),
+        functions=(
+            *generation_functions(
+                worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered,
+                _rack_sizes(worm_profile == hob_profile),
+            ),
+            *_solids(),
         ),
         tools=(
             ToolUse("worm", worm_profile, worm_tool, tuple(own["worm"][d].key for d in worm_tool.data)),
             ToolUse("hob", hob_profile, hob_tool, tuple(own[b][d].key for d in hob_tool.data for b in ("worm", "hob"))),
         ),
-        loading=Loading(pairs=5, torque_on="wheel"),
+        loading=Loading(
+            pairs=5,
+            torque_on="wheel",
+            keys={
+                name: f"{Table.BLANK.value}.{p.key}"
+                for name, p in (("wheel_face", face_width), ("wheel_tip", wheel_tip), ("tool_rounding", hob_rounding))
+            },
+        ),
+        proportions=PROPORTIONS,
         exchange=_exchange(),
         sources=SOURCES,
         handed="right",
@@ -359,6 +418,25 @@ def cylindrical_worm(worm_profile, hob_profile):
             (lead_angle.key, pitch_radius.key),
         ),
     )
+
+
+def _solids():
+    """Thread and wheel of a whole blank; the root of the wheel is that of its middle plane."""
+    worm = {
+        "module": (m_x, "mm"),
+        "root_radius": (worm_root.symbol, "mm"),
+        "tip_radius": (worm_tip.symbol, "mm"),
+        "rounding": (STANDARD_ROUNDING * m_x, "mm"),
+        "taper": (0, ""),
+    }
+    wheel = {
+        "module": (m_x, "mm"),
+        "teeth": (T_2, ""),
+        "root_radius": (hob_end, "mm"),
+        "face_first": (-face_width.symbol / 2, "mm"),
+        "face_last": (face_width.symbol / 2, "mm"),
+    }
+    return solid("pinion", worm), solid("wheel", wheel)
 
 
 def _exchange():

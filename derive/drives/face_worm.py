@@ -30,7 +30,7 @@ from derive.language.drive import (
     body_point,
 )
 from derive.language.envelope import envelope, nearest_turn
-from derive.language.functions import Function, Result, ToolClearance
+from derive.language.functions import Function, Result, ToolClearance, solid
 from derive.language.origin import Origin
 from derive.language.replace import replaced
 from derive.language.surface import Surface
@@ -311,7 +311,7 @@ def face_worm():
         sample_angle=1.0,
         pinion_teeth=k.threads.key,
         together=tuple(tuple(f"{p.table}.{p.key}" for p in group) for group in k.TOGETHER),
-        functions=_limit_functions(cutter, gear, worm, reference),
+        functions=(*_limit_functions(cutter, gear, worm, reference), *_solids(cutter)),
         tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),
         sources=SOURCES,
@@ -352,6 +352,38 @@ def _limit_functions(cutter, gear, worm, reference):
             ),
         ),
     )
+
+
+def _solids(cutter):
+    """Gear and thread. The source gives the thread no height: it is as high as the gear's space is deep but for the
+    clearance, and rounded at its root like the blade's edge. Tooth and space are equally wide at the middle.
+    """
+    slant = sp.cos(alpha_g)
+    gear = {
+        "module": (m_ax, "mm"),
+        "teeth": (N_2, ""),
+        "face_first": (R_in, "mm"),
+        "face_last": (R_out, "mm"),
+        "flank_root": (cutter.junction, "mm"),
+        "tip_first": (0, "mm"),
+        "tip_last": (2 * m_ax, "mm"),
+        "fillet_junction": (cutter.fillet_end, "rad"),
+        "fillet_land": (0, "rad"),
+        "middle": (0, "mm"),
+    }
+    worm = {
+        "module": (m_ax, "mm"),
+        "root_radius": (r_p - k.blade_depth.symbol, "mm"),
+        "tip_radius": (r_p + k.addendum.symbol, "mm"),
+        "rounding": (k.fillet_radius.symbol, "mm"),
+        "taper": (taper, ""),
+        "thickness": (sp.pi * m_ax / 2, "mm"),
+        "screw_parameter": (p_1, "mm"),
+        "span_root": (k.blade_depth.symbol / slant, "mm"),
+        "span_middle": (0, "mm"),
+        "span_tip": (-sp.Rational(8, 5) * m_ax, "mm"),
+    }
+    return solid("wheel", gear), solid("pinion", worm)
 
 
 def _undercut_range(surface, first, middle, last, **along):

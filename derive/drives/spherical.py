@@ -18,7 +18,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit
-from derive.language.functions import Function, LeastTeeth, Result
+from derive.language.functions import Function, LeastTeeth, Result, solid
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Unknown, rotation_angle
@@ -124,7 +124,7 @@ def spherical(pinion_form, wheel_form):
         ),
         loading=Loading(pairs=3, torque_on="pinion"),
         sources=SOURCES,
-        functions=tuple(function for tooth in teeth for function in _undercut(tooth)),
+        functions=tuple(function for tooth in teeth for function in (*_undercut(tooth), _solid(tooth))),
         least_teeth={
             tooth.gear.name: LeastTeeth(
                 tooth.gear.teeth.key, tuple(p.key for p in tooth.gear.own(SWEEPS[form]).values())
@@ -159,6 +159,24 @@ def _undercut(tooth):
             (Result("edge_position", (tool.along,), "mm", gear.name),),
         ),
     )
+
+
+def _solid(tooth):
+    gear, tool = tooth.gear, tooth.tool
+    half_face = gear.face_width.symbol / 2
+    sizes = {
+        "module": (m, "mm"),
+        "teeth": (gear.teeth.symbol, ""),
+        "root_radius": (_root_radius(tooth), "mm"),
+        "face_first": (-half_face, "mm"),
+        "face_last": (half_face, "mm"),
+        "flank_root": (0, "mm"),
+        "tip_first": (0, "mm"),
+        "tip_last": (tool.edge_length, "mm"),
+        "fillet_junction": (0, "rad"),
+        "fillet_land": (sp.pi / 2 - alpha, "rad"),
+    }
+    return solid(gear.name, sizes)
 
 
 def _body(tooth, motion):

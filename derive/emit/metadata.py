@@ -37,7 +37,7 @@ def describe(plan, provenance):
             {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
             for use in drive.tools
         ],
-        "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
+        "loading": drive.loading and asdict(drive.loading),
         "pinion_teeth": drive.pinion_teeth,
         "exclusive": [list(group) for group in drive.exclusive],
         "reference_angle": prefix(drive.reference_angle),

@@ -5,6 +5,7 @@ the steps by which they were made. ``derive/README.md`` documents the form; noth
 """
 
 import json
+from dataclasses import asdict
 
 import sympy as sp
 
@@ -275,7 +276,7 @@ def _describe(drive):
             }
             for f in drive.functions
         ],
-        "loading": drive.loading and {"pairs": drive.loading.pairs, "torque_on": drive.loading.torque_on},
+        "loading": drive.loading and asdict(drive.loading),
         "sample": {key: str(value) for key, value in drive.sample.items()},
         "sample_angle": str(drive.sample_angle),
     }  # fmt: skip

@@ -178,10 +178,15 @@ class ToolUse:
 
 @dataclass(frozen=True)
 class Loading:
-    """How the drive is loaded: how many tooth pairs can share the load, and the member whose torque is stated."""
+    """How the drive is loaded: how many tooth pairs can share the load, and the member whose torque is stated.
+
+    ``keys`` are design keys ("table.key") that messages about solid teeth name: of a wheel that a threaded tool
+    generates its ``wheel_face`` and ``wheel_tip`` and the ``tool_rounding``.
+    """
 
     pairs: int
     torque_on: str
+    keys: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

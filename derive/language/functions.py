@@ -12,10 +12,13 @@ undercut_place_M     of a surface's parameters: the place on the tool, a result 
                      the margins do not say it
 profile_pinion, profile_tool, profile_range_…, generation, section, tool_point, second_type, meshing_axes, rack_sizes
                      generation of the wheel by a helicoid: see :mod:`derive.language.rack_and_pinion`
+solid_M              sizes of the solid teeth of a member: see :func:`solid`
 tool_clearance       sizes of a tool of revolution that passes over finished teeth: see :class:`ToolClearance`
 """
 
 from dataclasses import dataclass
+
+import sympy as sp
 
 from derive.language import vectors as v
 
@@ -68,6 +71,31 @@ class Function:
     arguments: tuple
     results: tuple[Result, ...]
     rests_on: tuple[str, ...] = ()
+
+
+def solid(member, sizes):
+    """The function ``solid_<member>`` that makes a solid of the member; ``sizes`` are values and units by name.
+
+    Every member: ``module`` (the depth of the rim is counted in it) and, where a bore bounds the rim, ``root_radius``.
+
+    A gear (its flank lies lengthwise "axial" or along the "radius"): ``teeth``; ``face_first``, ``face_last`` along the
+    face; the profile parameters ``flank_root`` of the flank where its fillet begins, ``tip_first`` and ``tip_last``
+    between which it meets the tip, ``fillet_junction`` and ``fillet_land`` of the fillet at the flank and at the root
+    land. Where flanks have designs of their own, ``middle`` is where tooth and space are equally wide.
+
+    A wheel whose fillet is an envelope of three parameters: ``teeth``, ``face_first``, ``face_last``.
+
+    A thread (``tip_radius`` says that it is one): ``tip_radius``, ``root_radius`` at z = 0, ``rounding`` between flank
+    and root, ``taper`` (growth of both radii along z). ``span_root``, ``span_middle`` and ``span_tip`` are profile
+    parameters below the root, in the middle and beyond the tip; without them the margins of the flank say it. Where
+    flanks have designs of their own: ``thickness`` along the axis at the middle, ``screw_parameter``.
+    """
+    return Function(
+        f"solid_{member}",
+        f"sizes of the solid teeth of the {member}",
+        (),
+        tuple(Result(name, (sp.sympify(value),), unit) for name, (value, unit) in sizes.items()),
+    )
 
 
 def both_turns(a, b, c):

@@ -66,7 +66,7 @@ def differentiable_tca(description, mirrored=False):
 def parameters(design, free):
     """CasADi function v → p: the parameter vector of a :class:`~meshwright.design.design.Design` with keys left free.
 
-    ``free`` are places such as ``"design.hob_pitch_radius_mm"``, ``v`` their values in the units of the keys. What
+    ``free`` are places such as ``"design.pinion_helix_angle_deg"``, ``v`` their values in the units of the keys. What
     the design leaves open follows from ``v`` by the drive's rules and design systems, as it does when a design file
     is read; where a design system has no regular solution, what it would give is NaN. Raises
     :class:`~meshwright.base.errors.UsageError` for an unknown place.

@@ -9,7 +9,6 @@ from on_flank import distance_from_flank
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
-from meshwright.fe.cylindrical_worm import completed
 from meshwright.fe.generated import about_z
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.loaded import loaded_contact
@@ -27,7 +26,12 @@ ANGLES = {"recess-action-full": np.radians(1200.0), "zk-zn-60": 0.2, "plain-zn":
 def drive_and_gear(request):
     """A drive with a whole blank, its gear pair and a worm angle at which it is in mesh."""
     drive = Drive.load(request.param)
-    return completed(drive)[0], gear_pair(drive), ANGLES[request.param]
+    return whole(drive), gear_pair(drive), ANGLES[request.param]
+
+
+def whole(drive):
+    """The drive with the standard proportions where its blank is open."""
+    return Drive(drive.design.with_whole_blank()[0])
 
 
 def body_of(member, angle):
@@ -125,7 +129,7 @@ def test_contact_ratio_of_the_whole_blank():
 @pytest.mark.parametrize("name", ["plain-za", "plain-zc", "plain-zi", "plain-zk", "plain-zn"])
 def test_tip_of_a_wide_wheel_is_that_of_its_blank(name):
     """Throat and outside cylinder, though at the faces the tooth is lower than the middle of its flank at mid face."""
-    drive = completed(Drive.load(name))[0]
+    drive = whole(Drive.load(name))
     value = drive.design.value
     distance, throat = value("center_distance_mm"), value("wheel_throat_radius_mm", "blank")
     sections = np.linspace(-16.0, 16.0, 17)

@@ -7,14 +7,13 @@ from on_flank import distance_from_flank, turn_onto_flank
 from meshwright import Drive
 from meshwright.fe.body import PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.compliance import tooth_compliance
-from meshwright.fe.face_worm import gear_teeth, worm_teeth
 from meshwright.fe.generated import about_z
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.hexahedra import FACES
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.model import Load, build_model
 from meshwright.fe.pictures import view
-from meshwright.fe.solids import gear_pair
+from meshwright.fe.solids import gear_pair, teeth_of
 
 FLANKS = {"convex": ("convex", "concave"), "concave": ("concave", "convex")}
 DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
@@ -24,7 +23,7 @@ DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
 def test_gear_teeth(name):
     """Valid elements; fillet and flank nodes on the head-cutter's surfaces, found by their distance to its axis."""
     drive = Drive.load(name)
-    form = gear_teeth(drive, 6.0).at(0.0)
+    form = teeth_of(drive, "wheel", 6.0).at(0.0)
     placed = [PlacedTooth(form, about_z(k * 2.0 * np.pi / 60), None) for k in (0, 1)]
     body = mesh_body(placed, DENSITY)
     assert body.mesh.smallest_jacobian() > 0.2
@@ -122,7 +121,7 @@ def test_thread_is_half_a_pitch_thick(threads):
 
 def test_thread_rounding_is_smooth():
     """The arc at the root joins the flank with its tangent plane, and the root with its normal."""
-    form = worm_teeth(Drive.load("face-worm-conical-convex"), 4.0).at(0.0)
+    form = teeth_of(Drive.load("face-worm-conical-convex"), "pinion", 4.0).at(0.0)
     sections = np.linspace(*form.faces, 5)
     for side in (form.left, form.right):
         ends = [
@@ -147,7 +146,7 @@ def test_thread_rounding_is_smooth():
 
 def test_worm_points_satisfy_their_meshing_equation():
     drive = Drive.load("face-worm-conical-convex")
-    curves = worm_teeth(drive, 4.0).at(0.0).left.flank
+    curves = teeth_of(drive, "pinion", 4.0).at(0.0).left.flank
     contact = drive.tca([0.0])
     along = contact.unknowns["u_worm"], contact.unknowns["psi_worm"]
     assert curves.surface(*along)[0][0] == pytest.approx(contact.body_points["pinion"][0], abs=1e-9)

@@ -7,7 +7,7 @@
 #define MW_QUOTE2(text) #text
 #define MW_QUOTE(text) MW_QUOTE2(text)
 
-/* MW_OF(_model) is face_worm_model; MW_GENERATED(_lanes) is "face_worm_lanes.h" */
+/* of a drive "pair", MW_OF(_model) is pair_model and MW_GENERATED(_lanes) "pair_lanes.h" */
 #define MW_OF(suffix) MW_PASTE(MW_DRIVE, suffix)
 #define MW_GENERATED(suffix) MW_QUOTE(MW_OF(suffix).h)
 

@@ -27,7 +27,7 @@ def add_arguments(parser):
         default=1800.0,
         metavar="S",
         help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, seconds for "
-        "gears and about a minute for worm drives, and the mesh of each angle, seconds",
+        "gears and about a minute for threads, and the mesh of each angle, seconds",
     )
     parser.add_argument(
         "--threads", type=common.count, default=1, metavar="N", help="of the solver; a second one gains little"

@@ -5,19 +5,18 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.commands import options as common
 
-#: Pairs that can share the load at once, and the member whose torque is usually stated, by family.
-PAIRS = {"spherical": 3, "face-worm": 5, "cylindrical-worm": 5}
-STATED_TORQUE = {"spherical": "pinion", "face-worm": "wheel", "cylindrical-worm": "wheel"}
+#: Pairs modelled, and the member whose torque is stated, of a drive whose description does not say.
+PAIRS, STATED_TORQUE = 3, "pinion"
 
 
 def add_arguments(parser):
     common.add_design(parser)
-    stated = "on the pinion of spherical gears, on the wheel (gear) of worm drives"
+    parser.add_argument("--torque-nm", type=float, required=True, metavar="T", help="torque, N m, above zero")
     parser.add_argument(
-        "--torque-nm", type=float, required=True, metavar="T", help=f"torque, N m, above zero; {stated}"
-    )
-    parser.add_argument(
-        "--torque-on", choices=("pinion", "wheel"), help="whose torque instead; the rim of the other member is held"
+        "--torque-on",
+        choices=("pinion", "wheel"),
+        help="whose torque it is; the rim of the other member is held; default: as is usual for the drive, on the "
+        "pinion of gears, on the wheel where a thread drives it",
     )
     parser.add_argument("--pairs", type=int, metavar="N", help="tooth pairs modelled; default: as many as can share")
     parser.add_argument(
@@ -47,9 +46,9 @@ def loaded_gears(fe, options, drive, step):
     """(gear pair, load, pairs) that the options ask for."""
     step("flanks and blanks")
     gear = fe.solids.gear_pair(drive, options.rim_mm)
-    member = options.torque_on or STATED_TORQUE[drive.design.family]
-    load = fe.model.Load(1000.0 * options.torque_nm, member)
-    return gear, load, options.pairs or PAIRS[drive.design.family]
+    usual = drive.design.description["loading"] or {"pairs": PAIRS, "torque_on": STATED_TORQUE}
+    load = fe.model.Load(1000.0 * options.torque_nm, options.torque_on or usual["torque_on"])
+    return gear, load, options.pairs or usual["pairs"]
 
 
 def blank_note(gear):

@@ -31,7 +31,10 @@ def add_arguments(parser):
     parser.add_argument("--region", choices=("flank", "fillet"), default="flank", help="default: flank")
     parser.add_argument("--grid", default="21x41", metavar="NxM", help="points across and along; default 21x41")
     parser.add_argument(
-        "--section", type=common.number, metavar="C", help="profile in the plane y = C of a right-angle worm drive, mm"
+        "--section",
+        type=common.number,
+        metavar="C",
+        help="profile in the plane y = C, mm, where tool and wheel are a rack and a pinion at right angles",
     )
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.surface/1)")
     parser.add_argument("--vtu", metavar="FILE|-", help="write for ParaView")

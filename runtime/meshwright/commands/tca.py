@@ -35,7 +35,7 @@ def add_arguments(parser):
     )
     parser.add_argument(
         "--all-contacts", action="store_true",
-        help="search for further contacts of the same tooth pair at each angle (worm drives; CSV gives their number)",
+        help="search for further contacts of the same tooth pair at each angle (CSV gives their number)",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")

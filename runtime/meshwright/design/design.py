@@ -166,6 +166,20 @@ class Design:
             return math.nan
         raise KeyError(f"{table}.{key}")
 
+    def with_whole_blank(self):
+        """(design, assumed): the design with the standard proportions where it leaves its blank open, and which these
+        are, by key in the units of the keys.
+        """
+        listed = self.description["parameters"]
+        known = {p["name"]: float(number) for number, p in zip(self.parameters, listed, strict=True)}
+        whole = expression.completed(self.description["proportions"], known)
+        of = {p["name"]: p for p in listed}
+        names = dict.fromkeys(name for name, _ in self.description["proportions"])
+        filled = [of[name] for name in names if math.isnan(known[name]) and not math.isnan(whole[name])]
+        assumed = {p["key"]: whole[p["name"]] / p["factor"] for p in filled}
+        changes = {f"{p['table']}.{p['key']}": assumed[p["key"]] for p in filled}
+        return (check(changed(self.given(), changes)) if changes else self), assumed
+
     def given(self):
         """The tables as the design file gives them, without the keys that it leaves open."""
         closed = {}

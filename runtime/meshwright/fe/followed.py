@@ -106,13 +106,13 @@ class Line:
         """Profile parameter (K,) in each section up to which a line that meets a cusp is regular."""
         return self._end_of(self.regular, lambda found: found.regular > 0.0)
 
-    def up_to(self, height: Callable[[Floats], Floats]) -> Floats:
-        """Profile parameter (K,) in each section at which a height (...,) of points (..., 3) first falls to zero.
+    def up_to(self, height: Callable[[FlankPoints], Floats]) -> Floats:
+        """Profile parameter (K,) in each section at which a height (N,) of places of the surface first falls to zero.
 
         Raises ValueError where the line ends before, or all of it is beyond.
         """
         def inside(found: FlankPoints) -> Bools:
-            return (found.regular > 0.0) & (height(found.points) > 0.0)
+            return (found.regular > 0.0) & (height(found) > 0.0)
 
         places = zip(self.profile, self.face, self.regular, strict=True)
         held = np.stack([
@@ -121,7 +121,7 @@ class Line:
         if not np.all(held.any(axis=0)):
             raise ValueError("some section of its face has no flank below the tip")
         found = self._end_of(held, inside)
-        if not np.all(np.abs(height(self.at(found).points)) < _ON_PLACE):
+        if not np.all(np.abs(height(self.at(found))) < _ON_PLACE):
             raise ValueError("the flank does not reach its tip in every section of its face")
         return found
 

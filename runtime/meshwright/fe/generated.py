@@ -1,4 +1,4 @@
-"""What the solid models of all families share: generated regions as functions of two parameters, and turns."""
+"""What all solid models share: generated regions as functions of two parameters, and turns."""
 
 from __future__ import annotations
 
@@ -36,6 +36,17 @@ def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, e
         below = generated(np.stack([middle, face], axis=1)).margins["tip"] > 0.0
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     return 0.5 * (low + high)
+
+
+def turned(surface: Surface, angle: float) -> Surface:
+    """The surface turned about z."""
+    rotation = about_z(angle)[:3, :3].T
+
+    def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        points, normals = surface(profile, face)
+        return points @ rotation, normals @ rotation
+
+    return evaluate
 
 
 def constant(value: float) -> Callable[[Floats], Floats]:

@@ -16,10 +16,10 @@ from meshwright.fe.tooth import ToothForm
 
 @dataclass(frozen=True)
 class Member:
-    """Pinion (worm) or wheel.
+    """Pinion or wheel.
 
     tooth: the form of the reference tooth where a pair meets at a member angle in rad: a gear tooth is the same at
-    every angle, of a worm's thread it is the portion that then faces the wheel.  working: the side in contact.
+    every angle, of a thread it is the portion that then faces the wheel.  working: the side in contact.
     pose: member angle in rad to the 4 x 4 motion from the body frame to the fixed frame; the member's axis is the
     z axis of its body frame.  pitch: angle between successive teeth.  turning: +1 if a growing member angle turns
     the body about +z of its own frame, -1 if about -z.

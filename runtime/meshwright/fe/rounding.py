@@ -1,6 +1,6 @@
 """Sides of a tooth whose root is not generated: the flank joins the root by a circular arc in every section.
 
-The arc touches flank and root. Where the flank ends higher up, as a worm's does near its singular line, the arc
+The arc touches flank and root. Where the flank ends higher up, as a thread's does near its singular line, the arc
 starts at the end of the flank and the root is as much higher.
 """
 

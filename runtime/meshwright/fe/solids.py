@@ -1,9 +1,8 @@
-"""The loaded-contact view of a drive: teeth of its family, placement and contact from its analysis."""
+"""The loaded-contact view of a drive: teeth of the form that it says, placement and contact from its analysis."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
@@ -11,14 +10,19 @@ import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact.placement import placed
-from meshwright.cycle.contact_ratio import ContactRatio
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.windows import Window
+from meshwright.design.design import packaged_names
 from meshwright.drive import Drive
-from meshwright.fe import cylindrical_worm, face_worm, spherical
+from meshwright.fe.gear import gear_teeth
 from meshwright.fe.generated import about_z
+from meshwright.fe.generated_wheel import generated_wheel
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.rim import check_rim
+from meshwright.fe.sizes import solid_sizes
+from meshwright.fe.thread_flanks import threads
 from meshwright.fe.tooth import Teeth
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
@@ -28,51 +32,60 @@ _STEP_PITCHES = 0.25
 MemberName = Literal["pinion", "wheel"]
 
 
-@dataclass(frozen=True)
-class _Family:
-    """What a family says of its teeth.
-
-    module: key of the module.  pinion, wheel: teeth of each member, given the rim's depth in mm.  root_radii: in mm,
-    that bound the rim.  completed: the drive with a whole blank, and what of it the design leaves open.
-    """
-
-    module: str
-    pinion: Callable[[Drive, float], Teeth]
-    wheel: Callable[[Drive, float], Teeth]
-    root_radii: Callable[[Drive], dict[str, float]]
-    completed: Callable[[Drive], tuple[Drive, dict[str, float]]] = lambda drive: (drive, {})
-
-
 def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     """The loaded-contact view of a drive, materials from its design.
 
     rim_thickness: depth of the rims below the root in mm; None takes 4.5 modules.
-    Raises UsageError for a family that has no solid model, DesignError where the flanks touch along a line.
+    Raises UsageError for a drive that has no solid model, DesignError where the flanks touch along a line.
     """
-    if drive.design.family not in _FAMILIES:
-        known = ", ".join(_FAMILIES)
-        raise UsageError(f"{drive.design.family}: no solid teeth for this family of drives; there are {known}")
-    family = _FAMILIES[drive.design.family]
-    drive, assumed = family.completed(drive)
+    whole, assumed = drive.design.with_whole_blank()
+    drive = Drive(whole, drive.backend)
+    sizes = {member: solid_sizes(drive, member) for member in ("pinion", "wheel")}
+    if not all(sizes.values()):
+        known = ", ".join(_with_solids())
+        raise UsageError(
+            f"{drive.design.family}: the description of this drive has no sizes of solid teeth, which loaded contact "
+            f"and stress need; families that have them: {known}"
+        )
     if rim_thickness is not None:
-        check_rim(rim_thickness, family.root_radii(drive))
+        check_rim(rim_thickness, {name: of["root_radius"] for name, of in sizes.items() if "root_radius" in of})
     else:
-        rim_thickness = _RIM_MODULES * drive.design.value(family.module)
+        rim_thickness = _RIM_MODULES * sizes["pinion"]["module"]
     if not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
         raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")
     _check_point_contact(drive)
     materials = Materials.of_table(drive.design.tables["material"])
-    pinion = _member(drive, "pinion", family.pinion(drive, rim_thickness), materials.pinion)
-    wheel = _member(drive, "wheel", family.wheel(drive, rim_thickness), materials.wheel)
+    pinion = _member(drive, "pinion", teeth_of(drive, "pinion", rim_thickness), materials.pinion)
+    wheel = _member(drive, "wheel", teeth_of(drive, "wheel", rim_thickness), materials.wheel)
     sense = 1 if drive.design.flank > 0 else -1
     touch = cache(lambda angle: _touch(drive, angle))
-    window = drive.contact_ratio()
+    mesh = Mesh.of(drive)
+    window = mesh.window
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
-    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, window.contact_ratio, tuple(ends))
+    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, mesh.contact_ratio, tuple(ends))
 
 
-def _middle_pair(window: ContactRatio, pitch: float) -> Callable[[float], int]:
+def teeth_of(drive: Drive, member: MemberName, rim_thickness: float) -> Teeth:
+    """The teeth of a member of a drive with a whole blank, with a rim of this depth below the root in mm.
+
+    A member that has the radius of a thread's tip is a thread; a wheel whose fillet is an envelope of three parameters
+    is generated by one; any other is a gear.
+    """
+    if "tip_radius" in solid_sizes(drive, member):
+        return threads(drive, member, rim_thickness)
+    if len(drive.flank(member, "fillet").parameters) > 2:
+        return generated_wheel(drive, member, rim_thickness)
+    return gear_teeth(drive, member, rim_thickness)
+
+
+def _with_solids() -> list[str]:
+    """The families whose packaged designs have solid teeth."""
+    described = [Drive.load(name).design.description for name in packaged_names()]
+    return sorted({of["family"] for of in described if any(f["name"] == "solid_pinion" for f in of["functions"])})
+
+
+def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
     """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
     if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
@@ -89,7 +102,7 @@ def _check_point_contact(drive: Drive) -> None:
 
 
 def _touch(drive: Drive, angle: float) -> Touch | None:
-    """The contact followed from angle 0: a worm's equations have the contact of a turn earlier as a solution too."""
+    """The contact followed from angle 0: equations of a thread have the contact of a turn earlier as a solution too."""
     steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
     path = drive.tca(np.linspace(0.0, angle, steps + 1))
     if not path.solved[-1] or any(flag.startswith("off_") for flag in path.flags[-1]):
@@ -125,26 +138,3 @@ def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) ->
 
     pitch = drive.pitch() if name == "pinion" else drive.pitch() * drive.ratio
     return Member(teeth.at, teeth.working, pose, pitch, turning, material)
-
-
-_FAMILIES = {
-    "spherical": _Family(
-        "module_mm",
-        lambda drive, rim: spherical.gear_teeth(drive, "pinion", rim),
-        lambda drive, rim: spherical.gear_teeth(drive, "wheel", rim),
-        spherical.root_radii,
-    ),
-    "face-worm": _Family(
-        "axial_module_mm",
-        face_worm.worm_teeth,
-        face_worm.gear_teeth,
-        face_worm.root_radii,
-    ),
-    "cylindrical-worm": _Family(
-        "axial_module_mm",
-        cylindrical_worm.worm_teeth,
-        cylindrical_worm.wheel_teeth,
-        cylindrical_worm.root_radii,
-        cylindrical_worm.completed,
-    ),
-}

@@ -1,8 +1,8 @@
-"""The thread of a worm: at every worm angle the portion that faces the wheel, as a tooth of a rack.
+"""The thread of a threaded member: at every angle of it the portion that faces the wheel, as a tooth of a rack.
 
-Sections are half planes through the worm's axis; their coordinate is the length along the reference circle from the
+Sections are half planes through the member's axis; their coordinate is the length along the reference circle from the
 azimuth that faces the wheel. Neighbours along the axis are threads, or turns of the same one, met a pitch earlier and
-later. The shaft goes on beyond the portion, so its end faces are held. The worm turns by its angle about +z of its
+later. The shaft goes on beyond the portion, so its end faces are held. The member turns by its angle about +z of its
 body frame and is right-handed.
 """
 
@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Literal
 
 import numpy as np
 
@@ -19,17 +18,14 @@ from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, Surface
 from meshwright.fe.rounding import Outline, Span, rounded_side
-from meshwright.fe.tooth import Teeth, ToothForm, ToothSide, middle_of_land, moved
+from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide, middle_of_land, moved
 
 # The portion reaches so far to either side of the azimuth that faces the wheel.
 _HALF_PORTION = np.radians(75.0)
 
-SideName = Literal["left", "right"]
-
-
 @dataclass(frozen=True)
 class ThreadFlank:
-    """One side of the thread: the surface at a worm angle in rad, with 0 as face parameter near the wheel."""
+    """One side of the thread: the surface at an angle of the thread in rad, with 0 as face parameter near the wheel."""
 
     at: Callable[[float], Surface]
     span: Span
@@ -74,7 +70,7 @@ def thread_teeth(
     pitch: float,
     facing: Floats,
 ) -> Teeth:
-    """The thread as teeth; facing (3,): a point that faces the wheel at worm angle 0; pitch: angle between threads.
+    """The thread as teeth; facing (3,): a point that faces the wheel at the angle 0; pitch: angle between threads.
 
     Raises ValueError, at first use, where a side cannot be rounded or has no land left at tip or root.
     """
@@ -88,7 +84,7 @@ def thread_teeth(
         return rounded_side(flanks[name].at(angle), section, flanks[name].span, faces, outline)
 
     def cut(angle: float, values: Floats) -> Floats:
-        """Between the thread at this worm angle and its right neighbour, met a pitch later."""
+        """Between the thread at this angle and its right neighbour, met a pitch later."""
         left = side(angle - pitch, "left").root_end(values)
         return middle_of_land(side(angle, "right").root_end(values), moved(about_z(-pitch), left))
 

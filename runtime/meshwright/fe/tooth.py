@@ -28,6 +28,9 @@ from meshwright.fe.profile import Rail, SectionCurves
 _MERGE_TOLERANCE = 1e-8
 
 
+SideName = Literal["left", "right"]
+
+
 @dataclass(frozen=True)
 class ToothSide:
     """Fillet (root land to junction) and flank (junction to tip) of one side, in the body frame."""
@@ -46,12 +49,12 @@ Cut = Callable[[Floats], Floats]
 
 @dataclass(frozen=True)
 class ToothForm:
-    """What a family says of its tooth, or of the portion of a thread that meets one tooth.
+    """What a drive says of its tooth, or of the portion of a thread that meets one tooth.
 
     left and right are so named that (left to right, root to tip, growing section coordinate) is right-handed.
     faces: section coordinate of both end faces.  left_cut, right_cut: where the rim ends and the neighbour's begins.
     bore: points (..., 3) of the root to the points (..., 3) of the bore below them.  cut_ends: the end faces are cuts
-    through a body that goes on, as a worm does, and are held like its bore.
+    through a body that goes on, as a shaft does, and are held like its bore.
     """
 
     left: ToothSide
@@ -81,7 +84,7 @@ class ToothForm:
 
         return cls(left, right, faces, left_cut, right_cut, bore)
 
-    def side(self, name: Literal["left", "right"]) -> ToothSide:
+    def side(self, name: SideName) -> ToothSide:
         """The named side."""
         return self.left if name == "left" else self.right
 
@@ -91,7 +94,7 @@ class Teeth:
     """The teeth of a member: the form at a member angle in rad of its own pair, and the side in contact."""
 
     at: Callable[[float], ToothForm]
-    working: Literal["left", "right"]
+    working: SideName
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,9 @@ from meshwright.report.numbers import fixed, number
 
 #: What negative backlash means, what commonly causes it, and what helps.
 _JAMS = (
-    "The teeth are thicker than the spaces (negative backlash): the drive jams. An oversize hob whose blade is as wide "
-    "as the worm's space leaves the wheel's teeth so; cutting deeper, or setting the members further apart, makes room."
+    "The teeth are thicker than the spaces (negative backlash): the drive jams. An oversize tool whose blade is as "
+    "wide as the pinion's space leaves the wheel's teeth so; cutting deeper, or setting the members further apart, "
+    "makes room."
 )
 
 

@@ -1,24 +1,26 @@
-"""Sides of a hobbed wheel tooth: the flank that the hob's flank cuts and the fillet that the rounding of its tip cuts.
+"""Sides of a generated wheel tooth: the flank that the flank of a threaded tool cuts, and the fillet that the rounding
+of its tip cuts.
 
-Where the hob does not undercut the tooth, both touch along the line that the common edge of flank and rounding cuts.
+Where the tool does not undercut the tooth, both touch along the line that the common edge of flank and rounding cuts.
 Elsewhere the flank would end in a cusp, which the rounding has cut away: there they cross.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
+from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
 from meshwright.fe.followed import Generated, Line
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.rounding import Span
+from meshwright.fe.sizes import key_of
 from meshwright.fe.tooth import ToothSide
 from meshwright.flank.surface import Flank, FlankPoints
 
@@ -29,19 +31,17 @@ _BISECTIONS, _NEWTON_STEPS = 50, 30
 _ON_PLACE = 1e-10
 
 
-def hobbed_side(
-    drive: Drive, span: Span, faces: tuple[float, float], below_tip: Callable[[Floats], Floats]
-) -> ToothSide:
+def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, float]) -> ToothSide:
     """Flank and fillet in sections z = constant of the wheel between two faces in mm.
 
-    span: the flank's profile, its root end somewhere near the end of the hob's.  below_tip: points (..., 3) to the
-    height (...,) left to the tip.  Raises ValueError where the hob does not leave a whole side.
+    span: the flank's profile, its root end somewhere near the end of the tool's.  Raises ValueError where the tool does
+    not leave a whole side.
     """
     values = np.linspace(*faces, _SAMPLES)
-    wheel = _Hobbed.of(drive, span)
+    wheel = _Wheel.of(drive, member, span)
     inner, outer = (Line.follow(wheel.flank, values, span.middle, end, _STEPS) for end in (wheel.joint, span.tip))
     flank, fillet = inner.joined(outer), Line.follow(wheel.fillet, values, 0.0, wheel.turn, _STEPS)
-    tip = CubicSpline(values, flank.up_to(below_tip))
+    tip = CubicSpline(values, flank.up_to(_below_tip))
     wheel.ends(values)  # now, rather than when a mesh asks for it
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),
@@ -53,12 +53,18 @@ def _axial(points: Floats) -> Floats:
     return points[..., 2]
 
 
-@dataclass(frozen=True)
-class _Hobbed:
-    """What a hob cuts: flank over (t, rack angle), fillet over (turn of the hob's normal from the land, rack angle).
+def _below_tip(found: FlankPoints) -> Floats:
+    """Height (N,) left to the outside cylinder or, where the blank has one, to the throat if that is nearer."""
+    tip = found.margins["tip"]
+    return np.fmin(tip, found.margins.get("throat", tip))
 
-    middle: t in the middle of the flank.  joint: t of the edge between the hob's flank and its rounding.  turn: that of
-    the normal on this edge in rad.
+
+@dataclass(frozen=True)
+class _Wheel:
+    """What a tool cuts: flank over (t, rack angle), fillet over (turn of the tool's normal from the land, rack angle).
+
+    middle: t in the middle of the flank.  joint: t of the edge between the tool's flank and its rounding.  turn: that
+    of the normal on this edge in rad.
     """
 
     flank: Generated
@@ -68,14 +74,15 @@ class _Hobbed:
     turn: float
 
     @classmethod
-    def of(cls, drive: Drive, span: Span) -> _Hobbed:
-        """Raises DesignError where the rounding of the hob's tip finds no place on its flank."""
-        flank, rounding = (drive.flank("wheel", region) for region in ("flank", "fillet"))
+    def of(cls, drive: Drive, member: str, span: Span) -> _Wheel:
+        """Raises DesignError where the rounding of the tool's tip finds no place on its flank."""
+        flank, rounding = (drive.flank(member, region) for region in ("flank", "fillet"))
         joint, turn = _edge(rounding, span.root)
         if not np.isfinite([joint, turn]).all():
-            size = drive.design.value("hob_tip_rounding_mm", "blank")
-            reason = "no ball of this radius touches the flank of the hob and its tip cylinder"
-            raise DesignError("blank.hob_tip_rounding_mm", size, reason, "choose less")
+            place = key_of(drive, "tool_rounding")
+            size = drive.design.value(*reversed(table_and_key(place)))
+            reason = "no ball of this radius touches the flank of the tool and its tip cylinder"
+            raise DesignError(place, size, reason, "choose less")
 
         def on_flank(profile: Floats, face: Floats) -> FlankPoints:
             return flank(np.stack([profile, face], axis=1))
@@ -116,7 +123,7 @@ class _Hobbed:
 
 
 def _edge(rounding: Flank, near: float) -> tuple[float, float]:
-    """t where the rounding of the hob's tip touches its flank, and its turn in rad up to there; NaN if nowhere."""
+    """t where the rounding of the tool's tip touches its flank, and its turn in rad up to there; NaN if nowhere."""
     t = near
     for _ in range(_NEWTON_STEPS):
         off, _, slope, _ = rounding([[0.0, t, 0.0]]).conditions[0, 0]

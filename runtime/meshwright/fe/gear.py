@@ -1,0 +1,128 @@
+"""Gears: both flanks and fillets of a tooth from the generated surfaces of one design, or of one design a flank.
+
+Sections are planes z = constant where the tooth runs along the axis, cylinders about the axis where it runs along the
+radius, as on a face gear. The flank of sign +1 is the tooth's left side, at the larger azimuth of a tooth along the
+axis and at the smaller of one along the radius. Sizes come from the drive's function ``solid_<member>``
+(``derive.language.functions``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from meshwright.base.errors import DesignError
+from meshwright.drive import Drive
+from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter, turned
+from meshwright.fe.hexahedra import Floats
+from meshwright.fe.profile import Section, SectionCurves
+from meshwright.fe.rim import bore_radius, bored
+from meshwright.fe.sizes import body_of, flank_pair, solid_sizes
+from meshwright.fe.tooth import Cut, SideName, Teeth, ToothForm, ToothSide
+
+_TIP_SAMPLES = 33
+
+
+def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
+    """The teeth of a member.
+
+    rim_thickness: in mm from the root to a bore, not deeper than 0.8 radii; of a tooth along the radius, from the
+    lowest root to the plane back of the gear. Raises DesignError where a flank is undercut below its tip.
+    """
+    sizes = solid_sizes(drive, member)
+    faces = (sizes["face_first"], sizes["face_last"])
+    pitch = 2.0 * np.pi / sizes["teeth"]
+    lie = _LIES[body_of(drive, member)["lengthwise"]]
+    sides = {name: _side(one, member, lie.section) for name, one in flank_pair(drive).items()}
+    own: SideName = "left" if drive.design.flank > 0 else "right"
+    if "middle" in sizes:
+        _set_apart(sides, own, faces, pitch, sizes["middle"])
+    back = lie.back(sides, faces, sizes, rim_thickness)
+    form = ToothForm.repeated(sides["left"], sides["right"], faces, about_z(lie.right * pitch), back)
+    return Teeth(lambda angle: form, own)
+
+
+def _side(drive: Drive, member: str, section: Section) -> ToothSide:
+    sizes = solid_sizes(drive, member)
+    faces = np.linspace(sizes["face_first"], sizes["face_last"], _TIP_SAMPLES)
+    flank_root = constant(sizes["flank_root"])
+    tip = CubicSpline(faces, tip_parameter(drive, member, section, faces, (sizes["tip_first"], sizes["tip_last"])))
+    flank = SectionCurves(region_surface(drive, member, "flank"), section, flank_root, tip)
+    _check_whole(drive, member, flank, faces)
+    fillet_ends = constant(sizes["fillet_land"]), constant(sizes["fillet_junction"])
+    fillet = SectionCurves(region_surface(drive, member, "fillet"), section, *fillet_ends)
+    return ToothSide(fillet, flank)
+
+
+def _check_whole(drive: Drive, member: str, flank: SectionCurves, sections: Floats) -> None:
+    """Refuse a flank that its tool has undercut: fillet and flank then cross instead of touching."""
+    root = flank.first(sections)
+    places = np.stack([root, flank.solve(sections, root[:, None])[:, 0]], axis=1)
+    if np.any(drive.flank(member)(places).regular < 0.0):
+        raise DesignError(
+            "design",
+            drive.design.tables.get("name"),
+            f"the teeth of the {member} are undercut; there is no solid model of such teeth",
+            "choose more teeth or a larger profile shift; `meshwright limits` says where their flanks begin",
+        )
+
+
+def _set_apart(
+    sides: dict[SideName, ToothSide], own: SideName, faces: tuple[float, float], pitch: float, middle: float
+) -> None:
+    """Turn the other side so that tooth and space are equally wide at ``middle``; the flank in hand keeps its place."""
+    at = np.array([0.5 * (faces[0] + faces[1])])
+    thickness = _azimuth(sides["right"], at, middle) - _azimuth(sides["left"], at, middle)
+    other: SideName = "right" if own == "left" else "left"
+    angle = (0.5 * pitch - thickness) * (1.0 if other == "right" else -1.0)
+    side = sides[other]
+    curves = (SectionCurves(turned(c.surface, angle), c.section, c.first, c.last) for c in (side.fillet, side.flank))
+    sides[other] = ToothSide(*curves)
+
+
+def _azimuth(side: ToothSide, sections: Floats, profile: float) -> float:
+    """Azimuth in rad at a profile parameter."""
+    point = side.flank.points(sections, np.full((1, 1), profile))[0, 0]
+    return float(np.arctan2(point[1], point[0]))
+
+
+def _axial(points: Floats) -> Floats:
+    return points[..., 2]
+
+
+def _radius(points: Floats) -> Floats:
+    return np.hypot(points[..., 0], points[..., 1])
+
+
+def _bore(
+    sides: dict[SideName, ToothSide], faces: tuple[float, float], sizes: dict[str, float], rim_thickness: float
+) -> Cut:
+    return bored(bore_radius(sizes["root_radius"], rim_thickness))
+
+
+def _plane_back(
+    sides: dict[SideName, ToothSide], faces: tuple[float, float], sizes: dict[str, float], rim_thickness: float
+) -> Cut:
+    ends, profile = np.array(faces), np.full((2, 1), sizes["fillet_land"])
+    low = min(float(side.fillet.points(ends, profile)[..., 2].min()) for side in sides.values())
+
+    def back(points: Floats) -> Floats:
+        flat = points.copy()
+        flat[..., 2] = low - rim_thickness
+        return flat
+
+    return back
+
+
+@dataclass(frozen=True)
+class _Lie:
+    """How a tooth lies: its sections, on which side (of the azimuth) the right neighbour is, and what ends the rim."""
+
+    section: Section
+    right: int
+    back: type(_bore)
+
+
+_LIES = {"axial": _Lie(_axial, -1, _bore), "radius": _Lie(_radius, 1, _plane_back)}
