@@ -9,6 +9,7 @@ from meshwright.base.library import library, text
 from meshwright.contact import words
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.results import impossible
+from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.design.design import given_vector, is_real
 from meshwright.design.schema import bounds
 
@@ -48,6 +49,7 @@ def data(drive):
         "factors": [design.mirror.factor(u["name"]) for u in description["unknowns"]],
         "pitch": drive.pitch(),
         "positions": POSITIONS,
+        "round_off": ROUND_OFF,
         "guards": description["guards"],
         "systems": [{"message": s["message"], "keys": s["keys"]} for s in description["systems"]],
         "status": _status(),

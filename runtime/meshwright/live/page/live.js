@@ -182,12 +182,15 @@ function draw() {
 function pictures(row, separation) {
   const { rows } = state, sign = data.mirror, x = r => sign * r.angle / DEGREE, xs = range(rows.map(x));
   const error = rows.map(r => [x(r), sign * (r.error - state.reference.error) / ARCSEC]);
-  plots.error.begin(xs, range(error.map(p => p[1])));
+  /* a scale on which round-off is a straight line */
+  const least = 10 * data.round_off / ARCSEC;
+  plots.error.begin(xs, range([-least, least, ...error.map(p => p[1])]));
   plots.error.line(error, "first");
   plots.error.vertical(x(row));
   plots.error.end();
   const axes = rows.map(r => semiAxes(r, separation));
-  plots.axes.begin(xs, range([0, ...axes.flat()]));
+  plots.axes.begin(xs, axes.flat().some(Number.isFinite) ? range([0, ...axes.flat()]) : [0, 1]);
+  if (!axes.flat().some(Number.isFinite)) plots.axes.note("no contact ellipse at any position");
   plots.axes.line(rows.map((r, k) => [x(r), axes[k][0]]), "first");
   plots.axes.line(rows.map((r, k) => [x(r), axes[k][1]]), "second");
   plots.axes.vertical(x(row));

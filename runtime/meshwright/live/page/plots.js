@@ -22,7 +22,7 @@ class Plot {
   /* Axes over the ranges; equal: one scale for both, so that lengths and angles are true. */
   begin(xs, ys, equal) {
     const w = this.width = Math.max(260, this.svg.clientWidth), h = this.height = this.svg.clientHeight || 260;
-    this.box = { left: 64, right: w - 14, top: 10, bottom: h - 40 };
+    this.box = { left: 80, right: w - 14, top: 10, bottom: h - 40 };
     let [x0, x1] = xs, [y0, y1] = ys;
     const bw = this.box.right - this.box.left, bh = this.box.bottom - this.box.top;
     if (equal) {
@@ -59,5 +59,6 @@ class Plot {
     if (path) this.out.push(`<path class="${name}" d="${path}"/>`);
   }
   vertical(x) { if (Number.isFinite(x)) this.out.push(`<line class="mark" x1="${this.x(x)}" x2="${this.x(x)}" y1="${this.box.top}" y2="${this.box.bottom}"/>`); }
+  note(words) { this.out.push(`<text text-anchor="middle" x="${(this.box.left + this.box.right) / 2}" y="${this.box.top + 24}">${words}</text>`); }
   end() { this.svg.innerHTML = this.out.join("") + "</g>"; }
 }
