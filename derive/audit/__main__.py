@@ -67,8 +67,7 @@ def _kernel(folder: Path, output: Path | None) -> int:
     except (check.Rejected, kernel.Refused) as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
-    total, spent = sum(report.theorems.values()), sum(report.seconds.values())
-    print(f"{total} theorems accepted in {spent:.0f} CPU s; axioms: {', '.join(sorted(report.axioms))}")
+    print("\n".join(report.lines()))
     return 0
 
 

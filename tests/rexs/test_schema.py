@@ -2,6 +2,7 @@
 
 import json
 import re
+from datetime import UTC, datetime
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -25,6 +26,7 @@ def in_range(entry, number):
 def test_a_written_file_is_valid(tables):
     root = ElementTree.fromstring(file_text(tables))
     assert root.tag == f"{TAG}model" and {"version", "applicationId", "applicationVersion"} <= set(root.keys())
+    assert datetime.fromisoformat(root.get("date")).tzinfo is UTC
     kinds = {}
     for component in root.find(f"{TAG}components"):
         assert component.get("id") not in kinds

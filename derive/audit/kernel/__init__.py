@@ -17,7 +17,7 @@ from pathlib import Path
 from derive.audit.kernel import derivatives, translate
 from derive.files import replace_text
 
-#: Axioms of the real numbers in Coq's library: all that the certificates rest on.
+#: Axioms of the real numbers in Coq's library: all that the certificates may rest on.
 AXIOMS = frozenset(
     {
         "ClassicalDedekindReals.sig_forall_dec",
@@ -25,10 +25,11 @@ AXIOMS = frozenset(
         "FunctionalExtensionality.functional_extensionality_dep",
     }
 )
-#: Excluded middle, which Coquelicot's derivatives add.
+#: Excluded middle, which Coquelicot's derivatives add: the chain with real derivatives may rest on it too.
 CLASSICAL = "Classical_Prop.classic"
 #: Characters of the longest theorem that is written; longer ones are named and left out.
 LARGEST = 900_000
+NO_COQUELICOT = "the chain with real derivatives: Coquelicot not found (Debian: libcoq-coquelicot)"
 MISSING = "coqc not found: the proofs were not put to the kernel (Debian: apt-get install coq libcoq-coquelicot)"
 
 
@@ -38,12 +39,29 @@ class Refused(Exception):
 
 @dataclass(frozen=True)
 class Report:
-    """Theorems and CPU seconds a file, and the axioms that all of them rest on."""
+    """Theorems, CPU seconds and axioms of each file; theorems left out, each with the reason."""
 
     theorems: dict[str, int]
     seconds: dict[str, float]
-    axioms: frozenset[str]
-    real_derivatives: bool
+    axioms: dict[str, frozenset[str]]
+    left_out: dict[str, str]
+
+    @property
+    def real_derivatives(self) -> bool:
+        """Was the chain with derivatives as limits checked?"""
+        return derivatives.CHAIN in self.theorems
+
+    def lines(self) -> list[str]:
+        """The outcome in words: sums, the axioms that files rest on, what was left out."""
+        found = [f"{sum(self.theorems.values())} theorems accepted in {sum(self.seconds.values()):.0f} CPU s"]
+        for axioms in dict.fromkeys(self.axioms.values()):
+            files = [name for name, own in self.axioms.items() if own == axioms]
+            words = f"axioms of {', '.join(files)}: {', '.join(sorted(axioms)) or 'none'}"
+            found.append(words + (f"; {CLASSICAL} is excluded middle" if CLASSICAL in axioms else ""))
+        found += [f"left out: {name}, {reason}" for name, reason in self.left_out.items()]
+        if not self.real_derivatives:
+            found.append(f"left out: {derivatives.CHAIN}, {NO_COQUELICOT}")
+        return found
 
 
 def available() -> bool:
@@ -60,34 +78,26 @@ def check_record(objects: Mapping[str, dict], folder: Path, log: Callable[[str],
     """Write every proof of the record as Coq files into a folder and have them checked; Refused if one is not."""
     replace_text(folder / "Certificate.v", Path(__file__).with_name("Certificate.v").read_text(encoding="utf-8"))
     compile_file(folder / "Certificate.v")
-    counts, seconds, axioms = {}, {}, set()
-    for document, every in translate.theorems(objects).items():
-        stated = [theorem for theorem in every if len(theorem.text) <= LARGEST]
-        for theorem in every:
-            if len(theorem.text) > LARGEST:
-                log(f"{document}: {theorem.name} is too long to be put to the kernel ({len(theorem.text)} characters)")
-        path = folder / f"{translate.module_name(document)}.v"
-        replace_text(path, translate.file_text(document, stated))
-        spent, found = compile_file(path)
-        counts[document], seconds[document] = len(stated), spent
-        axioms |= found
-        log(f"{document:20} {len(stated):4} theorems {spent:6.1f} CPU s")
-    real = has_coquelicot()
-    if real:
-        path = folder / f"{derivatives.CHAIN.capitalize()}.v"
-        text = derivatives.file_text()
+    counts, seconds, axioms, left_out = {}, {}, {}, {}
+
+    def put(name: str, text: str, count: int, permitted: frozenset[str]) -> None:
+        path = folder / f"{translate.module_name(name)}.v"
         replace_text(path, text)
-        seconds[derivatives.CHAIN], found = compile_file(path)
-        found.discard(CLASSICAL)
-        counts[derivatives.CHAIN] = text.count("\nTheorem ") + text.count("\nLemma ")
-        axioms |= found
-        log(f"{derivatives.CHAIN:20} {counts[derivatives.CHAIN]:4} theorems {seconds[derivatives.CHAIN]:6.1f} CPU s, "
-            "derivatives as limits; these also use excluded middle")  # fmt: skip
-    else:
-        log("Coquelicot not found: the chain with real derivatives was not checked (Debian: libcoq-coquelicot)")
-    if not axioms <= AXIOMS:
-        raise Refused(f"axioms beyond those of the real numbers: {', '.join(sorted(axioms - AXIOMS))}")
-    return Report(counts, seconds, frozenset(axioms), real)
+        seconds[name], found = compile_file(path)
+        if not found <= permitted:
+            raise Refused(f"{path.name}: axioms beyond those permitted: {', '.join(sorted(found - permitted))}")
+        counts[name], axioms[name] = count, frozenset(found)
+        log(f"{name:20} {count:4} theorems {seconds[name]:6.1f} CPU s")
+
+    for document, every in translate.theorems(objects).items():
+        long = {theorem.name: len(theorem.text) for theorem in every if len(theorem.text) > LARGEST}
+        left_out |= {name: f"its {size} characters are more than {LARGEST}" for name, size in long.items()}
+        stated = [theorem for theorem in every if theorem.name not in long]
+        put(document, translate.file_text(document, stated), len(stated), AXIOMS)
+    if has_coquelicot():
+        text = derivatives.file_text()
+        put(derivatives.CHAIN, text, text.count("\nTheorem ") + text.count("\nLemma "), AXIOMS | {CLASSICAL})
+    return Report(counts, seconds, axioms, left_out)
 
 
 def _deep_stack() -> None:

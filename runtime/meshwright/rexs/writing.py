@@ -5,7 +5,10 @@ all else stays as it was, to the byte.
 """
 
 import math
+import os
+import time
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from xml.sax.saxutils import escape, quoteattr
 
 from meshwright.base.errors import UsageError
@@ -140,12 +143,18 @@ def _new(family, checked, texts, version):
     relations = [r for r in table["relations"] if all(name in ids for _, name in r["refs"])]
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     lines += [f'<model xmlns="{NAMESPACE}" version="{VERSION}" applicationId="meshwright" '
-              f"applicationVersion={quoteattr(version)}>", "  <relations>"]  # fmt: skip
+              f'applicationVersion={quoteattr(version)} date="{_date()}">', "  <relations>"]  # fmt: skip
     lines += [_relation(r, n, ids, "    ") for n, r in enumerate(relations, 1)]
     lines += ["  </relations>", "  <components>"]
     lines += [_component(c, ids, checked, texts, "    ") for c in listed]
     lines += ["  </components>", "</model>", ""]
     return "\n".join(lines).encode("utf-8"), {name: (ident, _kind(table, name)) for name, ident in ids.items()}
+
+
+def _date():
+    """Now, or at the instant that SOURCE_DATE_EPOCH names (reproducible-builds.org), in UTC."""
+    seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
+    return datetime.fromtimestamp(seconds, UTC).isoformat()
 
 
 def _written_components(table, texts, present):
