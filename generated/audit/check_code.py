@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Check the generated C itself against calculus: `python check_code.py [folder]`, exit status 0 if everything holds.
 
-The functions of a generated header are straight-line programs. They are read as text and run modulo 2^61 - 1, with
-random parameters, a random point of the circle for every independent angle, and dual numbers along every unknown.
+The functions of a generated header are straight-line programs. They are read as text and run modulo a prime of 61 bits
+drawn at random, with random parameters, a random point of the circle for every independent angle, and dual numbers
+along every unknown.
 Then, for every drive:
 
   jacobian   J is the derivative of R, entry by entry
@@ -12,6 +13,13 @@ Then, for every drive:
              normal meets the tangent along the motion, and there alone, and the recorded slopes are the derivatives of
              that equation
   assembly   the first three residuals are the vector between the two points in the fixed frame, turned or not
+  step       the fused Newton step solves J dx = -R
+  along      first and second derivatives of the residual along a path of unknowns and input angle
+  start      the Jacobian of the start system
+  curvature  basis, second form and principal curvatures follow from the normal's derivatives
+  lanes      each of two instances is computed as the scalar setup, set_phi and step compute it
+  tangent    changes of the residual and of the contact point along changes of parameters, angle and unknowns
+  sine       polynomials and reduction of the sine and cosine kernel, against enclosures
   agreement  a flank has the point, the singular function and the limits that the observation of a contact has there
 
 A wrong program passes with a probability of about degree / 2^61. Needs check.py beside it and nothing else.
@@ -31,9 +39,13 @@ from types import ModuleType
 #: check.py from this file's own folder, wherever the two are copied, without leaving compiled files there.
 CHECK = ModuleType("meshwright_check")
 exec(compile(Path(__file__).with_name("check.py").read_text(encoding="utf-8"), "check.py", "exec"), CHECK.__dict__)
-PRIME, Rejected, require = CHECK.PRIME, CHECK.Rejected, CHECK.require
+Rejected, require = CHECK.Rejected, CHECK.require
+#: Drawn anew in every run; 3 modulo 4, so that the root of a square can be had by a power.
+PRIME = CHECK.random_prime(SystemRandom())
 
+#: Inputs that may be drawn until every radicand is a square, and inputs at which a check may fail before it is over.
 ATTEMPTS = 20000
+REFUSALS = 24
 #: Angles are whole multiples of a quarter of each independent angle.
 QUARTER = 4
 LITERALS = {"3.141592653589793": Fraction(1), "1.5707963267948966": Fraction(1, 2)}
@@ -107,6 +119,11 @@ def root(a: Number) -> Number:
     return Number(value, combined(a.rates, pow(2 * value, -1, PRIME), (), 0))
 
 
+def sign(a: Number) -> Number:
+    """1 for squares, else -1, which is as odd and as constant as the sign of a real number."""
+    return Number(1 if pow(a.value, (PRIME - 1) // 2, PRIME) in (0, 1) else PRIME - 1)
+
+
 def scaled(a: Number, literal: Fraction, product: Number) -> Number:
     """A product with a literal keeps its linear form if there is one."""
     angle = None if a.angle is None else {name: factor * literal for name, factor in a.angle.items() if literal}
@@ -115,11 +132,14 @@ def scaled(a: Number, literal: Fraction, product: Number) -> Number:
 
 # ---- programs --------------------------------------------------------------------------------------------------------
 
-STATEMENT = re.compile(r"const double (t\d+) = (.+);|(\w+\[\d+\]) = (.+);|\w+_sincos\((.+), &(s\d+), &(c\d+)\);")
-SILENT = re.compile(r"\(void\)|double s\d+, c\d+;|if \(|int failed|return |[{}]|$")
+STATEMENT = re.compile(r"const double (t\d+m?) = (.+);|(\w+\[\d+\]) = (.+);|\w+_sincos\((.+), &(s\d+m?), &(c\d+m?)\);")
+SILENT = re.compile(r"\(void\)|double s\d+m?, c\d+m?;|if \(|int failed|return |[{}]|$")
 OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
-CALL = re.compile(r"(?:\w+_)?(sqrt|atan2)\((.+)\)")
+CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
+
+#: Lines of the lanes that hold no value of an instance: loops, guards and sizes of steps.
+LANE_SILENT = re.compile(r"MW_LANE_(LOOP|PAIRS)|const int m = |(valid|size)\[[lm]\] = |}$")
 
 #: A product and a number: a b + c, a b - c, c - a b.
 FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
@@ -136,6 +156,11 @@ class Function:
     definitions: dict[str, tuple[str, str]]
     outputs: dict[str, tuple[int, int]]
 
+    @property
+    def implicit(self) -> bool:
+        """Does an equation of meshing stay beside the surface?"""
+        return any(key.startswith("condition_") for key in self.outputs)
+
     def size_of(self, letter: str) -> int:
         """How many entries of an argument it reads."""
         text = " ".join(text for _, text in self.definitions.values())
@@ -151,12 +176,14 @@ class Header:
     frames: tuple[tuple[str, ...], ...]
     sizes: dict[str, int]
     unknowns: dict[str, tuple[int, ...]]
+    lanes: str = ""
+    tangents: str = ""
 
 
-def read_header(text: str) -> Header:
-    """The straight-line functions of a header."""
+def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
+    """The straight-line functions of a header, with the texts of its lanes and of its tangents."""
     prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
-    wanted = rf"{prefix}_(setup|set_phi|eval|observe|(?:flank|fillet)_\w+)"
+    wanted = rf"{prefix}_(setup|set_phi|eval|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
     found = {}
     pattern = rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {wanted}\([^)]*\)\n{{\n(.*?)\n}}"
     for match in re.finditer(pattern, text, re.DOTALL):
@@ -165,15 +192,38 @@ def read_header(text: str) -> Header:
             for at, name, size in re.findall(r"^ \* +(\d+) (\w+)(?:\[(\d+)\])?", match[1], re.M)
         }
         found[match[2]] = Function(match[2], read_body(match[3]), table)
-    sizes = {
-        name: function.size_of("q" if name.startswith(("flank_", "fillet_")) else "x")
-        for name, function in found.items()
-    }
+    sizes = {name: function.size_of(letter_of(name)) for name, function in found.items()}
     unknowns = {
         body: tuple(map(int, places.split(",")))
         for body, places in re.findall(rf"int {prefix}_(\w+)_unknowns\[\] = {{ ([\d, ]+) }}", text)
     }
-    return Header(found, max(function.size_of("p") for function in found.values()), read_frames(text), sizes, unknowns)
+    parameters = max(function.size_of("p") for function in found.values())
+    return Header(found, parameters, read_frames(text), sizes, unknowns, lanes, tangents)
+
+
+def letter_of(name: str) -> str:
+    """The argument along which a function is differentiated."""
+    return "q" if "flank_" in name or "fillet_" in name else "y" if name == "start_eval" else "x"
+
+
+def read_companion(path: Path, ending: str) -> str:
+    """The text of a header's lanes or tangents; empty where there are none."""
+    companion = path.with_name(f"{path.stem}_{ending}.h")
+    return companion.read_text(encoding="utf-8") if companion.is_file() else ""
+
+
+def body_of(text: str, name: str) -> str:
+    """What stands between the braces of a function, by its name."""
+    return re.search(rf"\b{name}\)?\([^)]*\)\n{{\n(.*?)\n}}", text, re.DOTALL)[1]
+
+
+def read_lanes(text: str, name: str) -> Function:
+    """A function over many instances as one over two: entry k of instance l is x[k], of its partner m mx[k]."""
+    prefix = re.search(r"MW_LANE_NAME\((\w+)_setup_lanes\)", text)[1]
+    body = re.sub(r"\b(\w)\[(\d+) \* MW_LANES \+ l\]", r"\1[\2]", body_of(text, f"{prefix}_{name}_lanes"))
+    body = re.sub(r"\b(\w)\[(\d+) \* MW_LANES \+ m\]", r"m\1[\2]", body).replace("phi[l]", "phi")
+    lines = [line for line in map(str.strip, body.splitlines()) if not LANE_SILENT.match(line)]
+    return Function(name, read_body("\n".join(lines)), {})
 
 
 def read_frames(text: str) -> tuple[tuple[str, ...], ...]:
@@ -195,7 +245,10 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
         elif statement[5]:
             definitions[statement[6]], definitions[statement[7]] = ("sin", statement[5]), ("cos", statement[5])
         else:
-            definitions[statement[1] or statement[3]] = ("expression", statement[2] or statement[4])
+            target = statement[1] or statement[3]
+            # an argument that is also the result keeps its first value under its own name
+            target = f"new {target}" if target[0] == "x" or target.startswith("mx") else target
+            definitions[target] = ("expression", statement[2] or statement[4])
     return definitions
 
 
@@ -245,7 +298,7 @@ class Machine:
     def _expression(self, text: str) -> Number:
         if match := CALL.fullmatch(text):
             arguments = [self.value(argument) for argument in match[2].split(", ")]
-            return root(*arguments) if match[1] == "sqrt" else self._arc(*arguments)
+            return {"sqrt": root, "SIGN": sign, "atan2": self._arc}[match[1]](*arguments)
         if match := FUSED.fullmatch(text):
             product, number = self._product(match[2], match[3]), self.value(match[4])
             if match[1] == "FNMA":
@@ -340,7 +393,7 @@ def machine(header: Header, name: str, rng: Random, arcs: bool = False) -> Machi
     inputs |= {key: Number(value) for key, value in axes(header.frames, circle).items()}
     setup = Machine(inputs, header.functions["setup"], None, circle)
     instant = Machine(inputs, header.functions["set_phi"], setup, circle)
-    letter, size = ("q" if name.startswith(("flank_", "fillet_")) else "x"), header.sizes[name]
+    letter, size = letter_of(name), header.sizes[name]
     own = {f"{letter}[{k}]": drawn(f"{letter}[{k}]", tuple(int(j == k) for j in range(size))) for k in range(size)}
     return Machine(inputs | own, header.functions[name], instant, circle)
 
@@ -434,6 +487,164 @@ def check_flank(header: Header, name: str, rng: Random) -> None:
         )
 
 
+def check_step(header: Header, rng: Random) -> None:
+    """J (x - new x) = R: the fused step solves the linear system that R and J state."""
+    run = machine(header, "eval", rng)
+    step = Machine(run.inputs, header.functions["step"], run.earlier, run.circle)
+    n = sum(name.startswith("R[") for name in run.function.definitions)
+    change = [run.inputs[f"x[{k}]"].value - step.value(f"new x[{k}]").value for k in range(n)]
+    for i in range(n):
+        moved = sum(run.value(f"J[{i * n + j}]").value * change[j] for j in range(n))
+        require((moved - run.value(f"R[{i}]").value) % PRIME == 0, f"step: row {i} of J dx = -R does not hold")
+
+
+def check_along(header: Header, rng: Random) -> None:
+    """d1 is the derivative of R along v, a direction of (x, phi), and d2 that of d1."""
+    n = header.sizes["eval"]
+    run = machine(header, "eval", rng)
+    rates = {f"x[{k}]": k for k in range(n)} | {"phi": n}
+    inputs = dict(run.inputs)
+    for key, place in rates.items():
+        inputs[key] = Number(inputs[key].value, tuple(int(j == place) for j in range(n + 1)), inputs[key].form)
+    setup = Machine(inputs, header.functions["setup"], None, run.circle)
+    instant = Machine(inputs, header.functions["set_phi"], setup, run.circle)
+    residual = Machine(inputs, header.functions["eval"], instant, run.circle)
+    speed = {f"v[{k}]": Number(rng.randrange(1, PRIME)) for k in range(n + 1)}
+    along = Machine(inputs | speed, header.functions["along"], setup, run.circle)
+
+    def slope(number: Number) -> int:
+        return sum(rate * speed[f"v[{k}]"].value for k, rate in enumerate(number.rates)) % PRIME
+
+    for i in range(n):
+        first = along.value(f"d1[{i}]")
+        require(first.value == slope(residual.value(f"R[{i}]")), f"along: d1[{i}] is not the derivative of R[{i}]")
+        require(along.value(f"d2[{i}]").value == slope(first), f"along: d2[{i}] is not the derivative of d1[{i}]")
+
+
+def check_start(header: Header, rng: Random) -> None:
+    """The Jacobian of the start system."""
+    run = machine(header, "start_eval", rng)
+    n = sum(name.startswith("R[") for name in run.function.definitions)
+    for i in range(n):
+        rates = run.value(f"R[{i}]").rates or (0,) * n
+        for j in range(n):
+            require(run.value(f"J[{i * n + j}]").value == rates[j] % PRIME, f"start_eval: J[{i}][{j}] is no derivative")
+
+
+def check_curvature(header: Header, name: str, rng: Random) -> None:
+    """An orthonormal basis of the tangent plane, the second form from the change of the normal, its trace and
+    determinant from the principal curvatures.
+    """
+    run = machine(header, name, rng, arcs=True)
+    curved = Machine(run.inputs, header.functions[f"curvature_{name}"], run.earlier, run.circle)
+
+    def read(machine_: Machine, key: str) -> list[Number]:
+        at, size = machine_.function.outputs[key]
+        return [machine_.value(f"o[{at + k}]") for k in range(size)]
+
+    def product(a: list[int], b: list[int]) -> int:
+        return sum(x * y for x, y in zip(a, b, strict=True)) % PRIME
+
+    basis = [number.value for number in read(curved, "tangent_basis")]
+    axes_ = basis[:3], basis[3:]
+    normal = read(run, "normal")
+    lengths = [product(axes_[0], axes_[0]), product(axes_[1], axes_[1]), product(axes_[0], axes_[1])]
+    require(lengths == [1, 1, 0], f"curvature_{name}: the basis is not orthonormal")
+    require(
+        all(product(a, [n.value for n in normal]) == 0 for a in axes_), f"curvature_{name}: the basis is not tangent"
+    )
+    form = [number.value for number in read(curved, "second_form")]
+    tangents = [[n.value for n in read(run, key)] for key in run.function.outputs if key.startswith("tangent_")]
+    for first in tangents:
+        for j in range(len(tangents)):
+            turned = [n.rates[j] if n.rates else 0 for n in normal]
+            (a, b), (c, d) = ([product(v, e) for e in axes_] for v in (first, tangents[j]))
+            expected = a * c * form[0] + (a * d + b * c) * form[1] + b * d * form[2]
+            require((expected + product(first, turned)) % PRIME == 0, f"curvature_{name}: not the change of the normal")
+    low, high = (number.value for number in read(curved, "curvature"))
+    require((low + high - form[0] - form[2]) % PRIME == 0, f"curvature_{name}: the curvatures have another sum")
+    require((low * high - form[0] * form[2] + form[1] ** 2) % PRIME == 0, f"curvature_{name}: another product")
+
+
+def check_lanes(header: Header, text: str, rng: Random) -> None:
+    """Every instance is computed as the scalar functions compute it: state, state at an angle, step."""
+    run = machine(header, "step", rng)
+    circle, inputs, setup, instant = run.circle, run.inputs, run.earlier.earlier, run.earlier
+    for name, scalar in (("setup", setup), ("set_phi", instant)):
+        wide = Machine(inputs, read_lanes(text, name), None if name == "setup" else setup, circle)
+        keys = {key for key in wide.function.definitions if key.startswith("s[")}
+        read = re.findall(r"\bs\[\d+\]", " ".join(words for _, words in header.functions["step"].definitions.values()))
+        missing = set(read) & set(scalar.function.definitions) - keys
+        require(not missing, f"lanes: {', '.join(sorted(missing)[:3])} is not set")
+        for key in keys:
+            require(wide.value(key).value == scalar.value(key).value, f"lanes: {key} is not that of {name}")
+    # one design for both instances: every root of the design is needed once
+    other = {
+        key: Number(rng.randrange(1, PRIME), (), {f"m{key}": Fraction(1)}) for key in inputs if key.startswith("x[")
+    }
+    names = {key for f in ("setup", "set_phi") for key in header.functions[f].definitions if key.startswith("s[")}
+    state = {key: instant.value(key) for key in names}
+    own, states = [inputs, inputs | other], [state, state]
+    first, second = (
+        Machine(inputs | state, header.functions["step"], None, circle)
+        for inputs, state in zip(own, states, strict=True)
+    )
+    partner = {f"m{key}": number for key, number in (own[1] | states[1]).items()}
+    wide = Machine(own[0] | states[0] | partner, read_lanes(text, "step"), None, circle)
+    for k in range(header.sizes["step"]):
+        require(
+            wide.value(f"new x[{k}]").value == first.value(f"new x[{k}]").value, f"lanes: x[{k}] is not that of step"
+        )
+        there = wide.value(f"new mx[{k}]").value
+        require(there == second.value(f"new x[{k}]").value, f"lanes: x[{k}] of the partner is not that of step")
+
+
+def check_tangent(header: Header, text: str, rng: Random) -> None:
+    """The change of the residual and of the contact point along changes of parameters, angle and unknowns."""
+    run = machine(header, "eval", rng)
+    inputs = dict(run.inputs)
+    moved = {}
+    for key in list(inputs):
+        if key == "phi" or key.startswith(("p[", "x[")):
+            rate = rng.randrange(1, PRIME) if key != "p[0]" else 0
+            moved[f"d{key}"] = Number(rate)
+            inputs[key] = Number(inputs[key].value, (rate,), inputs[key].form if key != "p[0]" else None)
+    setup = Machine(inputs, header.functions["setup"], None, run.circle)
+    instant = Machine(inputs, header.functions["set_phi"], setup, run.circle)
+    residual = Machine(inputs, header.functions["eval"], instant, run.circle)
+    seen = Machine(inputs, header.functions["observe"], instant, run.circle)
+    own = {key: Number(number.value, (), number.angle) for key, number in inputs.items()}
+    name = re.search(r"(\w+)_derive_tangent\(", text)[1] + "_tangent"
+    tangent = Machine(own | moved, Function("tangent", read_body(body_of(text, name)), {}), None, run.circle)
+    at, _ = seen.function.outputs["point_pinion_f"]
+    expected = {f"dR[{i}]": residual.value(f"R[{i}]") for i in range(header.sizes["eval"])}
+    expected |= {f"dr[{k}]": seen.value(f"o[{at + k}]") for k in range(3)}
+    for key, number in expected.items():
+        rate = number.rates[0] if number.rates else 0
+        require(tangent.value(key).value == rate, f"tangent: {key} is not the derivative along the change")
+
+
+def check_flank_tangent(header: Header, text: str, body: str, rng: Random) -> None:
+    """The change of a flank's point along changes of parameters, at fixed parameters of the flank."""
+    run = machine(header, f"flank_{body}", rng, arcs=True)
+    own = {key: Number(number.value, (), number.angle) for key, number in run.inputs.items()}
+    inputs, moved = dict(own), {"dp[0]": Number(0)}
+    for key in (f"p[{k}]" for k in range(1, header.parameters)):
+        rate = rng.randrange(1, PRIME)
+        moved[f"d{key}"] = Number(rate)
+        inputs[key] = Number(own[key].value, (rate,), own[key].form)
+    setup = Machine(inputs, header.functions["setup"], None, run.circle)
+    instant = Machine(inputs, header.functions["set_phi"], setup, run.circle)
+    there = Machine(inputs, header.functions[f"flank_{body}"], instant, run.circle)
+    name = re.search(r"(\w+)_derive_tangent\(", text)[1] + f"_{body}_tangent"
+    tangent = Machine(own | moved, Function(name, read_body(body_of(text, name)), {}), None, run.circle)
+    at, _ = there.function.outputs["point"]
+    for k in range(3):
+        number = there.value(f"o[{at + k}]")
+        rate = number.rates[0] if number.rates else 0
+        require(tangent.value(f"dr[{k}]").value == rate, f"tangent of {body}: dr[{k}] is not the point's derivative")
+
+
 def attempt(check: Callable[..., None], *arguments: object) -> None:
     """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
     has.
@@ -442,31 +653,102 @@ def attempt(check: Callable[..., None], *arguments: object) -> None:
     wrong one passes at none: one input at which everything holds is enough.
     """
     rng = SystemRandom()
-    rejected = Rejected("no input was found at which every root exists")
+    refusals: list[Rejected] = []
     for _ in range(ATTEMPTS):
         try:
             return check(*arguments, rng)
         except NoRoot:
             continue
         except Rejected as reason:
-            rejected = reason
-    raise rejected
+            refusals.append(reason)
+            if len(refusals) == REFUSALS:
+                break
+    raise refusals[-1] if refusals else Rejected("no input was found at which every root exists")
+
+
+def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
+    """What is checked of a header: words, and the check with its arguments."""
+    yield "jacobian of the residual", (check_jacobian, header)
+    yield "Newton step", (check_step, header)
+    yield "derivatives along a path", (check_along, header)
+    if header.lanes:
+        yield "lanes", (check_lanes, header, header.lanes)
+    if header.tangents:
+        yield "tangents of parameters", (check_tangent, header, header.tangents)
+        for body in header.unknowns:
+            yield f"tangents of the {body}", (check_flank_tangent, header, header.tangents, body)
+    if "start_eval" in header.functions:
+        yield "jacobian of the start system", (check_start, header)
+    yield "assembly of the two points", (check_assembly, header)
+    for name in header.functions:
+        if name.startswith(("flank_", "fillet_")):
+            yield f"tangents and normal of {name}", (check_flank, header, name)
+        if f"curvature_{name}" in header.functions and not header.functions[name].implicit:
+            yield f"curvature of {name}", (check_curvature, header, name)
+    for body in header.unknowns:
+        yield f"agreement of flank and observation of the {body}", (check_agreement, header, body)
 
 
 def check_header(path: Path) -> int:
     """All checks of one header; how many were made."""
     try:
-        header = read_header(path.read_text(encoding="utf-8"))
-        flanks = [name for name in header.functions if name.startswith(("flank_", "fillet_"))]
-        attempt(check_jacobian, header)
-        attempt(check_assembly, header)
-        for name in flanks:
-            attempt(check_flank, header, name)
-        for body in header.unknowns:
-            attempt(check_agreement, header, body)
-    except (Rejected, LookupError, ValueError) as error:
+        text = path.read_text(encoding="utf-8")
+        check_kernels(text)
+        header = read_header(text, read_companion(path, "lanes"), read_companion(path, "sensitivity"))
+        checks = list(checks_of(header))
+        for _, check in checks:
+            attempt(*check)
+    except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
         raise Rejected(f"{path.name}: {error}") from error
-    return 2 + len(flanks) + len(header.unknowns)
+    return len(checks) + 1
+
+
+def check_kernels(text: str) -> None:
+    """Sine and cosine: polynomials and constants of the reduction against enclosures, in exact arithmetic."""
+    body = re.search(r"_sincos\(double a, double \*sine, double \*cosine\)\n{\n(.*?)\n}", text, re.DOTALL)
+    require(body, "no kernel of sine and cosine")
+    pi = CHECK.number_of("pi").middle
+    half, first, second, third = (
+        Fraction(float(found))
+        for found in re.search(
+            r"MW_FMA\(a, ([\d.]+), magic\);.*?k \* ([\d.e-]+)\) - k \* ([\d.e-]+)\) - k \* ([\d.e-]+);",
+            body[1],
+            re.DOTALL,
+        ).groups()
+    )
+    require(abs(half - 2 / pi) < Fraction(1, 2**53), "sincos: 2/pi is another number")
+    require(abs(first + second + third - pi / 2) < Fraction(1, 10**35), "sincos: pi/2 is another number")
+    fused = re.search(r"MW_FNMA\(k, ([\d.e-]+), MW_FNMA\(k, ([\d.e-]+), a\)\)", body[1])
+    turns = sum(Fraction(float(found)) for found in fused.groups())
+    require(abs(turns - pi / 2) < Fraction(1, 10**30), "sincos: pi/2 is another number")
+    lines = re.findall(r"const double (\w+) = (.+?);", body[1])
+    for step in range(-8, 9):
+        r = Fraction(step, 8) * Fraction(785, 1000)
+        known = {"r": r, "z": r * r}
+        for name, expression in lines:
+            if re.fullmatch(r"[uv]\d?_?\w*", name):
+                known[name] = kernel_value(expression, known)
+        u, v, z = known["u"], known["v"], known["z"]
+        cosine, sine = CHECK.cosine_and_sine(CHECK.Ball(r), CHECK.number_of("pi"))
+        require(abs(r + r * z * u - sine.middle) <= abs(r) * Fraction(1, 2**53), "sincos: the polynomial of the sine")
+        require(
+            abs(1 - z / 2 + z * z * v - cosine.middle) <= Fraction(1, 2**53), "sincos: the polynomial of the cosine"
+        )
+    for line in ("s.number = MW_FMA(r * z, u, r);", "const double w = MW_FNMA(z, 0.5, 1.0);",
+                 "c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));"):  # fmt: skip
+        require(line in body[1], f"sincos: {line} is not there")
+
+
+def kernel_value(expression: str, known: dict[str, Fraction]) -> Fraction:
+    """A product, or a product and a number."""
+
+    def number(text: str) -> Fraction:
+        return known[text] if text in known else Fraction(float(text))
+
+    if match := re.fullmatch(r"MW_FMA\(([^,]+), ([^,]+), ([^,]+)\)", expression):
+        return number(match[1]) * number(match[2]) + number(match[3])
+    left, right = expression.split(" * ")
+    return number(left) * number(right)
 
 
 def verify(folder: Path) -> tuple[int, int]:
@@ -483,7 +765,10 @@ def main(arguments: list[str]) -> int:
     except Rejected as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
-    print(f"{checks} checks of {headers} generated headers hold: J = dR/dx, tangents, normals, assembly, agreement")
+    print(
+        f"{checks} checks of {headers} generated headers hold: J = dR/dx, step, paths, start, tangents, normals, "
+        "curvature, lanes, parameters, sine, assembly, agreement"
+    )
     return 0
 
 

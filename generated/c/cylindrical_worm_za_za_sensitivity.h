@@ -15,12 +15,12 @@ static inline void cylindrical_worm_za_za_derive_tangent(double *known, const do
     if (known[0] != known[0]) known[0] = p[0];
     if (known[8] != known[8]) known[8] = p[8];
     if (known[9] != known[9]) known[9] = p[9];
-    if (known[21] != known[21]) known[21] = p[21];
-    if (known[22] != known[22]) known[22] = p[22];
-    if (known[23] != known[23]) known[23] = p[23];
-    if (known[24] != known[24]) known[24] = p[24];
-    if (known[33] != known[33]) known[33] = p[33];
-    if (known[34] != known[34]) known[34] = p[34];
+    if (known[17] != known[17]) known[17] = p[17];
+    if (known[18] != known[18]) known[18] = p[18];
+    if (known[19] != known[19]) known[19] = p[19];
+    if (known[20] != known[20]) known[20] = p[20];
+    if (known[29] != known[29]) known[29] = p[29];
+    if (known[30] != known[30]) known[30] = p[30];
     if (known[5] != known[5] && known[2] == known[2] && known[3] == known[3] && known[6] == known[6]) { /* lambda_worm */
         const double t0 = p[2] * 0.5;
         const double t1 = dp[2] * 0.5;
@@ -105,7 +105,7 @@ static inline void cylindrical_worm_za_za_derive_tangent(double *known, const do
         dp[11] = dp[3];
         known[11] = p[11];
     }
-    if (known[17] != known[17] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
+    if (known[13] != known[13] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
         const double t0 = 1.0 / p[10];
         const double t1 = p[1] * 0.5;
         const double t2 = p[11] * t1;
@@ -128,22 +128,14 @@ static inline void cylindrical_worm_za_za_derive_tangent(double *known, const do
         const double t19 = t15 * t18;
         const double t20 = MW_FNMA(t6, t19, t16);
         const double t21 = t20 / t17;
-        dp[17] = t21;
-        known[17] = p[17];
+        dp[13] = t21;
+        known[13] = p[13];
     }
-    if (known[14] != known[14] && known[7] == known[7]) { /* alpha_hob */
-        dp[14] = dp[7];
-        known[14] = p[14];
+    if (known[12] != known[12] && known[7] == known[7]) { /* alpha_hob */
+        dp[12] = dp[7];
+        known[12] = p[12];
     }
-    if (known[15] != known[15] && known[12] == known[12]) { /* r_c_hob */
-        dp[15] = dp[12];
-        known[15] = p[15];
-    }
-    if (known[16] != known[16] && known[13] == known[13]) { /* rho_c_hob */
-        dp[16] = dp[13];
-        known[16] = p[16];
-    }
-    if (known[18] != known[18] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
+    if (known[14] != known[14] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_za_za_sincos(t0, &s1, &c1);
@@ -158,22 +150,22 @@ static inline void cylindrical_worm_za_za_derive_tangent(double *known, const do
         const double t11 = t6 * t10;
         const double t12 = MW_FNMA(t11, t9, t8);
         const double t13 = MW_FMA(t10, t12, dp[6]);
-        dp[18] = t13;
-        known[18] = p[18];
+        dp[14] = t13;
+        known[14] = p[14];
     }
-    if (known[19] != known[19] && known[6] == known[6] && known[10] == known[10] && known[18] == known[18]) { /* A_gen */
-        const double t0 = dp[10] + dp[18];
+    if (known[15] != known[15] && known[6] == known[6] && known[10] == known[10] && known[14] == known[14]) { /* A_gen */
+        const double t0 = dp[10] + dp[14];
         const double t1 = t0 - dp[6];
-        dp[19] = t1;
-        known[19] = p[19];
+        dp[15] = t1;
+        known[15] = p[15];
     }
-    if (known[20] != known[20] && known[5] == known[5] && known[8] == known[8] && known[17] == known[17]) { /* Sigma_gen */
+    if (known[16] != known[16] && known[5] == known[5] && known[8] == known[8] && known[13] == known[13]) { /* Sigma_gen */
         const double t0 = dp[5] + dp[8];
-        const double t1 = t0 - dp[17];
-        dp[20] = t1;
-        known[20] = p[20];
+        const double t1 = t0 - dp[13];
+        dp[16] = t1;
+        known[16] = p[16];
     }
-    if (known[25] != known[25] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[32] == known[32]) { /* R_tip */
+    if (known[21] != known[21] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[28] == known[28]) { /* R_tip */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_za_za_sincos(t0, &s1, &c1);
@@ -191,19 +183,245 @@ static inline void cylindrical_worm_za_za_derive_tangent(double *known, const do
         const double t14 = MW_FNMA(t13, t11, t10);
         const double t15 = t13 + t8;
         const double t16 = MW_FMA(t12, t14, t9);
-        const double t17 = dp[32] * t15;
-        const double t18 = MW_FMA(p[32], t16, t17);
-        dp[25] = t18;
-        known[25] = p[25];
+        const double t17 = dp[28] * t15;
+        const double t18 = MW_FMA(p[28], t16, t17);
+        dp[21] = t18;
+        known[21] = p[21];
     }
-    if (known[30] != known[30] && known[1] == known[1] && known[9] == known[9] && known[32] == known[32]) { /* h_hob */
+    if (known[26] != known[26] && known[1] == known[1] && known[9] == known[9] && known[28] == known[28]) { /* h_hob */
         const double t0 = MW_FMA(dp[1], 2.0, dp[9]);
-        const double t1 = p[32] * t0;
+        const double t1 = p[28] * t0;
         const double t2 = MW_FMA(p[1], 2.0, p[9]);
-        const double t3 = MW_FMA(dp[32], t2, t1);
-        dp[30] = t3;
-        known[30] = p[30];
+        const double t3 = MW_FMA(dp[28], t2, t1);
+        dp[26] = t3;
+        known[26] = p[26];
     }
+}
+
+/* X(cylindrical_worm_za_za_<system>) for each design system, in order. */
+#define cylindrical_worm_za_za_SYSTEMS(X)
+
+/* Change dr[3] of the point of the pinion's flank (body frame) at its parameters q along dp[cylindrical_worm_za_za_NP] at p. */
+static inline void cylindrical_worm_za_za_pinion_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_za_za_sincos(p[7], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_za_za_sincos(p[5], &s2, &c2);
+    const double t4 = p[1] * 0.7853981633974483;
+    const double t5 = q[0] - p[6];
+    const double t6 = 1.0 / c0;
+    const double t7 = c0 * dp[7];
+    const double t8 = s0 * dp[7];
+    const double t9 = 1.0 / c2;
+    const double t10 = s2 * dp[5];
+    const double t11 = s0 * t6;
+    const double t12 = c2 * dp[5];
+    const double t13 = MW_FMA(t11, t8, t7);
+    const double t14 = MW_FNMA(p[9], t11, t4);
+    const double t15 = t11 * dp[9];
+    const double t16 = t11 * dp[6];
+    const double t17 = t6 * t13;
+    const double t18 = MW_FMA(t11, t5, t14);
+    const double t19 = MW_FMS(t5, t17, t16);
+    const double t20 = MW_FMA(p[9], t17, t15);
+    const double t21 = MW_FMS(0.7853981633974483, dp[1], t20);
+    const double t22 = t21 + t19;
+    const double t23 = s2 * t9;
+    const double t24 = t9 * t10;
+    const double t25 = t9 * dp[0];
+    const double t26 = p[0] * t9;
+    const double t27 = MW_FMA(t23, t10, t12);
+    const double t28 = t9 * t24;
+    const double t29 = t23 * dp[6];
+    const double t30 = MW_FMA(p[0], t28, t25);
+    const double t31 = t9 * t27;
+    const double t32 = t18 * t30;
+    const double t33 = MW_FMA(p[6], t31, t29);
+    const double t34 = MW_FMA(t26, t22, t32);
+    const double t35 = MW_FMA(q[1], t33, t34);
+    dr[0] = 0.0;
+    dr[1] = 0.0;
+    dr[2] = t35;
+}
+
+/* Change dr[3] of the point of the wheel's flank (body frame) at its parameters q along dp[cylindrical_worm_za_za_NP] at p. */
+static inline void cylindrical_worm_za_za_wheel_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_za_za_sincos(p[12], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_za_za_sincos(p[13], &s2, &c2);
+    double s4, c4;
+    cylindrical_worm_za_za_sincos(p[7], &s4, &c4);
+    const double t6 = 1.0 / c0;
+    double s7, c7;
+    cylindrical_worm_za_za_sincos(p[16], &s7, &c7);
+    const double t9 = 1.0 / c2;
+    double s10, c10;
+    cylindrical_worm_za_za_sincos(q[1], &s10, &c10);
+    const double t12 = 1.0 / c4;
+    const double t13 = 1.0 / p[4];
+    const double t14 = s0 * t6;
+    const double t15 = s2 * t9;
+    const double t16 = p[0] * t14;
+    const double t17 = p[10] * p[11];
+    const double t18 = p[0] * p[10];
+    const double t19 = t15 * t17;
+    const double t20 = t15 * t18;
+    const double t21 = p[1] * 0.7853981633974483;
+    const double t22 = t16 * t9;
+    const double t23 = q[0] - p[10];
+    const double t24 = p[0] * t9;
+    const double t25 = s7 * t19;
+    const double t26 = q[0] * c7;
+    const double t27 = p[0] * s7;
+    const double t28 = s7 * t24;
+    const double t29 = q[0] * t27;
+    const double t30 = p[0] * t22;
+    const double t31 = c0 * dp[12];
+    const double t32 = s0 * dp[12];
+    const double t33 = MW_FMA(t14, t32, t31);
+    const double t34 = 1.0 / t25;
+    const double t35 = s2 * dp[13];
+    const double t36 = q[0] * t30;
+    const double t37 = c2 * dp[13];
+    const double t38 = t6 * t33;
+    const double t39 = MW_FMA(t15, t35, t37);
+    const double t40 = t14 * dp[0];
+    const double t41 = c4 * dp[7];
+    const double t42 = s4 * dp[7];
+    const double t43 = p[0] * dp[10];
+    const double t44 = MW_FMA(p[10], dp[0], t43);
+    const double t45 = t9 * t39;
+    const double t46 = s4 * t12;
+    const double t47 = MW_FMA(p[0], t38, t40);
+    const double t48 = t9 * t35;
+    const double t49 = p[11] * t13;
+    const double t50 = t9 * t48;
+    const double t51 = t15 * t44;
+    const double t52 = c7 * dp[16];
+    const double t53 = t19 * t52;
+    const double t54 = MW_FNMA(p[9], t46, t21);
+    const double t55 = MW_FMA(t46, t42, t41);
+    const double t56 = MW_FMA(t22, t35, t47);
+    const double t57 = t46 * dp[9];
+    const double t58 = t22 * dp[0];
+    const double t59 = MW_FMA(t18, t45, t51);
+    const double t60 = t9 * dp[0];
+    const double t61 = MW_FMA(p[0], t50, t60);
+    const double t62 = MW_FMA(t14, t23, t54);
+    const double t63 = t12 * t55;
+    const double t64 = t9 * t56;
+    const double t65 = t14 * dp[10];
+    const double t66 = MW_FMS(t23, t38, t65);
+    const double t67 = s10 * t26;
+    const double t68 = s10 * t20;
+    const double t69 = c10 * t20;
+    const double t70 = MW_FMA(p[9], t63, t57);
+    const double t71 = MW_FMA(p[0], t64, t58);
+    const double t72 = MW_FMS(q[0], c10, p[15]);
+    const double t73 = p[10] * dp[11];
+    const double t74 = MW_FMS(c10, t36, t68);
+    const double t75 = MW_FMA(t36, s10, t69);
+    const double t76 = MW_FMS(t62, t28, t67);
+    const double t77 = t72 * t49;
+    const double t78 = MW_FMA(p[11], dp[10], t73);
+    const double t79 = MW_FMS(0.7853981633974483, dp[1], t70);
+    const double t80 = q[0] * t71;
+    const double t81 = t15 * t78;
+    const double t82 = MW_FMA(t75, c7, t29);
+    const double t83 = 1.0 / t74;
+    const double t84 = t79 + t66;
+    const double t85 = t74 * t49;
+    const double t86 = p[4] * t34;
+    const double t87 = MW_FMA(t17, t45, t81);
+    const double t88 = t76 * t85;
+    const double t89 = t24 * t52;
+    const double t90 = MW_FMA(s7, t61, t89);
+    const double t91 = t13 * dp[4];
+    const double t92 = t13 * t91;
+    const double t93 = t13 * dp[11];
+    const double t94 = c10 * t59;
+    const double t95 = MW_FMA(s7, t87, t53);
+    const double t96 = MW_FMA(t82, t77, t88);
+    const double t97 = t62 * t90;
+    const double t98 = MW_FMA(s10, t80, t94);
+    const double t99 = MW_FNMA(p[11], t92, t93);
+    const double t100 = s7 * dp[16];
+    const double t101 = t75 * t100;
+    const double t102 = s7 * dp[0];
+    const double t103 = MW_FMA(p[0], t52, t102);
+    const double t104 = MW_FMA(q[0], t20, t96);
+    const double t105 = MW_FMA(t28, t84, t97);
+    const double t106 = t34 * t95;
+    const double t107 = t74 * t99;
+    const double t108 = MW_FMS(c7, t98, t101);
+    const double t109 = t49 * dp[15];
+    const double t110 = MW_FMS(t72, t99, t109);
+    const double t111 = t34 * t106;
+    const double t112 = t104 * t86;
+    const double t113 = t34 * dp[4];
+    const double t114 = q[0] * t100;
+    const double t115 = MW_FMA(s10, t114, t105);
+    const double t116 = MW_FMA(q[0], t103, t108);
+    const double t117 = t82 * t110;
+    const double t118 = s10 * t59;
+    const double t119 = MW_FMS(c10, t80, t118);
+    const double t120 = MW_FNMA(p[4], t111, t113);
+    const double t121 = t62 * t61;
+    const double t122 = t85 * t115;
+    const double t123 = MW_FMA(t24, t84, t121);
+    const double t124 = t62 * t24;
+    const double t125 = MW_FMA(t77, t116, t117);
+    const double t126 = MW_FMA(t49, t119, t107);
+    const double t127 = t104 * t120;
+    const double t128 = t112 * t83;
+    const double t129 = t15 * dp[10];
+    const double t130 = MW_FMA(p[10], t45, t129);
+    const double t131 = p[10] * t15;
+    const double t132 = q[0] * t52;
+    const double t133 = MW_FMA(t76, t126, t122);
+    const double t134 = q[1] + t128;
+    const double t135 = t128 * t130;
+    const double t136 = MW_FNMA(t128, t131, t124);
+    const double t137 = t125 + t133;
+    const double t138 = t49 * t134;
+    const double t139 = t134 * t99;
+    const double t140 = t136 * t52;
+    const double t141 = MW_FNMA(s7, t136, t67);
+    const double t142 = t136 * t100;
+    const double t143 = MW_FMA(q[0], t59, t137);
+    double s144, c144;
+    cylindrical_worm_za_za_sincos(t138, &s144, &c144);
+    const double t146 = MW_FMA(t86, t143, t127);
+    const double t147 = MW_FNMA(t128, t119, t146);
+    const double t148 = t83 * t147;
+    const double t149 = MW_FMA(t131, t148, t135);
+    const double t150 = MW_FMA(t49, t148, t139);
+    const double t151 = t123 - t149;
+    const double t152 = MW_FMA(s7, t151, t140);
+    const double t153 = MW_FMS(c7, t151, t142);
+    const double t154 = MW_FMA(s10, t114, t152);
+    const double t155 = MW_FMA(s10, t132, t153);
+    const double t156 = c144 * t150;
+    const double t157 = s144 * t150;
+    const double t158 = c144 * dp[15];
+    const double t159 = s144 * dp[15];
+    const double t160 = MW_FMA(t72, t157, t158);
+    const double t161 = MW_FMS(t72, t156, t159);
+    const double t162 = t141 * t156;
+    const double t163 = t141 * t157;
+    const double t164 = MW_FNMA(s144, t154, t162);
+    const double t165 = MW_FMA(c144, t154, t163);
+    const double t166 = t160 + t164;
+    const double t167 = t161 - t165;
+    const double t168 = -t166;
+    dr[0] = t168;
+    dr[1] = t167;
+    dr[2] = t155;
 }
 
 /* Changes dR[cylindrical_worm_za_za_NX] of the residual and dr[3] of the pinion's contact point (fixed frame) along dp[cylindrical_worm_za_za_NP],
@@ -212,14 +430,14 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double *dx, double *dR, double *dr)
 {
     double s0, c0;
-    cylindrical_worm_za_za_sincos(p[14], &s0, &c0);
+    cylindrical_worm_za_za_sincos(p[12], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_za_za_sincos(p[17], &s2, &c2);
+    cylindrical_worm_za_za_sincos(p[13], &s2, &c2);
     double s4, c4;
     cylindrical_worm_za_za_sincos(p[7], &s4, &c4);
     const double t6 = 1.0 / c0;
     double s7, c7;
-    cylindrical_worm_za_za_sincos(p[20], &s7, &c7);
+    cylindrical_worm_za_za_sincos(p[16], &s7, &c7);
     const double t9 = 1.0 / c2;
     double s10, c10;
     cylindrical_worm_za_za_sincos(x[3], &s10, &c10);
@@ -242,8 +460,8 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t28 = s7 * t24;
     const double t29 = x[2] * t27;
     const double t30 = p[0] * t22;
-    const double t31 = c0 * dp[14];
-    const double t32 = s0 * dp[14];
+    const double t31 = c0 * dp[12];
+    const double t32 = s0 * dp[12];
     const double t33 = MW_FMA(t14, t32, t31);
     const double t34 = 1.0 / t25;
     const double t35 = t27 * dx[2];
@@ -261,7 +479,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t47 = MW_FMA(t36, s10, t46);
     const double t48 = s10 * t26;
     const double t49 = MW_FMA(t14, t23, t42);
-    const double t50 = MW_FMS(x[2], c10, p[19]);
+    const double t50 = MW_FMS(x[2], c10, p[15]);
     const double t51 = 1.0 / t44;
     const double t52 = MW_FMA(t47, c7, t29);
     const double t53 = t44 * t45;
@@ -271,13 +489,13 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t57 = p[4] * t34;
     const double t58 = t14 * dp[0];
     const double t59 = MW_FMA(p[0], t38, t58);
-    const double t60 = p[8] + p[22];
+    const double t60 = p[8] + p[18];
     double s61, c61;
     cylindrical_worm_za_za_sincos(t56, &s61, &c61);
     const double t63 = t55 * t53;
     const double t64 = MW_FMA(t52, t54, t63);
-    const double t65 = s2 * dp[17];
-    const double t66 = c2 * dp[17];
+    const double t65 = s2 * dp[13];
+    const double t66 = c2 * dp[13];
     const double t67 = MW_FMA(t22, t65, t59);
     const double t68 = MW_FMA(t15, t65, t66);
     const double t69 = t9 * t65;
@@ -303,7 +521,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t89 = MW_FMA(p[10], dp[0], t88);
     const double t90 = MW_FMA(phi, t87, x[4]);
     const double t91 = x[3] + t86;
-    const double t92 = c7 * dp[20];
+    const double t92 = c7 * dp[16];
     const double t93 = t19 * t92;
     const double t94 = dx[2] - dp[10];
     const double t95 = t14 * t94;
@@ -341,8 +559,8 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t127 = MW_FMS(c10, t85, t126);
     const double t128 = t20 * t100;
     const double t129 = MW_FMS(c10, t104, t128);
-    const double t130 = t120 - dp[19];
-    const double t131 = s7 * dp[20];
+    const double t130 = t120 - dp[15];
+    const double t131 = s7 * dp[16];
     const double t132 = c7 * dx[2];
     const double t133 = MW_FNMA(x[2], t131, t132);
     const double t134 = t34 * t125;
@@ -377,7 +595,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t163 = t49 * t24;
     const double t164 = MW_FMA(t55, t159, t154);
     double s165, c165;
-    cylindrical_worm_za_za_sincos(p[23], &s165, &c165);
+    cylindrical_worm_za_za_sincos(p[19], &s165, &c165);
     const double t167 = MW_FMA(t54, t158, t160);
     const double t168 = t167 + t164;
     const double t169 = s39 * dp[5];
@@ -413,7 +631,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t199 = t51 * t191;
     const double t200 = MW_FMA(p[6], t179, t198);
     const double t201 = MW_FMA(phi, t193, t194);
-    const double t202 = dp[8] + dp[22];
+    const double t202 = dp[8] + dp[18];
     const double t203 = t147 * t195;
     const double t204 = p[0] * t147;
     const double t205 = MW_FMA(t204, t189, t196);
@@ -454,7 +672,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t240 = t229 + t233;
     const double t241 = t225 * t211;
     const double t242 = MW_FMS(c61, t227, t241);
-    const double t243 = s165 * dp[23];
+    const double t243 = s165 * dp[19];
     const double t244 = t218 * t219;
     const double t245 = MW_FMS(c80, t221, t244);
     const double t246 = t225 * t212;
@@ -464,7 +682,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t250 = MW_FMA(t218, c80, t248);
     const double t251 = t218 * t220;
     const double t252 = MW_FMA(s80, t221, t251);
-    const double t253 = c165 * dp[23];
+    const double t253 = c165 * dp[19];
     const double t254 = t245 + t247;
     const double t255 = x[0] * c80;
     const double t256 = c80 * dx[0];
@@ -476,7 +694,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t262 = MW_FNMA(x[0], t243, t261);
     const double t263 = c61 * dx[0];
     const double t264 = MW_FNMA(x[0], t211, t263);
-    const double t265 = p[18] + p[21];
+    const double t265 = p[14] + p[17];
     const double t266 = MW_FMS(x[0], c61, t265);
     const double t267 = t210 * t92;
     const double t268 = MW_FMA(s7, t230, t267);
@@ -509,7 +727,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t295 = t287 - t274;
     const double t296 = s61 * t260;
     const double t297 = MW_FMA(s165, t237, t296);
-    const double t298 = dp[18] + dp[21];
+    const double t298 = dp[14] + dp[17];
     const double t299 = t264 - t298;
     const double t300 = s112 * t231;
     const double t301 = t292 + t294;
@@ -530,7 +748,7 @@ static inline void cylindrical_worm_za_za_tangent(const double *p, const double 
     const double t316 = MW_FMS(c165, t299, t313);
     const double t317 = MW_FMA(s165, t299, t312);
     const double t318 = t309 + t311;
-    const double t319 = t304 - dp[24];
+    const double t319 = t304 - dp[20];
     const double t320 = t317 + t319;
     const double t321 = c7 * dp[0];
     const double t322 = MW_FNMA(p[0], t131, t321);

@@ -15,12 +15,12 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(double *known, const do
     if (known[0] != known[0]) known[0] = p[0];
     if (known[8] != known[8]) known[8] = p[8];
     if (known[9] != known[9]) known[9] = p[9];
-    if (known[21] != known[21]) known[21] = p[21];
-    if (known[22] != known[22]) known[22] = p[22];
-    if (known[23] != known[23]) known[23] = p[23];
-    if (known[24] != known[24]) known[24] = p[24];
-    if (known[33] != known[33]) known[33] = p[33];
-    if (known[34] != known[34]) known[34] = p[34];
+    if (known[17] != known[17]) known[17] = p[17];
+    if (known[18] != known[18]) known[18] = p[18];
+    if (known[19] != known[19]) known[19] = p[19];
+    if (known[20] != known[20]) known[20] = p[20];
+    if (known[29] != known[29]) known[29] = p[29];
+    if (known[30] != known[30]) known[30] = p[30];
     if (known[5] != known[5] && known[2] == known[2] && known[3] == known[3] && known[6] == known[6]) { /* lambda_worm */
         const double t0 = p[2] * 0.5;
         const double t1 = dp[2] * 0.5;
@@ -105,7 +105,7 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(double *known, const do
         dp[11] = dp[3];
         known[11] = p[11];
     }
-    if (known[17] != known[17] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
+    if (known[13] != known[13] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
         const double t0 = 1.0 / p[10];
         const double t1 = p[1] * 0.5;
         const double t2 = p[11] * t1;
@@ -128,22 +128,14 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(double *known, const do
         const double t19 = t15 * t18;
         const double t20 = MW_FNMA(t6, t19, t16);
         const double t21 = t20 / t17;
-        dp[17] = t21;
-        known[17] = p[17];
+        dp[13] = t21;
+        known[13] = p[13];
     }
-    if (known[14] != known[14] && known[7] == known[7]) { /* alpha_hob */
-        dp[14] = dp[7];
-        known[14] = p[14];
+    if (known[12] != known[12] && known[7] == known[7]) { /* alpha_hob */
+        dp[12] = dp[7];
+        known[12] = p[12];
     }
-    if (known[15] != known[15] && known[12] == known[12]) { /* r_c_hob */
-        dp[15] = dp[12];
-        known[15] = p[15];
-    }
-    if (known[16] != known[16] && known[13] == known[13]) { /* rho_c_hob */
-        dp[16] = dp[13];
-        known[16] = p[16];
-    }
-    if (known[18] != known[18] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
+    if (known[14] != known[14] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_zi_zi_sincos(t0, &s1, &c1);
@@ -158,22 +150,22 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(double *known, const do
         const double t11 = t6 * t10;
         const double t12 = MW_FNMA(t11, t9, t8);
         const double t13 = MW_FMA(t10, t12, dp[6]);
-        dp[18] = t13;
-        known[18] = p[18];
+        dp[14] = t13;
+        known[14] = p[14];
     }
-    if (known[19] != known[19] && known[6] == known[6] && known[10] == known[10] && known[18] == known[18]) { /* A_gen */
-        const double t0 = dp[10] + dp[18];
+    if (known[15] != known[15] && known[6] == known[6] && known[10] == known[10] && known[14] == known[14]) { /* A_gen */
+        const double t0 = dp[10] + dp[14];
         const double t1 = t0 - dp[6];
-        dp[19] = t1;
-        known[19] = p[19];
+        dp[15] = t1;
+        known[15] = p[15];
     }
-    if (known[20] != known[20] && known[5] == known[5] && known[8] == known[8] && known[17] == known[17]) { /* Sigma_gen */
+    if (known[16] != known[16] && known[5] == known[5] && known[8] == known[8] && known[13] == known[13]) { /* Sigma_gen */
         const double t0 = dp[5] + dp[8];
-        const double t1 = t0 - dp[17];
-        dp[20] = t1;
-        known[20] = p[20];
+        const double t1 = t0 - dp[13];
+        dp[16] = t1;
+        known[16] = p[16];
     }
-    if (known[25] != known[25] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[32] == known[32]) { /* R_tip */
+    if (known[21] != known[21] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[28] == known[28]) { /* R_tip */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_zi_zi_sincos(t0, &s1, &c1);
@@ -191,19 +183,397 @@ static inline void cylindrical_worm_zi_zi_derive_tangent(double *known, const do
         const double t14 = MW_FNMA(t13, t11, t10);
         const double t15 = t13 + t8;
         const double t16 = MW_FMA(t12, t14, t9);
-        const double t17 = dp[32] * t15;
-        const double t18 = MW_FMA(p[32], t16, t17);
-        dp[25] = t18;
-        known[25] = p[25];
+        const double t17 = dp[28] * t15;
+        const double t18 = MW_FMA(p[28], t16, t17);
+        dp[21] = t18;
+        known[21] = p[21];
     }
-    if (known[30] != known[30] && known[1] == known[1] && known[9] == known[9] && known[32] == known[32]) { /* h_hob */
+    if (known[26] != known[26] && known[1] == known[1] && known[9] == known[9] && known[28] == known[28]) { /* h_hob */
         const double t0 = MW_FMA(dp[1], 2.0, dp[9]);
-        const double t1 = p[32] * t0;
+        const double t1 = p[28] * t0;
         const double t2 = MW_FMA(p[1], 2.0, p[9]);
-        const double t3 = MW_FMA(dp[32], t2, t1);
-        dp[30] = t3;
-        known[30] = p[30];
+        const double t3 = MW_FMA(dp[28], t2, t1);
+        dp[26] = t3;
+        known[26] = p[26];
     }
+}
+
+/* X(cylindrical_worm_zi_zi_<system>) for each design system, in order. */
+#define cylindrical_worm_zi_zi_SYSTEMS(X)
+
+/* Change dr[3] of the point of the pinion's flank (body frame) at its parameters q along dp[cylindrical_worm_zi_zi_NP] at p. */
+static inline void cylindrical_worm_zi_zi_pinion_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_zi_zi_sincos(p[7], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_zi_zi_sincos(p[5], &s2, &c2);
+    const double t4 = p[1] * 1.5707963267948966;
+    const double t5 = p[9] * (-2.0);
+    const double t6 = (-2.0) * dp[9];
+    const double t7 = 1.0 / c0;
+    const double t8 = c0 * dp[7];
+    const double t9 = s0 * dp[7];
+    const double t10 = s2 * s2;
+    const double t11 = c2 * dp[5];
+    const double t12 = 1.0 / c2;
+    const double t13 = s0 * t7;
+    const double t14 = s2 * dp[5];
+    const double t15 = 1.0 / t10;
+    const double t16 = s2 * t11;
+    const double t17 = t13 * t13;
+    const double t18 = MW_FMA(t13, t9, t8);
+    const double t19 = MW_FMA(t13, t5, t4);
+    const double t20 = t13 * t6;
+    const double t21 = t16 + t16;
+    const double t22 = t7 * t18;
+    const double t23 = 0.5 * t19;
+    const double t24 = t13 * t22;
+    const double t25 = MW_FMA(t5, t22, t20);
+    const double t26 = t24 + t24;
+    const double t27 = MW_FMA(1.5707963267948966, dp[1], t25);
+    const double t28 = s2 * t12;
+    const double t29 = t23 * t12;
+    const double t30 = t17 * t15;
+    const double t31 = MW_FMA(t28, t14, t11);
+    const double t32 = t29 * t14;
+    const double t33 = t28 * dp[6];
+    const double t34 = p[6] * t28;
+    const double t35 = 1.0 + t30;
+    const double t36 = MW_FNMA(t30, t21, t26);
+    const double t37 = MW_FMA(0.5, t27, t32);
+    const double t38 = t12 * t31;
+    const double t39 = sqrt(t35);
+    const double t40 = t15 * t36;
+    const double t41 = MW_FMA(p[6], t38, t33);
+    const double t42 = 1.0 / t39;
+    const double t43 = p[6] * t42;
+    const double t44 = 0.5 * t42;
+    const double t45 = p[6] - t43;
+    const double t46 = p[6] + t43;
+    const double t47 = q[0] - t43;
+    const double t48 = q[0] + t43;
+    const double t49 = t40 * t44;
+    const double t50 = t43 * t43;
+    const double t51 = t45 * t46;
+    const double t52 = t47 * t48;
+    const double t53 = MW_FNMA(t43, t49, dp[6]);
+    const double t54 = sqrt(t51);
+    const double t55 = sqrt(t52);
+    const double t56 = t42 * t53;
+    const double t57 = t48 * t56;
+    const double t58 = dp[6] + t56;
+    const double t59 = dp[6] - t56;
+    const double t60 = t45 * t58;
+    const double t61 = MW_FMS(t47, t56, t57);
+    const double t62 = MW_FMA(t46, t59, t60);
+    const double t63 = cylindrical_worm_zi_zi_atan2(t54, t43);
+    const double t64 = cylindrical_worm_zi_zi_atan2(t55, t43);
+    const double t65 = 0.5 / t54;
+    const double t66 = 0.5 / t55;
+    const double t67 = t54 * t56;
+    const double t68 = MW_FMA(t54, t54, t50);
+    const double t69 = t55 * t56;
+    const double t70 = MW_FMA(t55, t55, t50);
+    const double t71 = t65 * t62;
+    const double t72 = t66 * t61;
+    const double t73 = MW_FMS(t43, t71, t67);
+    const double t74 = MW_FMS(t43, t72, t69);
+    const double t75 = t73 / t68;
+    const double t76 = t74 / t70;
+    double s77, c77;
+    cylindrical_worm_zi_zi_sincos(t63, &s77, &c77);
+    double s79, c79;
+    cylindrical_worm_zi_zi_sincos(t64, &s79, &c79);
+    const double t81 = 1.0 / c77;
+    const double t82 = c77 * t75;
+    const double t83 = s77 * t75;
+    const double t84 = 1.0 / c79;
+    const double t85 = c79 * t76;
+    const double t86 = s79 * t76;
+    const double t87 = s77 * t81;
+    const double t88 = MW_FMA(t87, t83, t82);
+    const double t89 = t63 - t87;
+    const double t90 = MW_FNMA(t81, t88, t75);
+    const double t91 = t89 - t64;
+    const double t92 = t90 - t76;
+    const double t93 = s79 * t84;
+    const double t94 = MW_FMA(t93, t86, t85);
+    const double t95 = t93 + t91;
+    const double t96 = MW_FMA(t84, t94, t92);
+    const double t97 = MW_FMA(t34, t95, t29);
+    const double t98 = t95 * t41;
+    const double t99 = MW_FMA(t34, t96, t98);
+    const double t100 = t97 * dp[0];
+    const double t101 = MW_FMA(t12, t37, t99);
+    const double t102 = MW_FMA(p[0], t101, t100);
+    const double t103 = MW_FMA(q[1], t41, t102);
+    dr[0] = 0.0;
+    dr[1] = 0.0;
+    dr[2] = t103;
+}
+
+/* Change dr[3] of the point of the wheel's flank (body frame) at its parameters q along dp[cylindrical_worm_zi_zi_NP] at p. */
+static inline void cylindrical_worm_zi_zi_wheel_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_zi_zi_sincos(p[12], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_zi_zi_sincos(p[13], &s2, &c2);
+    double s4, c4;
+    cylindrical_worm_zi_zi_sincos(p[7], &s4, &c4);
+    const double t6 = 1.0 / c0;
+    const double t7 = c0 * dp[12];
+    const double t8 = s0 * dp[12];
+    double s9, c9;
+    cylindrical_worm_zi_zi_sincos(p[16], &s9, &c9);
+    const double t11 = s0 * t6;
+    const double t12 = s2 * s2;
+    const double t13 = 1.0 / t12;
+    const double t14 = t11 * t11;
+    const double t15 = MW_FMA(t11, t8, t7);
+    const double t16 = c2 * dp[13];
+    const double t17 = t6 * t15;
+    const double t18 = s2 * t16;
+    const double t19 = 1.0 / c2;
+    const double t20 = 1.0 / c4;
+    const double t21 = t11 * t17;
+    const double t22 = t18 + t18;
+    double s23, c23;
+    cylindrical_worm_zi_zi_sincos(q[1], &s23, &c23);
+    const double t25 = t14 * t13;
+    const double t26 = 1.0 + t25;
+    const double t27 = t21 + t21;
+    const double t28 = MW_FNMA(t25, t22, t27);
+    const double t29 = 1.0 / p[4];
+    const double t30 = s2 * t19;
+    const double t31 = sqrt(t26);
+    const double t32 = t13 * t28;
+    const double t33 = p[0] * p[10];
+    const double t34 = p[10] * p[11];
+    const double t35 = t30 * t33;
+    const double t36 = p[1] * 1.5707963267948966;
+    const double t37 = s4 * t20;
+    const double t38 = p[9] * (-2.0);
+    const double t39 = MW_FMA(t37, t38, t36);
+    const double t40 = t30 * t34;
+    const double t41 = s2 * dp[13];
+    const double t42 = p[0] * q[0];
+    const double t43 = s9 * t40;
+    const double t44 = MW_FMA(t30, t41, t16);
+    const double t45 = p[10] * t30;
+    const double t46 = 0.5 * t39;
+    const double t47 = q[0] * c9;
+    const double t48 = p[0] * s9;
+    const double t49 = t19 * t44;
+    const double t50 = 1.0 / t43;
+    const double t51 = q[0] * t48;
+    const double t52 = t46 * t19;
+    const double t53 = p[0] * dp[10];
+    const double t54 = MW_FMA(p[10], dp[0], t53);
+    const double t55 = c4 * dp[7];
+    const double t56 = s4 * dp[7];
+    const double t57 = MW_FMA(t37, t56, t55);
+    const double t58 = (-2.0) * dp[9];
+    const double t59 = t37 * t58;
+    const double t60 = t52 * t41;
+    const double t61 = t30 * t54;
+    const double t62 = t30 * dp[10];
+    const double t63 = p[11] * t29;
+    const double t64 = t20 * t57;
+    const double t65 = MW_FMA(p[10], t49, t62);
+    const double t66 = c9 * dp[16];
+    const double t67 = t40 * t66;
+    const double t68 = p[10] * dp[11];
+    const double t69 = MW_FMA(t33, t49, t61);
+    const double t70 = MW_FMA(p[11], dp[10], t68);
+    const double t71 = s9 * dp[0];
+    const double t72 = MW_FMA(t38, t64, t59);
+    const double t73 = MW_FMA(p[0], t66, t71);
+    const double t74 = q[0] * dp[0];
+    const double t75 = t29 * dp[4];
+    const double t76 = t30 * t70;
+    const double t77 = t29 * t75;
+    const double t78 = t29 * dp[11];
+    const double t79 = s23 * t47;
+    const double t80 = c23 * t42;
+    const double t81 = t35 * s23;
+    const double t82 = c23 * t35;
+    const double t83 = MW_FNMA(p[11], t77, t78);
+    const double t84 = MW_FMA(t34, t49, t76);
+    const double t85 = MW_FMS(q[0], c23, p[15]);
+    const double t86 = MW_FMA(1.5707963267948966, dp[1], t72);
+    const double t87 = 1.0 / t31;
+    const double t88 = MW_FMA(0.5, t86, t60);
+    const double t89 = t85 * t63;
+    const double t90 = MW_FMA(s9, t84, t67);
+    const double t91 = c23 * t74;
+    const double t92 = c23 * t69;
+    const double t93 = s9 * dp[16];
+    const double t94 = p[4] * t50;
+    const double t95 = t63 * dp[15];
+    const double t96 = MW_FMS(t85, t83, t95);
+    const double t97 = q[0] * t93;
+    const double t98 = t50 * t90;
+    const double t99 = t50 * dp[4];
+    const double t100 = q[0] * t66;
+    const double t101 = t50 * t98;
+    const double t102 = MW_FNMA(p[4], t101, t99);
+    const double t103 = p[10] * t87;
+    const double t104 = 0.5 * t87;
+    const double t105 = q[0] - t103;
+    const double t106 = q[0] + t103;
+    const double t107 = p[10] - t103;
+    const double t108 = p[10] + t103;
+    const double t109 = t32 * t104;
+    const double t110 = t103 * t103;
+    const double t111 = q[0] * t103;
+    const double t112 = t105 * t106;
+    const double t113 = t107 * t108;
+    const double t114 = MW_FNMA(t103, t109, dp[10]);
+    const double t115 = sqrt(t113);
+    const double t116 = sqrt(t112);
+    const double t117 = t87 * t114;
+    const double t118 = t112 + t110;
+    const double t119 = t106 * t117;
+    const double t120 = dp[10] + t117;
+    const double t121 = dp[10] - t117;
+    const double t122 = t103 * t117;
+    const double t123 = q[0] * t117;
+    const double t124 = MW_FMS(t105, t117, t119);
+    const double t125 = t107 * t120;
+    const double t126 = t122 + t122;
+    const double t127 = MW_FMA(t108, t121, t125);
+    const double t128 = t126 + t124;
+    const double t129 = cylindrical_worm_zi_zi_atan2(t116, t103);
+    const double t130 = cylindrical_worm_zi_zi_atan2(t115, t103);
+    const double t131 = t116 * t118;
+    const double t132 = 1.0 / t131;
+    const double t133 = 0.5 / t116;
+    const double t134 = 0.5 / t115;
+    const double t135 = t116 * t117;
+    const double t136 = t115 * t117;
+    const double t137 = MW_FMA(t115, t115, t110);
+    const double t138 = MW_FMA(t116, t116, t110);
+    const double t139 = t116 * t128;
+    const double t140 = t133 * t124;
+    const double t141 = t134 * t127;
+    const double t142 = t111 * t132;
+    const double t143 = MW_FMS(t103, t140, t135);
+    const double t144 = MW_FMA(t118, t140, t139);
+    const double t145 = MW_FMS(t103, t141, t136);
+    const double t146 = t143 / t138;
+    const double t147 = t145 / t137;
+    const double t148 = MW_FNMA(t142, t144, t123);
+    const double t149 = t132 * t148;
+    double s150, c150;
+    cylindrical_worm_zi_zi_sincos(t129, &s150, &c150);
+    double s152, c152;
+    cylindrical_worm_zi_zi_sincos(t130, &s152, &c152);
+    const double t154 = 1.0 / c150;
+    const double t155 = c150 * t146;
+    const double t156 = s150 * t146;
+    const double t157 = 1.0 / c152;
+    const double t158 = c152 * t147;
+    const double t159 = s152 * t147;
+    const double t160 = s150 * t154;
+    const double t161 = MW_FMA(t160, t156, t155);
+    const double t162 = t160 * t160;
+    const double t163 = t154 * t161;
+    const double t164 = t162 * t35;
+    const double t165 = t162 * t69;
+    const double t166 = t142 * t164;
+    const double t167 = t164 * t149;
+    const double t168 = t160 * t163;
+    const double t169 = MW_FMS(t166, t80, t81);
+    const double t170 = t166 * t42;
+    const double t171 = t168 + t168;
+    const double t172 = t166 * t74;
+    const double t173 = s152 * t157;
+    const double t174 = t166 * t91;
+    const double t175 = MW_FMA(s23, t170, t82);
+    const double t176 = MW_FMA(t35, t171, t165);
+    const double t177 = 1.0 / t169;
+    const double t178 = t130 - t173;
+    const double t179 = MW_FMA(t173, t159, t158);
+    const double t180 = t169 * t63;
+    const double t181 = MW_FMA(t142, t176, t167);
+    const double t182 = MW_FMA(t175, c9, t51);
+    const double t183 = t175 * t93;
+    const double t184 = t169 * t83;
+    const double t185 = t160 + t178;
+    const double t186 = MW_FNMA(t157, t179, t147);
+    const double t187 = MW_FMA(t42, t181, t172);
+    const double t188 = MW_FMA(t80, t181, t174);
+    const double t189 = t182 * t96;
+    const double t190 = t185 - t129;
+    const double t191 = t186 + t163;
+    const double t192 = MW_FMA(s23, t187, t92);
+    const double t193 = MW_FNMA(s23, t69, t188);
+    const double t194 = MW_FMA(t190, t45, t52);
+    const double t195 = t191 - t146;
+    const double t196 = t190 * t65;
+    const double t197 = MW_FMS(c9, t192, t183);
+    const double t198 = MW_FMA(t63, t193, t184);
+    const double t199 = MW_FMA(t45, t195, t196);
+    const double t200 = MW_FMS(t48, t194, t79);
+    const double t201 = t194 * t73;
+    const double t202 = p[0] * t194;
+    const double t203 = MW_FMA(q[0], t73, t197);
+    const double t204 = t194 * dp[0];
+    const double t205 = MW_FMA(t19, t88, t199);
+    const double t206 = t200 * t180;
+    const double t207 = MW_FMA(t89, t203, t189);
+    const double t208 = MW_FMA(t182, t89, t206);
+    const double t209 = MW_FMA(t48, t205, t201);
+    const double t210 = MW_FMA(p[0], t205, t204);
+    const double t211 = MW_FMA(q[0], t35, t208);
+    const double t212 = MW_FMA(s23, t97, t209);
+    const double t213 = t180 * t212;
+    const double t214 = t211 * t94;
+    const double t215 = t211 * t102;
+    const double t216 = MW_FMA(t200, t198, t213);
+    const double t217 = t214 * t177;
+    const double t218 = t207 + t216;
+    const double t219 = q[1] + t217;
+    const double t220 = t217 * t65;
+    const double t221 = MW_FNMA(t45, t217, t202);
+    const double t222 = MW_FMA(q[0], t69, t218);
+    const double t223 = t63 * t219;
+    const double t224 = t219 * t83;
+    const double t225 = t221 * t66;
+    const double t226 = MW_FNMA(s9, t221, t79);
+    const double t227 = t221 * t93;
+    const double t228 = MW_FMA(t94, t222, t215);
+    double s229, c229;
+    cylindrical_worm_zi_zi_sincos(t223, &s229, &c229);
+    const double t231 = MW_FNMA(t217, t193, t228);
+    const double t232 = t177 * t231;
+    const double t233 = MW_FMA(t45, t232, t220);
+    const double t234 = MW_FMA(t63, t232, t224);
+    const double t235 = t210 - t233;
+    const double t236 = MW_FMA(s9, t235, t225);
+    const double t237 = MW_FMS(c9, t235, t227);
+    const double t238 = MW_FMA(s23, t97, t236);
+    const double t239 = MW_FMA(s23, t100, t237);
+    const double t240 = c229 * t234;
+    const double t241 = s229 * t234;
+    const double t242 = c229 * dp[15];
+    const double t243 = s229 * dp[15];
+    const double t244 = MW_FMA(t85, t241, t242);
+    const double t245 = MW_FMS(t85, t240, t243);
+    const double t246 = t226 * t240;
+    const double t247 = t226 * t241;
+    const double t248 = MW_FNMA(s229, t238, t246);
+    const double t249 = MW_FMA(c229, t238, t247);
+    const double t250 = t244 + t248;
+    const double t251 = t245 - t249;
+    const double t252 = -t250;
+    dr[0] = t252;
+    dr[1] = t251;
+    dr[2] = t239;
 }
 
 /* Changes dR[cylindrical_worm_zi_zi_NX] of the residual and dr[3] of the pinion's contact point (fixed frame) along dp[cylindrical_worm_zi_zi_NP],
@@ -212,9 +582,9 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double *dx, double *dR, double *dr)
 {
     double s0, c0;
-    cylindrical_worm_zi_zi_sincos(p[14], &s0, &c0);
+    cylindrical_worm_zi_zi_sincos(p[12], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zi_zi_sincos(p[17], &s2, &c2);
+    cylindrical_worm_zi_zi_sincos(p[13], &s2, &c2);
     double s4, c4;
     cylindrical_worm_zi_zi_sincos(p[7], &s4, &c4);
     const double t6 = 1.0 / c0;
@@ -224,17 +594,17 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t10 = 1.0 / t9;
     const double t11 = s0 * t6;
     const double t12 = t11 * t11;
-    const double t13 = c0 * dp[14];
-    const double t14 = s0 * dp[14];
+    const double t13 = c0 * dp[12];
+    const double t14 = s0 * dp[12];
     const double t15 = MW_FMA(t11, t14, t13);
-    const double t16 = c2 * dp[17];
+    const double t16 = c2 * dp[13];
     const double t17 = s2 * t16;
     const double t18 = 1.0 / c2;
     const double t19 = 1.0 / c4;
     const double t20 = t6 * t15;
     const double t21 = t17 + t17;
     double s22, c22;
-    cylindrical_worm_zi_zi_sincos(p[20], &s22, &c22);
+    cylindrical_worm_zi_zi_sincos(p[16], &s22, &c22);
     const double t24 = t12 * t10;
     const double t25 = 1.0 + t24;
     const double t26 = s7 * s7;
@@ -259,7 +629,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t45 = sqrt(t39);
     const double t46 = t19 * t41;
     const double t47 = s2 * t18;
-    const double t48 = s2 * dp[17];
+    const double t48 = s2 * dp[13];
     const double t49 = p[0] * p[10];
     const double t50 = p[10] * p[11];
     const double t51 = t27 * t46;
@@ -288,7 +658,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t74 = MW_FMA(p[10], dp[0], t73);
     const double t75 = p[11] * t42;
     const double t76 = phi + x[1];
-    const double t77 = p[8] + p[22];
+    const double t77 = p[8] + p[18];
     double s78, c78;
     cylindrical_worm_zi_zi_sincos(t76, &s78, &c78);
     const double t80 = p[10] * t44;
@@ -315,7 +685,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t101 = c34 * t55;
     const double t102 = s34 * t67;
     const double t103 = t71 * t48;
-    const double t104 = MW_FMS(x[2], c34, p[19]);
+    const double t104 = MW_FMS(x[2], c34, p[15]);
     const double t105 = t104 * t75;
     const double t106 = t80 * dx[2];
     const double t107 = p[4] * t68;
@@ -386,7 +756,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t172 = c34 * dx[3];
     const double t173 = t67 * t172;
     const double t174 = s22 * dp[0];
-    const double t175 = c22 * dp[20];
+    const double t175 = c22 * dp[16];
     const double t176 = t140 * t132;
     const double t177 = MW_FMS(t80, t169, t143);
     const double t178 = MW_FMA(t96, t169, t148);
@@ -423,11 +793,11 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t209 = c186 * t185;
     const double t210 = s186 * t185;
     const double t211 = MW_FMS(c34, t93, t206);
-    const double t212 = t205 - dp[19];
+    const double t212 = t205 - dp[15];
     const double t213 = t42 * dp[11];
     const double t214 = MW_FNMA(p[11], t171, t213);
     const double t215 = MW_FMA(t50, t61, t208);
-    const double t216 = s22 * dp[20];
+    const double t216 = s22 * dp[16];
     const double t217 = c22 * dx[2];
     const double t218 = MW_FNMA(x[2], t216, t217);
     const double t219 = t135 * t156;
@@ -535,7 +905,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t321 = t314 * t163;
     const double t322 = s257 * t243;
     double s323, c323;
-    cylindrical_worm_zi_zi_sincos(p[23], &s323, &c323);
+    cylindrical_worm_zi_zi_sincos(p[19], &s323, &c323);
     const double t325 = MW_FMA(t69, t317, t279);
     const double t326 = MW_FNMA(t75, t320, t164);
     const double t327 = t325 - t223;
@@ -586,7 +956,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t372 = MW_FMA(t358, t350, t365);
     const double t373 = t272 * t364;
     const double t374 = t159 * dphi;
-    const double t375 = dp[8] + dp[22];
+    const double t375 = dp[8] + dp[18];
     const double t376 = MW_FMA(phi, t371, t374);
     const double t377 = MW_FMA(t64, t373, t321);
     const double t378 = t366 * t370;
@@ -629,7 +999,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t415 = MW_FMS(c121, t346, t414);
     const double t416 = t395 * t381;
     const double t417 = MW_FMS(c78, t398, t416);
-    const double t418 = s323 * dp[23];
+    const double t418 = s323 * dp[19];
     const double t419 = t391 * t392;
     const double t420 = MW_FMS(c121, t396, t419);
     const double t421 = t395 * t382;
@@ -639,7 +1009,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t425 = MW_FMA(t391, c121, t423);
     const double t426 = t391 * t394;
     const double t427 = MW_FMA(s121, t396, t426);
-    const double t428 = c323 * dp[23];
+    const double t428 = c323 * dp[19];
     const double t429 = t420 + t422;
     const double t430 = x[0] * c121;
     const double t431 = c121 * dx[0];
@@ -651,7 +1021,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t437 = MW_FNMA(x[0], t418, t436);
     const double t438 = c78 * dx[0];
     const double t439 = MW_FNMA(x[0], t381, t438);
-    const double t440 = p[18] + p[21];
+    const double t440 = p[14] + p[17];
     const double t441 = MW_FMS(x[0], c78, t440);
     const double t442 = t400 * t175;
     const double t443 = MW_FMA(s22, t409, t442);
@@ -684,7 +1054,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t470 = t462 - t449;
     const double t471 = s78 * t435;
     const double t472 = MW_FMA(s323, t412, t471);
-    const double t473 = dp[18] + dp[21];
+    const double t473 = dp[14] + dp[17];
     const double t474 = t439 - t473;
     const double t475 = s335 * t393;
     const double t476 = t467 + t469;
@@ -705,7 +1075,7 @@ static inline void cylindrical_worm_zi_zi_tangent(const double *p, const double 
     const double t491 = MW_FMS(c323, t474, t488);
     const double t492 = MW_FMA(s323, t474, t487);
     const double t493 = t484 + t486;
-    const double t494 = t479 - dp[24];
+    const double t494 = t479 - dp[20];
     const double t495 = t492 + t494;
     const double t496 = c22 * dp[0];
     const double t497 = MW_FNMA(p[0], t216, t496);

@@ -15,12 +15,12 @@ static inline void cylindrical_worm_zn_zn_derive_tangent(double *known, const do
     if (known[0] != known[0]) known[0] = p[0];
     if (known[8] != known[8]) known[8] = p[8];
     if (known[9] != known[9]) known[9] = p[9];
-    if (known[21] != known[21]) known[21] = p[21];
-    if (known[22] != known[22]) known[22] = p[22];
-    if (known[23] != known[23]) known[23] = p[23];
-    if (known[24] != known[24]) known[24] = p[24];
-    if (known[33] != known[33]) known[33] = p[33];
-    if (known[34] != known[34]) known[34] = p[34];
+    if (known[17] != known[17]) known[17] = p[17];
+    if (known[18] != known[18]) known[18] = p[18];
+    if (known[19] != known[19]) known[19] = p[19];
+    if (known[20] != known[20]) known[20] = p[20];
+    if (known[29] != known[29]) known[29] = p[29];
+    if (known[30] != known[30]) known[30] = p[30];
     if (known[5] != known[5] && known[2] == known[2] && known[3] == known[3] && known[6] == known[6]) { /* lambda_worm */
         const double t0 = p[2] * 0.5;
         const double t1 = dp[2] * 0.5;
@@ -105,7 +105,7 @@ static inline void cylindrical_worm_zn_zn_derive_tangent(double *known, const do
         dp[11] = dp[3];
         known[11] = p[11];
     }
-    if (known[17] != known[17] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
+    if (known[13] != known[13] && known[1] == known[1] && known[10] == known[10] && known[11] == known[11]) { /* lambda_hob */
         const double t0 = 1.0 / p[10];
         const double t1 = p[1] * 0.5;
         const double t2 = p[11] * t1;
@@ -128,22 +128,14 @@ static inline void cylindrical_worm_zn_zn_derive_tangent(double *known, const do
         const double t19 = t15 * t18;
         const double t20 = MW_FNMA(t6, t19, t16);
         const double t21 = t20 / t17;
-        dp[17] = t21;
-        known[17] = p[17];
+        dp[13] = t21;
+        known[13] = p[13];
     }
-    if (known[14] != known[14] && known[7] == known[7]) { /* alpha_hob */
-        dp[14] = dp[7];
-        known[14] = p[14];
+    if (known[12] != known[12] && known[7] == known[7]) { /* alpha_hob */
+        dp[12] = dp[7];
+        known[12] = p[12];
     }
-    if (known[15] != known[15] && known[12] == known[12]) { /* r_c_hob */
-        dp[15] = dp[12];
-        known[15] = p[15];
-    }
-    if (known[16] != known[16] && known[13] == known[13]) { /* rho_c_hob */
-        dp[16] = dp[13];
-        known[16] = p[16];
-    }
-    if (known[18] != known[18] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
+    if (known[14] != known[14] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[6] == known[6] && known[8] == known[8]) { /* A */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_zn_zn_sincos(t0, &s1, &c1);
@@ -158,22 +150,22 @@ static inline void cylindrical_worm_zn_zn_derive_tangent(double *known, const do
         const double t11 = t6 * t10;
         const double t12 = MW_FNMA(t11, t9, t8);
         const double t13 = MW_FMA(t10, t12, dp[6]);
-        dp[18] = t13;
-        known[18] = p[18];
+        dp[14] = t13;
+        known[14] = p[14];
     }
-    if (known[19] != known[19] && known[6] == known[6] && known[10] == known[10] && known[18] == known[18]) { /* A_gen */
-        const double t0 = dp[10] + dp[18];
+    if (known[15] != known[15] && known[6] == known[6] && known[10] == known[10] && known[14] == known[14]) { /* A_gen */
+        const double t0 = dp[10] + dp[14];
         const double t1 = t0 - dp[6];
-        dp[19] = t1;
-        known[19] = p[19];
+        dp[15] = t1;
+        known[15] = p[15];
     }
-    if (known[20] != known[20] && known[5] == known[5] && known[8] == known[8] && known[17] == known[17]) { /* Sigma_gen */
+    if (known[16] != known[16] && known[5] == known[5] && known[8] == known[8] && known[13] == known[13]) { /* Sigma_gen */
         const double t0 = dp[5] + dp[8];
-        const double t1 = t0 - dp[17];
-        dp[20] = t1;
-        known[20] = p[20];
+        const double t1 = t0 - dp[13];
+        dp[16] = t1;
+        known[16] = p[16];
     }
-    if (known[25] != known[25] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[32] == known[32]) { /* R_tip */
+    if (known[21] != known[21] && known[1] == known[1] && known[4] == known[4] && known[5] == known[5] && known[8] == known[8] && known[9] == known[9] && known[28] == known[28]) { /* R_tip */
         const double t0 = p[5] + p[8];
         double s1, c1;
         cylindrical_worm_zn_zn_sincos(t0, &s1, &c1);
@@ -191,19 +183,349 @@ static inline void cylindrical_worm_zn_zn_derive_tangent(double *known, const do
         const double t14 = MW_FNMA(t13, t11, t10);
         const double t15 = t13 + t8;
         const double t16 = MW_FMA(t12, t14, t9);
-        const double t17 = dp[32] * t15;
-        const double t18 = MW_FMA(p[32], t16, t17);
-        dp[25] = t18;
-        known[25] = p[25];
+        const double t17 = dp[28] * t15;
+        const double t18 = MW_FMA(p[28], t16, t17);
+        dp[21] = t18;
+        known[21] = p[21];
     }
-    if (known[30] != known[30] && known[1] == known[1] && known[9] == known[9] && known[32] == known[32]) { /* h_hob */
+    if (known[26] != known[26] && known[1] == known[1] && known[9] == known[9] && known[28] == known[28]) { /* h_hob */
         const double t0 = MW_FMA(dp[1], 2.0, dp[9]);
-        const double t1 = p[32] * t0;
+        const double t1 = p[28] * t0;
         const double t2 = MW_FMA(p[1], 2.0, p[9]);
-        const double t3 = MW_FMA(dp[32], t2, t1);
-        dp[30] = t3;
-        known[30] = p[30];
+        const double t3 = MW_FMA(dp[28], t2, t1);
+        dp[26] = t3;
+        known[26] = p[26];
     }
+}
+
+/* X(cylindrical_worm_zn_zn_<system>) for each design system, in order. */
+#define cylindrical_worm_zn_zn_SYSTEMS(X)
+
+/* Change dr[3] of the point of the pinion's flank (body frame) at its parameters q along dp[cylindrical_worm_zn_zn_NP] at p. */
+static inline void cylindrical_worm_zn_zn_pinion_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_zn_zn_sincos(p[7], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_zn_zn_sincos(p[5], &s2, &c2);
+    const double t4 = p[1] * 1.5707963267948966;
+    const double t5 = p[9] * (-2.0);
+    const double t6 = p[6] * p[6];
+    const double t7 = (-2.0) * dp[9];
+    double s8, c8;
+    cylindrical_worm_zn_zn_sincos(q[1], &s8, &c8);
+    const double t10 = 1.0 / c0;
+    const double t11 = c0 * dp[7];
+    const double t12 = s0 * dp[7];
+    const double t13 = p[6] * dp[6];
+    const double t14 = t13 + t13;
+    const double t15 = p[0] * s0;
+    const double t16 = s0 * dp[0];
+    const double t17 = MW_FMA(p[0], t11, t16);
+    const double t18 = s2 * s2;
+    const double t19 = 1.0 / c2;
+    const double t20 = c2 * dp[5];
+    const double t21 = s2 * dp[5];
+    const double t22 = s2 * t20;
+    const double t23 = t15 * t20;
+    const double t24 = t15 * t21;
+    const double t25 = t22 + t22;
+    const double t26 = MW_FMA(s2, t17, t23);
+    const double t27 = MW_FMS(c2, t17, t24);
+    const double t28 = q[0] * t26;
+    const double t29 = q[0] * t27;
+    const double t30 = s0 * t10;
+    const double t31 = MW_FMA(t30, t5, t4);
+    const double t32 = MW_FMA(t30, t12, t11);
+    const double t33 = t30 * t7;
+    const double t34 = 1.0 / t30;
+    const double t35 = t10 * t32;
+    const double t36 = t31 * t31;
+    const double t37 = t31 * (-0.5);
+    const double t38 = s2 * t19;
+    const double t39 = s8 * t28;
+    const double t40 = c8 * t28;
+    const double t41 = t36 * (-0.25);
+    const double t42 = MW_FMA(t5, t35, t33);
+    const double t43 = MW_FMA(t38, t21, t20);
+    const double t44 = t38 * dp[6];
+    const double t45 = MW_FMA(t18, t41, t6);
+    const double t46 = t41 * t25;
+    const double t47 = MW_FMA(1.5707963267948966, dp[1], t42);
+    const double t48 = t19 * t43;
+    const double t49 = sqrt(t45);
+    const double t50 = t31 * t47;
+    const double t51 = MW_FMA(p[6], t48, t44);
+    const double t52 = t50 + t50;
+    const double t53 = MW_FMA(q[1], t51, t29);
+    const double t54 = t37 * t34;
+    const double t55 = (-0.25) * t52;
+    const double t56 = MW_FMA(t18, t55, t46);
+    const double t57 = t54 * t35;
+    const double t58 = MW_FMS((-0.5), t47, t57);
+    const double t59 = t14 + t56;
+    const double t60 = t34 * t58;
+    const double t61 = 0.5 / t49;
+    const double t62 = MW_FMA(t59, t61, t60);
+    const double t63 = MW_FNMA(q[0], t12, t62);
+    const double t64 = MW_FMA(c8, t63, t39);
+    const double t65 = MW_FMS(s8, t63, t40);
+    dr[0] = t64;
+    dr[1] = t65;
+    dr[2] = t53;
+}
+
+/* Change dr[3] of the point of the wheel's flank (body frame) at its parameters q along dp[cylindrical_worm_zn_zn_NP] at p. */
+static inline void cylindrical_worm_zn_zn_wheel_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    cylindrical_worm_zn_zn_sincos(p[7], &s0, &c0);
+    double s2, c2;
+    cylindrical_worm_zn_zn_sincos(p[12], &s2, &c2);
+    double s4, c4;
+    cylindrical_worm_zn_zn_sincos(p[13], &s4, &c4);
+    const double t6 = 1.0 / c0;
+    const double t7 = p[1] * 1.5707963267948966;
+    const double t8 = p[9] * (-2.0);
+    const double t9 = p[10] * p[10];
+    double s10, c10;
+    cylindrical_worm_zn_zn_sincos(q[1], &s10, &c10);
+    const double t12 = 1.0 / c2;
+    const double t13 = s0 * t6;
+    const double t14 = MW_FMA(t13, t8, t7);
+    double s15, c15;
+    cylindrical_worm_zn_zn_sincos(p[16], &s15, &c15);
+    const double t17 = t14 * t14;
+    const double t18 = t17 * (-0.25);
+    const double t19 = s4 * s4;
+    const double t20 = s2 * t12;
+    const double t21 = 1.0 / c4;
+    const double t22 = 1.0 / t20;
+    const double t23 = MW_FMA(t18, t19, t9);
+    const double t24 = p[0] * s4;
+    const double t25 = p[0] * s2;
+    const double t26 = t14 * (-0.5);
+    const double t27 = 1.0 / p[4];
+    const double t28 = sqrt(t23);
+    const double t29 = s2 * t24;
+    const double t30 = c4 * t25;
+    const double t31 = p[10] * c2;
+    const double t32 = p[10] * p[11];
+    const double t33 = t29 * t30;
+    const double t34 = p[10] * t29;
+    const double t35 = c0 * dp[7];
+    const double t36 = s0 * dp[7];
+    const double t37 = MW_FMA(t13, t36, t35);
+    const double t38 = p[0] * s10;
+    const double t39 = t29 * t29;
+    const double t40 = q[0] * t39;
+    const double t41 = (-2.0) * dp[9];
+    const double t42 = t13 * t41;
+    const double t43 = p[0] * c10;
+    const double t44 = t6 * t37;
+    const double t45 = q[0] * t29;
+    const double t46 = p[0] * t29;
+    const double t47 = q[0] * t46;
+    const double t48 = t45 * c10;
+    const double t49 = c2 * dp[12];
+    const double t50 = t24 * t49;
+    const double t51 = c4 * dp[13];
+    const double t52 = MW_FMA(t8, t44, t42);
+    const double t53 = s4 * t21;
+    const double t54 = s2 * dp[12];
+    const double t55 = MW_FMA(t20, t54, t49);
+    const double t56 = s4 * t51;
+    const double t57 = p[10] * dp[10];
+    const double t58 = t57 + t57;
+    const double t59 = t56 + t56;
+    const double t60 = t26 * t22;
+    const double t61 = MW_FMA(1.5707963267948966, dp[1], t52);
+    const double t62 = t12 * t55;
+    const double t63 = t53 * t31;
+    const double t64 = t53 * t32;
+    const double t65 = t53 * t34;
+    const double t66 = p[11] * t27;
+    const double t67 = t18 * t59;
+    const double t68 = t14 * t61;
+    const double t69 = MW_FMS(q[0], t33, t63);
+    const double t70 = t60 * t62;
+    const double t71 = s15 * t64;
+    const double t72 = p[0] * s15;
+    const double t73 = t30 * s15;
+    const double t74 = s4 * dp[0];
+    const double t75 = MW_FMA(p[0], t51, t74);
+    const double t76 = t68 + t68;
+    const double t77 = 1.0 / t71;
+    const double t78 = MW_FMS((-0.5), t61, t70);
+    const double t79 = t69 * t38;
+    const double t80 = MW_FMA(s2, t75, t50);
+    const double t81 = t69 * t43;
+    const double t82 = (-0.25) * t76;
+    const double t83 = t28 + t60;
+    const double t84 = t22 * t78;
+    const double t85 = 0.5 / t28;
+    const double t86 = s4 * dp[13];
+    const double t87 = MW_FMA(t53, t86, t51);
+    const double t88 = MW_FMA(t19, t82, t67);
+    const double t89 = MW_FMA(q[0], c2, t83);
+    const double t90 = t25 * t86;
+    const double t91 = s2 * dp[0];
+    const double t92 = MW_FMA(p[0], t49, t91);
+    const double t93 = c2 * dp[10];
+    const double t94 = t21 * t87;
+    const double t95 = MW_FNMA(p[10], t54, t93);
+    const double t96 = t58 + t88;
+    const double t97 = MW_FMA(t89, t30, t65);
+    const double t98 = MW_FMA(c2, t89, t40);
+    const double t99 = MW_FMS(c4, t92, t90);
+    const double t100 = MW_FMS(t89, s10, t48);
+    const double t101 = t53 * t95;
+    const double t102 = t34 * t94;
+    const double t103 = p[0] * t89;
+    const double t104 = MW_FMS(t89, c10, p[15]);
+    const double t105 = MW_FMA(s10, t45, t104);
+    const double t106 = MW_FMA(t97, t43, t79);
+    const double t107 = MW_FMS(t38, t97, t81);
+    const double t108 = t98 * t72;
+    const double t109 = MW_FMA(t31, t94, t101);
+    const double t110 = t69 * t103;
+    const double t111 = t100 * c15;
+    const double t112 = t29 * dp[10];
+    const double t113 = MW_FMA(c15, t107, t108);
+    const double t114 = MW_FNMA(t97, t47, t110);
+    const double t115 = MW_FMS(q[0], t73, t111);
+    const double t116 = MW_FMA(p[10], t80, t112);
+    const double t117 = 1.0 / t106;
+    const double t118 = MW_FMA(t53, t116, t102);
+    const double t119 = t113 * t66;
+    const double t120 = t106 * t66;
+    const double t121 = p[4] * t77;
+    const double t122 = t29 * t99;
+    const double t123 = MW_FMA(t30, t80, t122);
+    const double t124 = t89 * t99;
+    const double t125 = s10 * dp[0];
+    const double t126 = c10 * dp[0];
+    const double t127 = MW_FMA(t96, t85, t84);
+    const double t128 = MW_FNMA(t105, t119, t114);
+    const double t129 = c15 * dp[16];
+    const double t130 = MW_FMS(q[0], t123, t109);
+    const double t131 = t64 * t129;
+    const double t132 = p[10] * dp[11];
+    const double t133 = MW_FMA(p[11], dp[10], t132);
+    const double t134 = t97 * t125;
+    const double t135 = MW_FNMA(t115, t120, t128);
+    const double t136 = MW_FNMA(q[0], t54, t127);
+    const double t137 = t89 * t54;
+    const double t138 = t89 * dp[0];
+    const double t139 = t69 * t125;
+    const double t140 = t53 * t133;
+    const double t141 = t103 * t130;
+    const double t142 = MW_FMA(t38, t130, t139);
+    const double t143 = MW_FMS(c2, t136, t137);
+    const double t144 = MW_FMA(t30, t136, t124);
+    const double t145 = t135 * t121;
+    const double t146 = MW_FMA(p[0], t136, t138);
+    const double t147 = t69 * t126;
+    const double t148 = MW_FMA(t43, t130, t147);
+    const double t149 = MW_FMA(t32, t94, t140);
+    const double t150 = t97 * t126;
+    const double t151 = MW_FMA(t69, t146, t141);
+    const double t152 = t118 + t144;
+    const double t153 = s15 * dp[0];
+    const double t154 = MW_FMA(p[0], t129, t153);
+    const double t155 = t29 * t80;
+    const double t156 = MW_FMA(s15, t149, t131);
+    const double t157 = t29 * dp[0];
+    const double t158 = t155 + t155;
+    const double t159 = MW_FMA(t38, t152, t134);
+    const double t160 = MW_FMA(t43, t152, t150);
+    const double t161 = t98 * t154;
+    const double t162 = t145 * t117;
+    const double t163 = MW_FMA(q[0], t158, t143);
+    const double t164 = MW_FMA(p[0], t80, t157);
+    const double t165 = q[0] * t80;
+    const double t166 = q[0] * t164;
+    const double t167 = t159 - t148;
+    const double t168 = t142 + t160;
+    const double t169 = t77 * t156;
+    const double t170 = q[1] - t162;
+    const double t171 = MW_FMA(t72, t163, t161);
+    const double t172 = t77 * t169;
+    const double t173 = t97 * t166;
+    const double t174 = t77 * dp[4];
+    const double t175 = t66 * t170;
+    const double t176 = t27 * dp[4];
+    const double t177 = t27 * t176;
+    const double t178 = t27 * dp[11];
+    const double t179 = s15 * dp[16];
+    const double t180 = MW_FNMA(p[4], t172, t174);
+    const double t181 = MW_FMA(t47, t152, t173);
+    const double t182 = t107 * t179;
+    double s183, c183;
+    cylindrical_worm_zn_zn_sincos(t175, &s183, &c183);
+    const double t185 = MW_FNMA(p[11], t177, t178);
+    const double t186 = MW_FMS(c15, t167, t182);
+    const double t187 = t186 + t171;
+    const double t188 = t151 - t181;
+    const double t189 = t135 * t180;
+    const double t190 = t113 * t185;
+    const double t191 = t106 * t185;
+    const double t192 = t170 * t185;
+    const double t193 = MW_FMA(t66, t168, t191);
+    const double t194 = MW_FMA(t66, t187, t190);
+    const double t195 = c10 * t165;
+    const double t196 = MW_FMS(s10, t136, t195);
+    const double t197 = MW_FMS(c10, t136, dp[15]);
+    const double t198 = MW_FMA(s10, t165, t197);
+    const double t199 = t30 * t129;
+    const double t200 = MW_FMA(s15, t99, t199);
+    const double t201 = t100 * t179;
+    const double t202 = q[0] * t30;
+    const double t203 = MW_FMS(c15, t196, t201);
+    const double t204 = t100 * t129;
+    const double t205 = t119 * t198;
+    const double t206 = MW_FMA(s15, t196, t204);
+    const double t207 = t53 * dp[10];
+    const double t208 = MW_FMA(p[10], t94, t207);
+    const double t209 = p[10] * t53;
+    const double t210 = MW_FMA(t162, t209, t202);
+    const double t211 = MW_FMS(q[0], t200, t203);
+    const double t212 = MW_FMA(t105, t194, t205);
+    const double t213 = t162 * t208;
+    const double t214 = t210 * t129;
+    const double t215 = MW_FNMA(s15, t210, t111);
+    const double t216 = t120 * t211;
+    const double t217 = t210 * t179;
+    const double t218 = t188 - t212;
+    const double t219 = MW_FMA(t115, t193, t216);
+    const double t220 = t218 - t219;
+    const double t221 = MW_FMA(t121, t220, t189);
+    const double t222 = MW_FNMA(t162, t168, t221);
+    const double t223 = c183 * t198;
+    const double t224 = s183 * t198;
+    const double t225 = t117 * t222;
+    const double t226 = MW_FMA(t209, t225, t213);
+    const double t227 = MW_FNMA(t66, t225, t192);
+    const double t228 = MW_FMA(q[0], t99, t226);
+    const double t229 = s183 * t227;
+    const double t230 = c183 * t227;
+    const double t231 = MW_FMA(s15, t228, t214);
+    const double t232 = MW_FMS(c15, t228, t217);
+    const double t233 = MW_FNMA(t105, t229, t223);
+    const double t234 = MW_FMA(t105, t230, t224);
+    const double t235 = t215 * t230;
+    const double t236 = t215 * t229;
+    const double t237 = t203 - t231;
+    const double t238 = t206 + t232;
+    const double t239 = MW_FMA(s183, t237, t235);
+    const double t240 = MW_FMS(c183, t237, t236);
+    const double t241 = t233 - t239;
+    const double t242 = t240 + t234;
+    dr[0] = t241;
+    dr[1] = t242;
+    dr[2] = t238;
 }
 
 /* Changes dR[cylindrical_worm_zn_zn_NX] of the residual and dr[3] of the pinion's contact point (fixed frame) along dp[cylindrical_worm_zn_zn_NP],
@@ -214,9 +536,9 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     double s0, c0;
     cylindrical_worm_zn_zn_sincos(p[7], &s0, &c0);
     double s2, c2;
-    cylindrical_worm_zn_zn_sincos(p[14], &s2, &c2);
+    cylindrical_worm_zn_zn_sincos(p[12], &s2, &c2);
     double s4, c4;
-    cylindrical_worm_zn_zn_sincos(p[17], &s4, &c4);
+    cylindrical_worm_zn_zn_sincos(p[13], &s4, &c4);
     const double t6 = 1.0 / c0;
     const double t7 = p[1] * 1.5707963267948966;
     const double t8 = p[9] * (-2.0);
@@ -227,7 +549,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t13 = s0 * t6;
     const double t14 = MW_FMA(t13, t8, t7);
     double s15, c15;
-    cylindrical_worm_zn_zn_sincos(p[20], &s15, &c15);
+    cylindrical_worm_zn_zn_sincos(p[16], &s15, &c15);
     const double t17 = t14 * t14;
     const double t18 = t17 * (-0.25);
     const double t19 = s4 * s4;
@@ -273,10 +595,10 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t59 = x[2] * t33;
     const double t60 = t45 * t53;
     const double t61 = p[0] * s15;
-    const double t62 = s2 * dp[14];
+    const double t62 = s2 * dp[12];
     const double t63 = t14 * t56;
-    const double t64 = c4 * dp[17];
-    const double t65 = c2 * dp[14];
+    const double t64 = c4 * dp[13];
+    const double t65 = c2 * dp[12];
     const double t66 = MW_FMA(t20, t62, t65);
     const double t67 = t25 * t65;
     const double t68 = 1.0 / t13;
@@ -305,7 +627,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t91 = p[0] * t79;
     const double t92 = MW_FMA(t19, t75, t84);
     const double t93 = t22 * t85;
-    const double t94 = MW_FMS(t79, c10, p[19]);
+    const double t94 = MW_FMS(t79, c10, p[15]);
     const double t95 = MW_FMA(t87, t53, t57);
     const double t96 = MW_FMS(t50, t87, t60);
     const double t97 = MW_FMA(s10, t59, t94);
@@ -323,7 +645,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t109 = t108 + t108;
     const double t110 = s2 * dp[0];
     const double t111 = MW_FMA(p[0], t65, t110);
-    const double t112 = s4 * dp[17];
+    const double t112 = s4 * dp[13];
     const double t113 = t26 * t112;
     const double t114 = MW_FMA(t35, t112, t64);
     const double t115 = MW_FNMA(t97, t107, t102);
@@ -348,7 +670,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t134 = c2 * dp[10];
     const double t135 = MW_FNMA(p[10], t62, t134);
     const double t136 = t79 * t62;
-    const double t137 = p[8] + p[22];
+    const double t137 = p[8] + p[18];
     const double t138 = t128 * t130;
     const double t139 = t33 * t121;
     const double t140 = t133 + t120;
@@ -388,7 +710,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t174 = MW_FMA(x[2], t131, t173);
     const double t175 = t33 * dp[0];
     const double t176 = MW_FMA(p[0], t131, t175);
-    const double t177 = c15 * dp[20];
+    const double t177 = c15 * dp[16];
     const double t178 = MW_FMA(x[2], t171, t80);
     const double t179 = t47 * t177;
     const double t180 = t87 * t161;
@@ -430,8 +752,8 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t216 = MW_FMA(p[0], t140, t215);
     const double t217 = t55 * t206;
     const double t218 = t208 - t212;
-    const double t219 = t214 - dp[19];
-    const double t220 = s15 * dp[20];
+    const double t219 = t214 - dp[15];
+    const double t220 = s15 * dp[16];
     const double t221 = t55 * t217;
     const double t222 = t55 * dp[4];
     const double t223 = MW_FMA(t45, t216, t157);
@@ -467,7 +789,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t253 = t252 + t252;
     const double t254 = MW_FMA(t97, t246, t238);
     double s255, c255;
-    cylindrical_worm_zn_zn_sincos(p[23], &s255, &c255);
+    cylindrical_worm_zn_zn_sincos(p[19], &s255, &c255);
     const double t257 = t18 * t249;
     const double t258 = MW_FMA(t83, t75, t257);
     const double t259 = t127 * t250;
@@ -514,7 +836,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t300 = MW_FNMA(t154, dp[4], dp[3]);
     const double t301 = t32 * t300;
     const double t302 = t154 * dphi;
-    const double t303 = dp[8] + dp[22];
+    const double t303 = dp[8] + dp[18];
     const double t304 = p[6] * t274;
     const double t305 = t143 * t298;
     const double t306 = t274 * dp[6];
@@ -578,9 +900,9 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t364 = MW_FMA(s146, t363, t362);
     const double t365 = s146 * dp[6];
     const double t366 = MW_FMA(p[6], t333, t365);
-    const double t367 = p[18] + p[21];
+    const double t367 = p[14] + p[17];
     const double t368 = MW_FMS(t226, c118, t367);
-    const double t369 = s255 * dp[23];
+    const double t369 = s255 * dp[19];
     const double t370 = t327 * t333;
     const double t371 = t364 + t359;
     const double t372 = MW_FMA(s146, t339, t370);
@@ -599,7 +921,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t385 = t310 * t334;
     const double t386 = MW_FMS(c146, t329, t385);
     const double t387 = MW_FMA(s146, t346, t379);
-    const double t388 = c255 * dp[23];
+    const double t388 = c255 * dp[19];
     const double t389 = c15 * dp[0];
     const double t390 = MW_FNMA(p[0], t220, t389);
     const double t391 = t345 * t220;
@@ -610,7 +932,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t396 = t96 * t177;
     const double t397 = MW_FMA(s15, t193, t396);
     const double t398 = t88 * t390;
-    const double t399 = dp[18] + dp[21];
+    const double t399 = dp[14] + dp[17];
     const double t400 = t296 - t399;
     const double t401 = t243 - t394;
     const double t402 = p[0] * c15;
@@ -650,7 +972,7 @@ static inline void cylindrical_worm_zn_zn_tangent(const double *p, const double 
     const double t436 = MW_FMA(t95, t427, t435);
     const double t437 = c202 * t196;
     const double t438 = MW_FNMA(t95, t429, t437);
-    const double t439 = t432 - dp[24];
+    const double t439 = t432 - dp[20];
     const double t440 = c202 * t236;
     const double t441 = MW_FNMA(t101, t429, t440);
     const double t442 = s202 * t236;

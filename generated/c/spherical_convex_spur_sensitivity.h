@@ -13,11 +13,11 @@ static inline void spherical_convex_spur_derive_tangent(double *known, const dou
 {
     (void)known, (void)p, (void)dp;
     if (known[0] != known[0]) known[0] = p[0];
+    if (known[19] != known[19]) known[19] = p[19];
     if (known[20] != known[20]) known[20] = p[20];
     if (known[21] != known[21]) known[21] = p[21];
     if (known[22] != known[22]) known[22] = p[22];
     if (known[23] != known[23]) known[23] = p[23];
-    if (known[24] != known[24]) known[24] = p[24];
     if (known[4] != known[4] && known[1] == known[1]) { /* a */
         dp[4] = dp[1];
         known[4] = p[4];
@@ -50,97 +50,325 @@ static inline void spherical_convex_spur_derive_tangent(double *known, const dou
         const double t7 = dp[2] * c0;
         const double t8 = dp[2] * s0;
         const double t9 = s0 * t6;
-        const double t10 = MW_FNMA(p[9], t9, t2);
-        const double t11 = MW_FMA(t9, t8, t7);
+        const double t10 = MW_FMA(t9, t8, t7);
+        const double t11 = MW_FNMA(p[9], t9, t2);
         const double t12 = dp[9] * t9;
-        const double t13 = t10 * t6;
-        const double t14 = t6 * t11;
-        const double t15 = 0.5 * t10;
-        const double t16 = MW_FMA(p[9], t14, t12);
-        const double t17 = MW_FMS(p[1], 0.38, t13);
-        const double t18 = t15 * t6;
+        const double t13 = t6 * t10;
+        const double t14 = t11 * t6;
+        const double t15 = 0.5 * t11;
+        const double t16 = MW_FMA(p[9], t13, t12);
+        const double t17 = t15 * t6;
+        const double t18 = MW_FMS(p[1], 0.38, t14);
         const double t19 = t3 - t16;
-        const double t20 = t17 * t17;
-        const double t21 = t18 * t8;
-        const double t22 = sqrt(t20);
-        const double t23 = MW_FMA(t13, t8, t19);
-        const double t24 = MW_FMA(0.5, t19, t21);
-        const double t25 = MW_FNMA(t6, t23, t4);
-        const double t26 = t17 * t25;
-        const double t27 = t26 + t26;
-        const double t28 = 0.5 / t22;
-        const double t29 = t27 * t28;
-        const double t30 = MW_FMA((-0.5), t29, t5);
-        const double t31 = MW_FMA(t6, t24, t30);
-        dp[11] = t31;
+        const double t20 = MW_SIGN(t18);
+        const double t21 = t17 * t8;
+        const double t22 = MW_FMA(t14, t8, t19);
+        const double t23 = MW_FMA(0.5, t19, t21);
+        const double t24 = MW_FNMA(t6, t22, t4);
+        const double t25 = t20 * t24;
+        const double t26 = MW_FMA((-0.5), t25, t5);
+        const double t27 = MW_FMA(t6, t23, t26);
+        dp[11] = t27;
         known[11] = p[11];
     }
-    if (known[12] != known[12] && known[9] == known[9] && known[24] == known[24]) { /* h_pinion */
-        const double t0 = sqrt(p[24]);
+    if (known[12] != known[12] && known[9] == known[9] && known[23] == known[23]) { /* h_pinion */
+        const double t0 = sqrt(p[23]);
         const double t1 = 0.5 / t0;
         const double t2 = dp[9] * t0;
-        const double t3 = dp[24] * t1;
+        const double t3 = dp[23] * t1;
         const double t4 = MW_FMA(p[9], t3, t2);
         dp[12] = t4;
         known[12] = p[12];
     }
-    if (known[15] != known[15] && known[3] == known[3]) { /* F_wheel */
-        dp[15] = dp[3];
+    if (known[14] != known[14] && known[3] == known[3]) { /* F_wheel */
+        dp[14] = dp[3];
+        known[14] = p[14];
+    }
+    if (known[15] != known[15] && known[4] == known[4]) { /* a_wheel */
+        dp[15] = dp[4];
         known[15] = p[15];
     }
-    if (known[16] != known[16] && known[4] == known[4]) { /* a_wheel */
-        dp[16] = dp[4];
+    if (known[16] != known[16] && known[5] == known[5]) { /* b_wheel */
+        dp[16] = dp[5];
         known[16] = p[16];
     }
-    if (known[17] != known[17] && known[5] == known[5]) { /* b_wheel */
-        dp[17] = dp[5];
-        known[17] = p[17];
-    }
-    if (known[18] != known[18] && known[1] == known[1] && known[2] == known[2] && known[16] == known[16] && known[17] == known[17]) { /* rho_wheel */
+    if (known[17] != known[17] && known[1] == known[1] && known[2] == known[2] && known[15] == known[15] && known[16] == known[16]) { /* rho_wheel */
         double s0, c0;
         spherical_convex_spur_sincos(p[2], &s0, &c0);
-        const double t2 = MW_FMS(p[1], 1.5707963267948966, p[17]);
-        const double t3 = MW_FMS(dp[1], 1.5707963267948966, dp[17]);
+        const double t2 = MW_FMS(p[1], 1.5707963267948966, p[16]);
+        const double t3 = MW_FMS(dp[1], 1.5707963267948966, dp[16]);
         const double t4 = dp[1] * 0.38;
         const double t5 = dp[1] * 0.19;
         const double t6 = 1.0 / c0;
         const double t7 = dp[2] * c0;
         const double t8 = dp[2] * s0;
         const double t9 = s0 * t6;
-        const double t10 = MW_FNMA(p[16], t9, t2);
-        const double t11 = MW_FMA(t9, t8, t7);
-        const double t12 = dp[16] * t9;
-        const double t13 = t10 * t6;
-        const double t14 = t6 * t11;
-        const double t15 = 0.5 * t10;
-        const double t16 = MW_FMA(p[16], t14, t12);
-        const double t17 = MW_FMS(p[1], 0.38, t13);
-        const double t18 = t15 * t6;
+        const double t10 = MW_FMA(t9, t8, t7);
+        const double t11 = MW_FNMA(p[15], t9, t2);
+        const double t12 = dp[15] * t9;
+        const double t13 = t6 * t10;
+        const double t14 = t11 * t6;
+        const double t15 = 0.5 * t11;
+        const double t16 = MW_FMA(p[15], t13, t12);
+        const double t17 = t15 * t6;
+        const double t18 = MW_FMS(p[1], 0.38, t14);
         const double t19 = t3 - t16;
-        const double t20 = t17 * t17;
-        const double t21 = t18 * t8;
-        const double t22 = sqrt(t20);
-        const double t23 = MW_FMA(t13, t8, t19);
-        const double t24 = MW_FMA(0.5, t19, t21);
-        const double t25 = MW_FNMA(t6, t23, t4);
-        const double t26 = t17 * t25;
-        const double t27 = t26 + t26;
-        const double t28 = 0.5 / t22;
-        const double t29 = t27 * t28;
-        const double t30 = MW_FMA((-0.5), t29, t5);
-        const double t31 = MW_FMA(t6, t24, t30);
-        dp[18] = t31;
+        const double t20 = MW_SIGN(t18);
+        const double t21 = t17 * t8;
+        const double t22 = MW_FMA(t14, t8, t19);
+        const double t23 = MW_FMA(0.5, t19, t21);
+        const double t24 = MW_FNMA(t6, t22, t4);
+        const double t25 = t20 * t24;
+        const double t26 = MW_FMA((-0.5), t25, t5);
+        const double t27 = MW_FMA(t6, t23, t26);
+        dp[17] = t27;
+        known[17] = p[17];
+    }
+    if (known[18] != known[18] && known[15] == known[15] && known[23] == known[23]) { /* h_wheel */
+        const double t0 = sqrt(p[23]);
+        const double t1 = 0.5 / t0;
+        const double t2 = dp[15] * t0;
+        const double t3 = dp[23] * t1;
+        const double t4 = MW_FMA(p[15], t3, t2);
+        dp[18] = t4;
         known[18] = p[18];
     }
-    if (known[19] != known[19] && known[16] == known[16] && known[24] == known[24]) { /* h_wheel */
-        const double t0 = sqrt(p[24]);
-        const double t1 = 0.5 / t0;
-        const double t2 = dp[16] * t0;
-        const double t3 = dp[24] * t1;
-        const double t4 = MW_FMA(p[16], t3, t2);
-        dp[19] = t4;
-        known[19] = p[19];
-    }
+}
+
+/* X(spherical_convex_spur_<system>) for each design system, in order. */
+#define spherical_convex_spur_SYSTEMS(X)
+
+/* Change dr[3] of the point of the pinion's flank (body frame) at its parameters q along dp[spherical_convex_spur_NP] at p. */
+static inline void spherical_convex_spur_pinion_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    const double t0 = q[1] * 0.5;
+    double s1, c1;
+    spherical_convex_spur_sincos(t0, &s1, &c1);
+    double s3, c3;
+    spherical_convex_spur_sincos(p[2], &s3, &c3);
+    double s5, c5;
+    spherical_convex_spur_sincos(q[1], &s5, &c5);
+    const double t7 = p[0] * p[0];
+    const double t8 = p[1] * p[6];
+    const double t9 = t8 * t7;
+    const double t10 = p[1] * 0.5;
+    const double t11 = p[0] * (-0.5);
+    const double t12 = p[6] * t10;
+    const double t13 = p[1] * t11;
+    const double t14 = s1 * s1;
+    const double t15 = p[7] * (-2.0);
+    const double t16 = p[0] * t7;
+    const double t17 = p[0] * dp[0];
+    const double t18 = t17 + t17;
+    const double t19 = p[6] * t13;
+    const double t20 = t13 * dp[6];
+    const double t21 = 0.5 * dp[1];
+    const double t22 = p[6] * t21;
+    const double t23 = 1.0 / c3;
+    const double t24 = s3 * t9;
+    const double t25 = MW_FMS(q[0], c3, p[9]);
+    const double t26 = p[0] * c3;
+    const double t27 = MW_FMA(t10, dp[6], t22);
+    const double t28 = c3 * t19;
+    const double t29 = 1.0 / t24;
+    const double t30 = s3 * t16;
+    const double t31 = t8 * t18;
+    const double t32 = s3 * dp[2];
+    const double t33 = t19 * t32;
+    const double t34 = c3 * dp[2];
+    const double t35 = t16 * t34;
+    const double t36 = t9 * t34;
+    const double t37 = p[1] * dp[6];
+    const double t38 = MW_FMA(p[6], dp[1], t37);
+    const double t39 = (-0.5) * dp[0];
+    const double t40 = p[1] * t39;
+    const double t41 = t7 * dp[0];
+    const double t42 = MW_FMA(p[0], t18, t41);
+    const double t43 = MW_FMA(q[0], t32, dp[9]);
+    const double t44 = c3 * dp[0];
+    const double t45 = MW_FMA(t7, t38, t31);
+    const double t46 = MW_FNMA(p[0], t32, t44);
+    const double t47 = MW_FMA(t11, dp[1], t40);
+    const double t48 = (-2.0) * dp[7];
+    const double t49 = MW_FMA(s3, t42, t35);
+    const double t50 = (-0.5) * dp[1];
+    const double t51 = p[6] * t50;
+    const double t52 = p[1] * (-0.5);
+    const double t53 = MW_FMA(s3, t45, t36);
+    const double t54 = p[6] * t52;
+    const double t55 = MW_FMA(p[6], t47, t20);
+    const double t56 = 2.0 * dp[7];
+    const double t57 = c1 * t56;
+    const double t58 = MW_FMA(t52, dp[6], t51);
+    const double t59 = MW_FMA(t25, c5, t12);
+    const double t60 = c5 * t30;
+    const double t61 = 1.0 / c5;
+    const double t62 = s3 * t23;
+    const double t63 = MW_FMS(c3, t55, t33);
+    const double t64 = MW_FNMA(c5, t43, t27);
+    const double t65 = MW_FMA(t14, t15, t59);
+    const double t66 = MW_FMA(t14, t48, t64);
+    const double t67 = c5 * t49;
+    const double t68 = s1 * t57;
+    const double t69 = MW_FNMA(s5, t43, t68);
+    const double t70 = MW_FMA(p[9], t62, p[10]);
+    const double t71 = (-2.0) * t29;
+    const double t72 = MW_FMA(t62, t32, t34);
+    const double t73 = MW_FMA(t65, t26, t28);
+    const double t74 = t62 * dp[9];
+    const double t75 = t65 * t46;
+    const double t76 = t29 * t53;
+    const double t77 = MW_FNMA(q[0], s3, t70);
+    const double t78 = t23 * t72;
+    const double t79 = t29 * t76;
+    const double t80 = MW_FMA(t26, t66, t75);
+    const double t81 = MW_FNMA(t77, t60, t73);
+    const double t82 = MW_FMA(p[9], t78, t74);
+    const double t83 = t77 * t67;
+    const double t84 = (-2.0) * t79;
+    const double t85 = t63 + t80;
+    const double t86 = t77 * dp[0];
+    const double t87 = p[0] * t77;
+    const double t88 = t81 * t71;
+    const double t89 = t81 * t84;
+    const double t90 = dp[10] + t82;
+    const double t91 = MW_FNMA(q[0], t34, t90);
+    const double t92 = t88 * t61;
+    const double t93 = MW_FMA(t60, t91, t83);
+    const double t94 = MW_FMA(p[0], t91, t86);
+    const double t95 = t92 * t58;
+    const double t96 = MW_FMA(t92, t54, t87);
+    double s97, c97;
+    spherical_convex_spur_sincos(t92, &s97, &c97);
+    const double t99 = t85 - t93;
+    const double t100 = MW_FMS(t71, t99, t89);
+    const double t101 = t61 * t100;
+    const double t102 = MW_FMA(t54, t101, t95);
+    const double t103 = t94 + t102;
+    const double t104 = s97 * t101;
+    const double t105 = c97 * t101;
+    const double t106 = c97 * t66;
+    const double t107 = s97 * t66;
+    const double t108 = MW_FNMA(t65, t104, t106);
+    const double t109 = MW_FMA(t65, t105, t107);
+    const double t110 = t96 * t105;
+    const double t111 = t96 * t104;
+    const double t112 = MW_FMA(s97, t103, t110);
+    const double t113 = MW_FMS(c97, t103, t111);
+    const double t114 = t108 - t112;
+    const double t115 = t113 + t109;
+    dr[0] = t114;
+    dr[1] = t115;
+    dr[2] = t69;
+}
+
+/* Change dr[3] of the point of the wheel's flank (body frame) at its parameters q along dp[spherical_convex_spur_NP] at p. */
+static inline void spherical_convex_spur_wheel_tangent(const double *p, const double *dp, const double *q, double *dr)
+{
+    (void)p, (void)dp, (void)q;
+    double s0, c0;
+    spherical_convex_spur_sincos(p[2], &s0, &c0);
+    const double t2 = p[0] * p[0];
+    const double t3 = p[1] * p[13];
+    const double t4 = t2 * t3;
+    const double t5 = p[0] * (-0.5);
+    const double t6 = p[1] * 0.5;
+    const double t7 = p[1] * t5;
+    const double t8 = MW_FMS(p[13], t6, p[15]);
+    const double t9 = p[0] * t2;
+    const double t10 = p[1] * dp[13];
+    const double t11 = MW_FMA(p[13], dp[1], t10);
+    const double t12 = 0.5 * dp[1];
+    const double t13 = p[13] * t7;
+    const double t14 = p[13] * t12;
+    const double t15 = t7 * dp[13];
+    const double t16 = p[0] * dp[0];
+    const double t17 = t16 + t16;
+    const double t18 = t2 * t11;
+    const double t19 = t2 * dp[0];
+    const double t20 = MW_FMA(t6, dp[13], t14);
+    const double t21 = (-0.5) * dp[0];
+    const double t22 = p[1] * t21;
+    const double t23 = (-0.5) * dp[1];
+    const double t24 = MW_FMA(p[0], t17, t19);
+    const double t25 = p[13] * t23;
+    const double t26 = MW_FMA(t3, t17, t18);
+    const double t27 = p[1] * (-0.5);
+    const double t28 = t20 - dp[15];
+    const double t29 = MW_FMA(t5, dp[1], t22);
+    const double t30 = p[13] * t27;
+    const double t31 = MW_FMA(t27, dp[13], t25);
+    const double t32 = MW_FMA(p[13], t29, t15);
+    const double t33 = MW_FMA(q[0], c0, t8);
+    const double t34 = 1.0 / c0;
+    const double t35 = s0 * t4;
+    const double t36 = p[0] * c0;
+    const double t37 = c0 * t13;
+    const double t38 = s0 * t9;
+    const double t39 = 1.0 / t35;
+    const double t40 = MW_FMA(t36, t33, t37);
+    const double t41 = s0 * dp[2];
+    const double t42 = MW_FNMA(q[0], t41, t28);
+    const double t43 = t13 * t41;
+    const double t44 = c0 * dp[2];
+    const double t45 = t4 * t44;
+    const double t46 = t9 * t44;
+    const double t47 = c0 * dp[0];
+    const double t48 = MW_FNMA(p[0], t41, t47);
+    const double t49 = MW_FMS(c0, t32, t43);
+    const double t50 = MW_FMA(s0, t26, t45);
+    const double t51 = MW_FMA(s0, t24, t46);
+    const double t52 = t33 * t48;
+    const double t53 = MW_FMA(t36, t42, t52);
+    const double t54 = t49 + t53;
+    const double t55 = s0 * t34;
+    const double t56 = MW_FMA(p[15], t55, p[16]);
+    const double t57 = (-2.0) * t39;
+    const double t58 = MW_FMA(t55, t41, t44);
+    const double t59 = t55 * dp[15];
+    const double t60 = t39 * t50;
+    const double t61 = MW_FNMA(q[0], s0, t56);
+    const double t62 = t34 * t58;
+    const double t63 = t39 * t60;
+    const double t64 = t57 * t31;
+    const double t65 = t57 * t30;
+    const double t66 = MW_FNMA(t38, t61, t40);
+    const double t67 = MW_FMA(p[15], t62, t59);
+    const double t68 = t61 * t51;
+    const double t69 = (-2.0) * t63;
+    const double t70 = t61 * dp[0];
+    const double t71 = p[0] * t61;
+    const double t72 = MW_FNMA(t30, t69, t64);
+    const double t73 = t66 * t57;
+    const double t74 = dp[16] + t67;
+    const double t75 = t66 * t69;
+    const double t76 = MW_FMA(t66, t65, t71);
+    const double t77 = MW_FNMA(q[0], t44, t74);
+    const double t78 = t66 * t72;
+    double s79, c79;
+    spherical_convex_spur_sincos(t73, &s79, &c79);
+    const double t81 = MW_FMA(t38, t77, t68);
+    const double t82 = t54 - t81;
+    const double t83 = MW_FMA(p[0], t77, t70);
+    const double t84 = MW_FMS(t57, t82, t75);
+    const double t85 = MW_FMA(t65, t82, t78);
+    const double t86 = t83 + t85;
+    const double t87 = s79 * t84;
+    const double t88 = c79 * t84;
+    const double t89 = c79 * t42;
+    const double t90 = s79 * t42;
+    const double t91 = MW_FNMA(t33, t87, t89);
+    const double t92 = MW_FMA(t33, t88, t90);
+    const double t93 = t76 * t88;
+    const double t94 = t76 * t87;
+    const double t95 = MW_FMA(s79, t86, t93);
+    const double t96 = MW_FMS(c79, t86, t94);
+    const double t97 = t91 - t95;
+    const double t98 = t96 + t92;
+    dr[0] = t97;
+    dr[1] = t98;
+    dr[2] = 0.0;
 }
 
 /* Changes dR[spherical_convex_spur_NX] of the residual and dr[3] of the pinion's contact point (fixed frame) along dp[spherical_convex_spur_NP],
@@ -183,8 +411,8 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t32 = p[0] * (-2.0);
     const double t33 = p[10] * t32;
     const double t34 = p[0] * 2.0;
-    const double t35 = p[17] * t34;
-    const double t36 = MW_FMS(p[13], t10, p[16]);
+    const double t35 = p[16] * t34;
+    const double t36 = MW_FMS(p[13], t10, p[15]);
     const double t37 = MW_FMA(x[2], c3, t36);
     const double t38 = p[13] * t14;
     const double t39 = c3 * t38;
@@ -216,7 +444,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t65 = x[4] + t63;
     const double t66 = MW_FMA(p[9], t57, p[10]);
     const double t67 = (-2.0) * t23;
-    const double t68 = MW_FMA(p[16], t57, p[17]);
+    const double t68 = MW_FMA(p[15], t57, p[16]);
     const double t69 = MW_FMA(t61, t29, t31);
     const double t70 = c1 * t45;
     const double t71 = (-2.0) * t28;
@@ -262,14 +490,14 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t111 = t99 + t110;
     const double t112 = (-2.0) * t103;
     const double t113 = t81 * t112;
-    const double t114 = t107 - dp[16];
+    const double t114 = t107 - dp[15];
     const double t115 = t38 * t40;
     const double t116 = c3 * dp[0];
     const double t117 = MW_FNMA(p[0], t40, t116);
     const double t118 = t57 * dp[9];
     const double t119 = MW_FMA(p[9], t85, t118);
-    const double t120 = t57 * dp[16];
-    const double t121 = MW_FMA(p[16], t85, t120);
+    const double t120 = t57 * dp[15];
+    const double t121 = MW_FMA(p[15], t85, t120);
     const double t122 = t14 * dp[6];
     const double t123 = MW_FMA(p[6], t86, t122);
     const double t124 = t14 * dp[13];
@@ -277,7 +505,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t126 = dp[10] + t119;
     const double t127 = s3 * dx[0];
     const double t128 = MW_FMA(x[0], t54, t127);
-    const double t129 = dp[17] + t121;
+    const double t129 = dp[16] + t121;
     const double t130 = MW_FMS(c3, t123, t41);
     const double t131 = t30 * t72;
     const double t132 = MW_FMS(c3, t125, t115);
@@ -290,7 +518,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t139 = MW_FMA(t29, t111, t138);
     const double t140 = t73 * t133;
     double s141, c141;
-    spherical_convex_spur_sincos(p[22], &s141, &c141);
+    spherical_convex_spur_sincos(p[21], &s141, &c141);
     const double t143 = t139 + t130;
     const double t144 = MW_FMA(t58, t135, t140);
     const double t145 = t143 - t144;
@@ -300,7 +528,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t149 = (-2.0) * dp[0];
     const double t150 = p[10] * t149;
     double s151, c151;
-    spherical_convex_spur_sincos(p[21], &s151, &c151);
+    spherical_convex_spur_sincos(p[20], &s151, &c151);
     const double t153 = MW_FMS(t67, t145, t113);
     const double t154 = MW_FMA(s3, t148, t64);
     const double t155 = MW_FMA(t32, dp[10], t150);
@@ -313,14 +541,14 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t162 = t28 * t157;
     const double t163 = MW_FMA(t12, t156, dphi);
     const double t164 = 2.0 * dp[0];
-    const double t165 = p[17] * t164;
+    const double t165 = p[16] * t164;
     const double t166 = s3 * dx[2];
     const double t167 = t160 + t114;
     const double t168 = MW_FMA(x[2], t54, t166);
     const double t169 = (-0.5) * dp[1];
     const double t170 = (-2.0) * t162;
     const double t171 = t161 + t163;
-    const double t172 = MW_FMA(t34, dp[17], t165);
+    const double t172 = MW_FMA(t34, dp[16], t165);
     const double t173 = MW_FNMA(t47, dp[13], dp[6]);
     const double t174 = t16 * t173;
     const double t175 = t129 - t168;
@@ -346,7 +574,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t195 = MW_FMA(s3, t43, t194);
     const double t196 = t7 * s3;
     const double t197 = dx[4] + t189;
-    const double t198 = c141 * dp[22];
+    const double t198 = c141 * dp[21];
     const double t199 = p[13] * t179;
     const double t200 = p[6] * t179;
     const double t201 = t71 * t186;
@@ -362,7 +590,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t211 = MW_FMA(t200, t161, t210);
     const double t212 = t197 - t204;
     const double t213 = t82 * t202;
-    const double t214 = t187 - dp[20];
+    const double t214 = t187 - dp[19];
     const double t215 = t186 + t214;
     const double t216 = p[7] * 2.0;
     const double t217 = MW_FMA(t205, t193, t213);
@@ -380,7 +608,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t229 = t228 * t70;
     const double t230 = s1 * t228;
     const double t231 = c108 * t224;
-    const double t232 = s141 * dp[22];
+    const double t232 = s141 * dp[21];
     const double t233 = p[0] * s3;
     const double t234 = c108 * t221;
     const double t235 = MW_FMA(s108, t233, t234);
@@ -399,7 +627,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t248 = MW_FMA(t221, t225, t247);
     const double t249 = s108 * t190;
     const double t250 = MW_FMS(t221, t226, t249);
-    const double t251 = s151 * dp[21];
+    const double t251 = s151 * dp[20];
     const double t252 = t74 * dp[0];
     const double t253 = MW_FMA(p[0], t175, t252);
     const double t254 = p[0] * t74;
@@ -456,7 +684,7 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     const double t305 = MW_FMS(c141, t256, t304);
     const double t306 = s97 * t212;
     const double t307 = c97 * t212;
-    const double t308 = c151 * dp[21];
+    const double t308 = c151 * dp[20];
     const double t309 = s97 * t195;
     const double t310 = t295 - t303;
     const double t311 = c97 * t195;
