@@ -47,7 +47,7 @@ SETTINGS
 
 
 #: What a program with one header needs of the runtime.
-SOURCES = ("complete", "trace", "start", "branch", "arclength", "refine", "search", "newton", "linear", "contact")
+SOURCES = ("complete", "solve")
 
 
 @pytest.fixture(scope="module")

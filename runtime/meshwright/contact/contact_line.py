@@ -43,10 +43,11 @@ class ContactLine:
 def contact_line(drive, angle, start):
     """The :class:`ContactLine` through the solution ``start`` (nx,), which may lie outside the limits.
 
-    It is followed either way; of what lies on both flanks, the longest piece.
+    It is followed either way; of what lies on both flanks, the longest piece. Empty where ``start`` is no solution.
     """
     equations = _Equations.of(drive, angle)
-    solutions = _longest_inside(equations, _whole(equations, start))
+    solved = bool(np.isfinite(start).all())
+    solutions = _longest_inside(equations, _whole(equations, start)) if solved else np.empty((0, drive.model.nx))
     observed = np.array([equations.observe(x) for x in solutions]).reshape(-1, drive.model.no)
     bodies = drive.design.description["bodies"]
     return ContactLine(
