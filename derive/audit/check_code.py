@@ -665,6 +665,27 @@ def check_tangent(header: Header, text: str, rng: Random) -> None:
         require(tangent.value(key).value == rate, f"tangent: {key} is not the derivative along the change")
 
 
+def check_flank_tangent(header: Header, text: str, body: str, rng: Random) -> None:
+    """The change of a flank's point along changes of parameters, at fixed parameters of the flank."""
+    run = machine(header, f"flank_{body}", rng, arcs=True)
+    own = {key: Number(number.value, (), number.angle) for key, number in run.inputs.items()}
+    inputs, moved = dict(own), {"dp[0]": Number(0)}
+    for key in (f"p[{k}]" for k in range(1, header.parameters)):
+        rate = rng.randrange(1, PRIME)
+        moved[f"d{key}"] = Number(rate)
+        inputs[key] = Number(own[key].value, (rate,), own[key].form)
+    setup = Machine(inputs, header.functions["setup"], None, run.circle)
+    instant = Machine(inputs, header.functions["set_phi"], setup, run.circle)
+    there = Machine(inputs, header.functions[f"flank_{body}"], instant, run.circle)
+    name = re.search(r"(\w+)_derive_tangent\(", text)[1] + f"_{body}_tangent"
+    tangent = Machine(own | moved, Function(name, read_body(body_of(text, name)), {}), None, run.circle)
+    at, _ = there.function.outputs["point"]
+    for k in range(3):
+        number = there.value(f"o[{at + k}]")
+        rate = number.rates[0] if number.rates else 0
+        require(tangent.value(f"dr[{k}]").value == rate, f"tangent of {body}: dr[{k}] is not the point's derivative")
+
+
 def attempt(check: Callable[..., None], *arguments: object) -> None:
     """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
     has.
@@ -695,6 +716,8 @@ def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
         yield "lanes", (check_lanes, header, header.lanes)
     if header.tangents:
         yield "tangents of parameters", (check_tangent, header, header.tangents)
+        for body in header.unknowns:
+            yield f"tangents of the {body}", (check_flank_tangent, header, header.tangents, body)
     if "start_eval" in header.functions:
         yield "jacobian of the start system", (check_start, header)
     yield "assembly of the two points", (check_assembly, header)

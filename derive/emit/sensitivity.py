@@ -1,4 +1,5 @@
-"""Print what a change of the parameters does: directional derivatives of rules, design systems, residual and contact.
+"""Print what a change of the parameters does: directional derivatives of rules, design systems, residual, contact and
+flanks.
 
 One direction at a time: the tangent of every value on the tape, by the chain rule. With the Jacobians of the design
 systems and of the contact this gives exact sensitivities of their solutions (implicit function theorem); see
@@ -42,15 +43,19 @@ class Tangent:
 
 @dataclass(frozen=True)
 class Tangents:
-    """All tangents of a drive: of each rule; of residual and values of each design system; of the contact."""
+    """All tangents of a drive: of each rule; of residual and values of each design system; of the contact; of the
+    point of each flank at fixed parameters of the flank.
+    """
 
     rules: tuple[Tangent, ...]
     systems: tuple[tuple[Tangent, Tangent], ...]
     contact: Tangent
+    flanks: tuple[Tangent, ...]
 
     def functions(self):
         """The generated functions, for the list of side conditions."""
-        for tangent in (*self.rules, *(part for system in self.systems for part in system), self.contact):
+        systems = (part for system in self.systems for part in system)
+        for tangent in (*self.rules, *systems, self.contact, *self.flanks):
             yield tangent.evaluated()
 
 
@@ -62,10 +67,12 @@ def _seeds(tape, lower, symbols, stage):
 def tangents(plan):
     """The :class:`Tangents` of a schedule. Adds the changes of the inputs to its tapes."""
     drive = plan.drive
+    by_p = _seeds(plan.tape, plan.lower, [p.symbol for p in drive.parameters], Stage.DESIGN)
     return Tangents(
         rules=tuple(_of_rule(drive, rule, k) for k, rule in enumerate(drive.rules)),
         systems=tuple(_of_system(drive, system) for system in plan.systems),
-        contact=_of_contact(plan),
+        contact=_of_contact(plan, by_p),
+        flanks=tuple(_of_flank(plan, flank, by_p) for flank in plan.flanks),
     )
 
 
@@ -81,20 +88,33 @@ def header(plan, tangents, generator):
         rules=[_rule(drive, *pair) for pair in zip(drive.rules, tangents.rules, strict=True)],
         systems=[_system(drive, *pair) for pair in zip(plan.systems, tangents.systems, strict=True)],
         tangent=tangents.contact.body(drive),
+        flanks=[
+            {"name": flank.body, "body": tangent.body(drive)}
+            for flank, tangent in zip(plan.flanks, tangents.flanks, strict=True)
+        ],
     )
 
 
-def _of_contact(plan):
+def _of_contact(plan, by_p):
     """Of residual and contact point."""
     drive, tape, lower = plan.drive, plan.tape, plan.lower
     parameters = [p.symbol for p in drive.parameters]
-    by_p, by_x = _seeds(tape, lower, parameters, Stage.DESIGN), _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
+    by_x = _seeds(tape, lower, plan.unknowns, Stage.ITERATE)
     by_phi = _seeds(tape, lower, [drive.instant], Stage.INSTANT)
     leaves = _leaves(lower, "p", parameters, by_p) | _leaves(lower, "x", plan.unknowns, by_x)
     leaves |= {lower(drive.instant): "phi", by_phi[lower(drive.instant)]: "dphi"}
     tangent = Derivatives(tape, by_p | by_phi | by_x)
     point = next(o for o in plan.observed if o.name == _POINT)
     return Tangent("tangent", lower, leaves, tuple(map(tangent, (*plan.residual, *point.nodes))))
+
+
+def _of_flank(plan, flank, by_p):
+    """Of a flank's point, at fixed parameters of the flank: the normal part does not depend on which are fixed."""
+    tape, lower = plan.tape, plan.lower
+    leaves = _leaves(lower, "p", [p.symbol for p in plan.drive.parameters], by_p)
+    leaves |= {lower(q): f"q[{k}]" for k, q in enumerate(flank.parameters)}
+    point = next(o for o in flank.outputs if o.name == "point")
+    return Tangent(f"{flank.body}_tangent", lower, leaves, tuple(map(Derivatives(tape, by_p), point.nodes)))
 
 
 def _leaves(lower, name, symbols, seeds):

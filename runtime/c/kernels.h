@@ -10,12 +10,13 @@ typedef struct mw_system_tangents {
     void (*fill)(const double *q, const double *y, const double *dy, double *known, double *dq);
 } mw_system_tangents;
 
-/* A drive's tangents; systems as many and in the order of the model's. */
+/* A drive's tangents; systems and flanks as many and in the order of the model's systems and bodies. */
 typedef struct mw_tangents {
     void (*derive)(double *known, const double *p, double *dp);
     const mw_system_tangents *systems;
     void (*contact)(const double *p, const double *dp, double phi, double dphi, const double *x, const double *dx,
                     double *dR, double *dr);
+    void (*flanks[2])(const double *p, const double *dp, const double *q, double *dr);
 } mw_tangents;
 
 /* A drive's kernels for one instruction set; number k of lane l is at [k * lanes + l]. See the generated lane headers. */

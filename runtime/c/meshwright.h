@@ -122,6 +122,12 @@ int mw_complete_tangent(const mw_model *m, const double *given, const double *p,
 int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, double phi, double dphi, const double *s,
                        const double *x, double *dx, double *dr);
 
+/* Exact derivatives dr[n*3] of points of the flank of a body (0 pinion, 1 wheel), body frame, at fixed flank parameters
+ * q[n*parameters], along changes dp[np] of the complete parameters p[np]. Their normal part is the change of the flank
+ * along its normal. Returns MW_CONVERGED, or MW_BAD_INPUT where the model has no tangents or no such body. */
+int mw_flank_tangent(const mw_model *m, int body, const double *p, const double *dp, const double *q, size_t n,
+                     double *dr);
+
 /* Both in a row, along a change[np] of the given parameters: dp[np], dx[nx], dr[3] and returns as above. */
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr);

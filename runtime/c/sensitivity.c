@@ -62,6 +62,14 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
     return MW_CONVERGED;
 }
 
+int mw_flank_tangent(const mw_model *m, int body, const double *p, const double *dp, const double *q, size_t n, double *dr)
+{
+    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
+    if (!t || body < 0 || body > 1) return MW_BAD_INPUT;
+    for (size_t k = 0; k < n; k++) t->flanks[body](p, dp, q + k * (size_t)m->bodies[body].parameters, dr + 3 * k);
+    return MW_CONVERGED;
+}
+
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr)
 {

@@ -124,6 +124,17 @@ def test_a_change_of_lanes_and_of_tangents_is_caught(tmp_path, ending, change):
     rejected(tmp_path, header(name), "lanes|tangent")
 
 
+@pytest.mark.parametrize("body", ["pinion", "wheel"])
+def test_a_change_of_the_tangents_of_a_flank_is_caught(tmp_path, body):
+    name = "cylindrical_worm_zn_zn"
+    text = (GENERATED / "c" / f"{name}_sensitivity.h").read_text(encoding="utf-8")
+    head, signature, rest = text.partition(f"{name}_{body}_tangent(")
+    assert signature
+    changed = head + signature + rest.replace("dr[1] = ", "dr[1] = 2.0 * ", 1)
+    (tmp_path / "drive_sensitivity.h").write_text(changed, encoding="utf-8")
+    rejected(tmp_path, header(name), f"tangent of {body}")
+
+
 @pytest.mark.parametrize("digits", ["0.008333333333330948", "1.5707963267341256", "-0.0013888888888887398"])
 def test_a_changed_constant_of_sine_and_cosine_is_caught(tmp_path, digits):
     wrong = digits[:-6] + str(int(digits[-6]) ^ 1) + digits[-5:]

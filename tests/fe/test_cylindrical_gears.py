@@ -79,6 +79,14 @@ def test_a_single_pair_has_the_pressure_of_hertz(spur, place):
     assert pair.peak_pressure == pytest.approx(closed.peak_pressure, rel=0.01)
 
 
+def test_two_pairs_share_the_torque(spur):
+    """Forces times the base radius add up to the torque where two pairs touch."""
+    gear = gear_pair(spur)
+    found = loaded_contact(gear, -0.35 * gear.pinion.pitch, 3, Load(20e3, "pinion"), None)
+    forces = np.array([pair.force for pair in found.pairs])
+    assert len(forces) == 2 and forces.sum() * base_radius(12) == pytest.approx(20e3, rel=1e-3)
+
+
 @pytest.mark.validate
 def test_loaded_helical_pairs_share_the_torque(capsys):
     """Moments about the pinion's axis, r_b cos β_b times each force, add up to the torque, shares to 1."""

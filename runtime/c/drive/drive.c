@@ -14,7 +14,9 @@ static const mw_kernels kernels;
 
 #define MW_SYSTEM_TANGENTS(system) { system##_tangent, system##_fill_tangent },
 static const mw_system_tangents system_tangents[] = { MW_OF(_SYSTEMS)(MW_SYSTEM_TANGENTS) { NULL, NULL } };
-static const mw_tangents tangents = { MW_OF(_derive_tangent), system_tangents, MW_OF(_tangent) };
+static const mw_tangents tangents = {
+    MW_OF(_derive_tangent), system_tangents, MW_OF(_tangent), { MW_OF(_pinion_tangent), MW_OF(_wheel_tangent) }
+};
 
 extern const mw_lane_model MW_OF(_lanes_native);
 #ifdef MW_WIDE_LANES

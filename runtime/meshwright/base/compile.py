@@ -30,6 +30,8 @@ CORE = "libmeshwright.so"
 #: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
 DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
 DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h")
+#: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
+LIVE_SOURCES = ("complete.c", "complete.h")
 #: What programs include, and what generated headers repeat.
 SOLVER = (
     "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",
@@ -150,7 +152,7 @@ def sealed(target):
 def core(source, folder, objects):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
     folder.mkdir(parents=True, exist_ok=True)
-    for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS), "source")):
+    for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS, *LIVE_SOURCES), "source")):
         for name in names:
             _copy(source / name, folder / place / name)
     command = compiler()

@@ -10,7 +10,8 @@ import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact.placement import placed
-from meshwright.cycle.contact_ratio import ContactRatio
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.windows import Window
 from meshwright.design.design import packaged_names
 from meshwright.drive import Drive
 from meshwright.fe.gear import gear_teeth
@@ -58,10 +59,11 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     wheel = _member(drive, "wheel", teeth_of(drive, "wheel", rim_thickness), materials.wheel)
     sense = 1 if drive.design.flank > 0 else -1
     touch = cache(lambda angle: _touch(drive, angle))
-    window = drive.contact_ratio()
+    mesh = Mesh.of(drive)
+    window = mesh.window
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
-    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, window.contact_ratio, tuple(ends))
+    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, mesh.contact_ratio, tuple(ends))
 
 
 def teeth_of(drive: Drive, member: MemberName, rim_thickness: float) -> Teeth:
@@ -83,7 +85,7 @@ def _with_solids() -> list[str]:
     return sorted({of["family"] for of in described if any(f["name"] == "solid_pinion" for f in of["functions"])})
 
 
-def _middle_pair(window: ContactRatio, pitch: float) -> Callable[[float], int]:
+def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
     """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
     if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):

@@ -6,12 +6,16 @@ Sources: C. L. Lawson and R. J. Hanson, Solving Least Squares Problems (1974), c
 P. J. Huber, Robust Statistics (1981), chapter 7 (weights).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 #: Residuals beyond so many standard deviations lose weight: 95 % efficiency for normal noise (Huber 1981).
 HUBER = 1.345
+
+#: Share of weight × residual² in residual² for normal noise.
+KEPT = math.erf(HUBER / math.sqrt(2.0))
 
 #: Points of less weight are listed as distrusted.
 DISTRUSTED = 0.5
@@ -40,12 +44,14 @@ class Estimate:
     """Result of :func:`estimate` for k parameters and n deviations.
 
     ``values`` (k,) and ``deviations`` (k,) are NaN for what is not determined; ``covariance`` (k, k) is that of the
-    determined combinations. ``weights`` (n,) in (0, 1], ``residuals`` (n,) in the unit of the deviations.
+    determined combinations. ``fitted`` (k,) explain the deviations best, 0 along undetermined combinations.
+    ``weights`` (n,) in (0, 1], ``residuals`` (n,) in the unit of the deviations.
     """
 
     values: np.ndarray
     deviations: np.ndarray
     covariance: np.ndarray
+    fitted: np.ndarray
     undetermined: tuple[Undetermined, ...]
     weights: np.ndarray
     residuals: np.ndarray
@@ -123,10 +129,11 @@ class _Fit:
             np.where(known, self.values * tolerances, np.nan),
             np.where(known, np.sqrt(variance) * tolerances, np.nan),
             covariance,
+            self.values * tolerances,
             tuple(Undetermined(d, float(s)) for d, s in zip(lost, self.spreads[~self.determined], strict=True)),
             self.weights,
             self.residuals,
-            squares / degrees if tested else float("nan"),
+            squares / (KEPT * degrees) if tested else float("nan"),
             self.sigma,
         )
 

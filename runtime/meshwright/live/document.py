@@ -1,0 +1,28 @@
+"""The live page: one HTML file that needs nothing beside itself."""
+
+import base64
+import html
+import json
+from importlib import resources
+
+from meshwright.live.data import data
+from meshwright.live.module import compiled
+
+
+def page(drive):
+    """The page of a :class:`~meshwright.drive.Drive`, as text."""
+    contents = data(drive)
+    parts = {
+        "TITLE": html.escape(f"{contents['name']} – {contents['title']}"),
+        "STYLE": _part("live.css"),
+        "DATA": json.dumps(contents, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
+        "MODULE": base64.b64encode(compiled(contents["drive"])).decode("ascii"),
+        "SCRIPT": "\n".join(_part(f"{name}.js") for name in ("solver", "plots", "live")),
+    }
+    text = _part("live.html")
+    pieces = text.split("%%")
+    return "".join(parts[piece] if k % 2 else piece for k, piece in enumerate(pieces))
+
+
+def _part(name):
+    return resources.files("meshwright.live").joinpath("page", name).read_text(encoding="utf-8")

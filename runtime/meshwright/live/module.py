@@ -1,0 +1,45 @@
+"""The generated C of a drive and what calls it, compiled to a WebAssembly module that imports nothing."""
+
+import importlib.util
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from meshwright.base.drives import SHIPPED, folder_of
+from meshwright.base.errors import LibraryError, UsageError
+
+SOURCE = Path(__file__).parent / "page" / "live.c"
+
+#: Functions that the page calls; ``live.c`` says what each does.
+EXPORTS = ("parameters", "sizes", "angles", "rows", "row_length", "most_angles", "complete", "cycle")
+
+#: No product is contracted into a sum, so that every number has the bits of the native objects.
+FLAGS = (
+    "-target", "wasm32-freestanding", "-mbulk-memory", "-std=c99", "-O3", "-ffp-contract=off", "-nostdlib",
+    "-Wl,--no-entry", *(f"-Wl,--export=live_{name}" for name in EXPORTS),
+)  # fmt: skip
+
+
+def compiled(name):
+    """The WebAssembly module (bytes) of the drive ``name``.
+
+    Raises :class:`UsageError` without the compiler (clang of the package ``ziglang``), :class:`LibraryError` if it
+    refuses a source.
+    """
+    if importlib.util.find_spec("ziglang") is None:
+        raise UsageError(
+            "live: ziglang, the compiler for WebAssembly, is not installed; `pip install 'meshwright[live]'` brings it"
+        )
+    headers = (SOURCE.parent / "include", folder_of(name) / "include", SHIPPED / "include", SHIPPED / "source")
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / f"{name}.wasm"
+        command = [
+            sys.executable, "-m", "ziglang", "cc", *FLAGS, *(f"-I{place}" for place in headers),
+            f"-DLIVE_DRIVE={name}", f'-DLIVE_HEADER="{name}.h"', str(SOURCE), "-o", str(target),
+        ]  # fmt: skip
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            raise LibraryError(f"{name} did not compile to WebAssembly: {shlex.join(command)}\n{done.stderr.strip()}")
+        return target.read_bytes()
