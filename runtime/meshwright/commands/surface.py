@@ -3,7 +3,8 @@
 Body frame, normals out of the material. The region goes as far as blank, tool and singular lines let the surface
 exist, and where they set no limit, what contact uses. JSON holds a grid, with null off the region, and triangles with
 the border resolved; VTU and STL hold the triangles, STEP trimmed B-spline surfaces. Exit status 1 if the STEP file
-departs from the exact surface by more than 1 µm.
+departs from the exact surface by more than 1 µm. With --solid: the closed body of the member, all its teeth or some,
+as STL or STEP; its volume is printed, and the departure of its facets, above 1 µm with exit status 1.
 """
 
 import re
@@ -15,6 +16,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_bytes, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.flank import exports
+from meshwright.flank.polyhedron import solid_step
 from meshwright.flank.step import step
 from meshwright.limits.sections import section
 
@@ -42,11 +44,17 @@ def add_arguments(parser):
     parser.add_argument(
         "--step", metavar="FILE|-", help="write a B-spline surface and print its deviation; needs the extra cad"
     )
+    parser.add_argument("--solid", action="store_true", help="the closed body of the member; needs --stl or --step")
+    parser.add_argument("--teeth", type=common.count, metavar="N", help="with --solid: so many teeth; default: all")
 
 
 def run(options):
     shape = _shape(options.grid)
     drive = common.drive_of(options)
+    if options.solid:
+        return _write_solid(options, drive)
+    if options.teeth is not None:
+        raise UsageError(f"--teeth {options.teeth}: goes with --solid; add it, or leave --teeth out")
     if options.section is not None:
         _refuse_with_section(options)
         found = section(drive, options.member, options.section, shape[0])
@@ -62,6 +70,28 @@ def run(options):
     if options.json or not (options.vtu or options.stl or options.step):
         write_json(options.json or "-", document(found))
     return 0 if good else 1
+
+
+def _write_solid(options, drive):
+    """Write the closed body, print volume and departure; exit status."""
+    if not (options.stl or options.step) or options.json or options.vtu or options.section is not None:
+        raise UsageError("--solid: a body is written with --stl FILE or --step FILE, and with nothing else")
+    try:
+        from meshwright.fe.closed_body import closed_body
+    except ModuleNotFoundError as error:
+        raise UsageError(f"--solid: {error.name} is not installed; `pip install 'meshwright[fe]'` brings it") from error
+    body = closed_body(drive, options.member, options.teeth, MOST_DEVIATION)
+    name = f"{drive.design.tables['name'] or drive.design.family} {options.member}, {body.teeth} teeth"
+    if options.stl:
+        write_bytes(options.stl, exports.stl(body.points, body.triangles, name))
+    if options.step:
+        write_bytes(options.step, solid_step(body.points, body.triangles, name))
+    print(
+        f"{name}: volume {body.volume:.6g} mm³, {len(body.triangles)} facets, those of the flanks within "
+        f"{1000.0 * body.departure:.3g} µm of them",
+        file=sys.stderr,
+    )
+    return 0 if body.departure <= MOST_DEVIATION else 1
 
 
 def _refuse_with_section(options):

@@ -26,7 +26,7 @@ from meshwright.fe.thread_flanks import threads
 from meshwright.fe.tooth import Teeth
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
-_RIM_MODULES = 4.5
+RIM_MODULES = 4.5
 _STEP_PITCHES = 0.25
 
 MemberName = Literal["pinion", "wheel"]
@@ -50,7 +50,7 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     if rim_thickness is not None:
         check_rim(rim_thickness, {name: of["root_radius"] for name, of in sizes.items() if "root_radius" in of})
     else:
-        rim_thickness = _RIM_MODULES * sizes["pinion"]["module"]
+        rim_thickness = RIM_MODULES * sizes["pinion"]["module"]
     if not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
         raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")
     _check_point_contact(drive)
