@@ -5,7 +5,8 @@ documents/       the four source documents as printed; identities/ what we claim
 ledger.py        every claim judged by the prover, every object hashed and linked, one root over all
 provenance.py    which equations each generated function rests on
 record.py        the whole record, and the files it is written to; store.py pages.py render.py validation.py their text
-check.py         re-checks the record, check_code.py the generated C; both run alone and ship beside the record
+check.py         re-checks the record, check_code.py the generated C against calculus, check_description.py the C
+                 against the descriptions of the drives; each runs alone, all ship beside the record
 kernel/          every proof as a theorem that Coq accepts
 explain.py       from a C function or an equation back to the sources
 """

@@ -1,4 +1,4 @@
-"""What the checker of the generated C notices: one token of a generated file changed at a time, counted by function.
+"""What the checkers of the generated C notice: one token of a generated file changed at a time, counted by function.
 
 ``python -m derive.audit.mutations DRIVE… [--each N]`` prints the table and writes it to ``measured.json`` beside this
 module, from where the page of validation takes it.
@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from derive.audit import check_code
+from derive.audit import check_code, check_description
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -90,7 +90,10 @@ def _is_refused(drive: str, texts: dict[str, str]) -> bool:
             (Path(folder) / f"{drive}{ending}.h").write_text(text, encoding="utf-8")
         try:
             check_code.check_header(Path(folder) / f"{drive}.h")
-        except check_code.Rejected:
+            check_description.check_drive(
+                GENERATED / "descriptions" / f"{drive}.json", Path(folder) / f"{drive}.h"
+            )
+        except (check_code.Rejected, check_description.Rejected):
             return True
     return False
 

@@ -11,7 +11,7 @@ from derive.audit.check import equations_named
 from derive.audit.ledger import Ledger
 from derive.prove.tree import canonical
 
-CHECKERS = tuple(Path(__file__).with_name(name) for name in ("check.py", "check_code.py"))
+CHECKERS = tuple(Path(__file__).with_name(name) for name in ("check.py", "check_code.py", "check_description.py"))
 
 
 def record_files(ledger: Ledger) -> dict[str, str]:

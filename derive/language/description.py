@@ -226,7 +226,7 @@ def _compact(data):
 
 
 def describe(drive):
-    """The whole description of a drive; what its functions give is not in it."""
+    """The whole description of a drive."""
     described = _describe(drive)
     return described | {"definitions": _definitions(drive, described)}
 
@@ -272,7 +272,9 @@ def _describe(drive):
         "functions": [
             {
                 "name": f.name, "meaning": f.meaning, "arguments": [quantity(q) for q in f.arguments],
-                "results": [{"name": r.name, "unit": r.unit, "frame": r.frame} for r in f.results],
+                "results": [
+                    {"name": r.name, "unit": r.unit, "frame": r.frame, "values": _vector(r.values)} for r in f.results
+                ],
             }
             for f in drive.functions
         ],
