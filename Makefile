@@ -7,7 +7,7 @@ READY  := $(VENV)/.ready
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
 
-.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe
+.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate
 
 setup: $(READY)
 
@@ -64,7 +64,11 @@ lint: setup
 	$(PY) -m ruff check derive runtime tests
 
 test: build check solver cmake
-	$(PY) -m pytest -m 'not slow' --numprocesses auto --dist loadfile
+	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadfile
+
+# The longer tests: many random designs and inputs, every drive, brute force, all theorems.
+validate: build solver cmake
+	$(PY) -m pytest -m validate --numprocesses auto --dist loadfile
 
 # The longer finite-element validation.
 test-fe: build solver
