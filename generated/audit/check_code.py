@@ -27,6 +27,7 @@ A wrong program passes with a probability of about degree / 2^61. Needs check.py
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -48,7 +49,12 @@ ATTEMPTS = 20000
 REFUSALS = 24
 #: Angles are whole multiples of a quarter of each independent angle.
 QUARTER = 4
-LITERALS = {"3.141592653589793": Fraction(1), "1.5707963267948966": Fraction(1, 2)}
+#: A quarter of an angle met before, times up to this, is recognised.
+MULTIPLES = 16
+#: What the circle's number is modulo the prime, and the largest divisor of the multiples that decimals stand for.
+PI = SystemRandom().randrange(1, PRIME)
+DIVISOR = 720
+PI_ENCLOSED = CHECK.number_of("pi").middle
 
 
 class NoRoot(Exception):
@@ -81,12 +87,10 @@ def combined(a: tuple[int, ...], x: int, b: tuple[int, ...], y: int) -> tuple[in
 
 
 def add(a: Number, b: Number, sign: int = 1) -> Number:
-    angle = None
-    if a.angle is not None or b.angle is not None:
-        total = dict(a.form)
-        for name, factor in b.form.items():
-            total[name] = total.get(name, 0) + sign * factor
-        angle = {name: factor for name, factor in total.items() if factor}
+    total = dict(a.form)
+    for name, factor in b.form.items():
+        total[name] = total.get(name, 0) + sign * factor
+    angle = {name: factor for name, factor in total.items() if factor}
     return Number((a.value + sign * b.value) % PRIME, combined(a.rates, 1, b.rates, sign), angle)
 
 
@@ -140,6 +144,9 @@ CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
 
 #: Lines of the lanes that hold no value of an instance: loops, guards and sizes of steps.
 LANE_SILENT = re.compile(r"MW_LANE_(LOOP|PAIRS)|const int m = |(valid|size)\[[lm]\] = |}$")
+
+#: A result that is no number where a value that it rests on does not exist.
+TESTED = re.compile(r"\(.+\) \? (\S+) : NAN")
 
 #: A product and a number: a b + c, a b - c, c - a b.
 FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
@@ -283,7 +290,9 @@ class Machine:
             return self.inputs[name]
         if name in self.function.definitions:
             kind, expression = self.function.definitions[name]
-            return self._expression(expression) if kind == "expression" else self._turn(expression)[kind == "sin"]
+            if kind == "expression":
+                return self._expression(expression)
+            return self.turned(self.value(expression))[kind == "sin"]
         if re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", name):
             return self._literal(name)
         require(self.earlier is not None, f"{name} has no value")
@@ -291,14 +300,23 @@ class Machine:
 
     @staticmethod
     def _literal(text: str) -> Number:
-        exact = Fraction(text)
-        angle = {"pi": LITERALS[text]} if text in LITERALS else None
-        return Number(exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), angle)
+        """A decimal of all digits stands for the nearest simple multiple of pi or fraction, if it is its double."""
+        exact, unit, angle = Fraction(text), 1, None
+        if len(re.sub(r"e.*|\D", "", text)) >= 15:
+            times = Fraction(float(exact) / math.pi).limit_denominator(DIVISOR)
+            near = exact.limit_denominator(DIVISOR)
+            if times and abs(float(times * PI_ENCLOSED) - float(exact)) <= math.ulp(float(exact)):
+                exact, unit, angle = times, PI, {"pi": times}
+            elif float(near) == float(exact):
+                exact = near
+        return Number(unit * exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), angle)
 
     def _expression(self, text: str) -> Number:
+        if match := TESTED.fullmatch(text):
+            return self.value(match[1])
         if match := CALL.fullmatch(text):
             arguments = [self.value(argument) for argument in match[2].split(", ")]
-            return {"sqrt": root, "SIGN": sign, "atan2": self._arc}[match[1]](*arguments)
+            return {"sqrt": root, "SIGN": sign, "atan2": self.arc}[match[1]](*arguments)
         if match := FUSED.fullmatch(text):
             product, number = self._product(match[2], match[3]), self.value(match[4])
             if match[1] == "FNMA":
@@ -330,7 +348,7 @@ class Machine:
                 return add(a, b, -1)
         return divide(a, b)
 
-    def _arc(self, y: Number, x: Number) -> Number:
+    def arc(self, y: Number, x: Number) -> Number:
         square = (x.value * x.value + y.value * y.value) % PRIME
         require(square, "an arc of nothing")
         inverse = pow(square, -1, PRIME)
@@ -338,9 +356,8 @@ class Machine:
         rates = combined(y.rates, x.value * inverse, x.rates, -y.value * inverse)
         return Number(hash(name) % PRIME, rates, {name: Fraction(1)})
 
-    def _turn(self, text: str) -> tuple[Number, Number]:
-        """Cosine and sine of an argument, by complex multiplication over the independent angles."""
-        argument = self.value(text)
+    def turned(self, argument: Number) -> tuple[Number, Number]:
+        """Cosine and sine of an angle, by complex multiplication over the independent angles."""
         cosine, sine = 1, 0
         for name, factor in argument.form.items():
             times = QUARTER * factor
@@ -363,7 +380,7 @@ class Circle:
     """
 
     def __init__(self, rng: Random, arcs: bool):
-        self.rng, self.arcs, self.points = rng, arcs, {}
+        self.rng, self.arcs, self.points, self.fine = rng, arcs, {}, {}
 
     def __call__(self, name: object) -> tuple[int, int]:
         if self.arcs and isinstance(name, tuple) and name not in self.points:
@@ -371,11 +388,35 @@ class Circle:
             length = square_root(x * x + y * y)
             scale = pow(length, -1, PRIME)
             self.points[name] = halved(*halved(x * scale % PRIME, y * scale % PRIME))
+        if isinstance(name, int) and name not in self.points:
+            self.points[name] = self._of_number(name)
         if name not in self.points:
-            t = self.rng.randrange(2, PRIME)
-            below = pow(1 + t * t, -1, PRIME)
-            self.points[name] = (1 - t * t) * below % PRIME, 2 * t * below % PRIME
+            self.points[name] = self._random()
         return self.points[name]
+
+    def _of_number(self, value: int) -> tuple[int, int]:
+        """An angle that is a product is known by its value: a multiple of one met before lies at its multiple."""
+        for times in range(1, MULTIPLES + 1):
+            known = QUARTER * value * pow(times, -1, PRIME) % PRIME
+            for sign, other in ((1, known), (-1, PRIME - known)):
+                if other in self.fine:
+                    return power(self.fine[other], sign * times)
+        self.fine[value] = self._random()
+        return power(self.fine[value], QUARTER)
+
+    def _random(self) -> tuple[int, int]:
+        t = self.rng.randrange(2, PRIME)
+        below = pow(1 + t * t, -1, PRIME)
+        return (1 - t * t) * below % PRIME, 2 * t * below % PRIME
+
+
+def power(point: tuple[int, int], times: int) -> tuple[int, int]:
+    """Cosine and sine of a multiple of an angle."""
+    (c, s), cosine, sine = point, 1, 0
+    s = s if times > 0 else -s
+    for _ in range(abs(times)):
+        cosine, sine = (cosine * c - sine * s) % PRIME, (sine * c + cosine * s) % PRIME
+    return cosine, sine
 
 
 # ---- checks ----------------------------------------------------------------------------------------------------------
