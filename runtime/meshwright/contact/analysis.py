@@ -47,9 +47,18 @@ def analyse(drive, angles):
     if not np.all(np.diff(grid) > 0.0):
         grid, rows = np.unique(grid, return_inverse=True)
     points = _Points.of(drive, grid)
-    x, zero = trace(drive, np.array([drive.design.reference_angle], dtype=float))
-    reference = x[0, points.description["error"]] if zero["status"][0] >= 0 else points.reference()
-    return points.result(angles, rows, mirror, float(reference))
+    return points.result(angles, rows, mirror, _reference(drive, points))
+
+
+def _reference(drive, points):
+    """Transmission error to which those of the points are relative: that at the reference angle, of one of the points
+    where it is among them, so that its own is zero to the last bit; else that at the solved angle nearest to it.
+    """
+    angle = drive.design.reference_angle
+    if np.any(points.touching & (points.grid == angle)):
+        return points.reference()
+    x, found = trace(drive, np.array([angle], dtype=float))
+    return float(x[0, points.description["error"]]) if found["status"][0] >= 0 else points.reference()
 
 
 def at_solutions(drive, angles, unknowns):
