@@ -20,7 +20,7 @@ from pathlib import Path
 from derive import compiler, drives, outside
 from derive.audit import check
 from derive.emit import families
-from derive.files import replace_text
+from derive.files import remove_parts, replace_text
 from derive.packaged import packaged
 from meshwright.base.compile import CompileError
 
@@ -63,7 +63,7 @@ def _built(word):
 
 
 def main(arguments=None):
-    """Exit status 0, or 2 for an unknown drive."""
+    """Exit status 0, or 2 for an unknown drive, a damaged folder or one that cannot be written."""
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     if arguments[:1] == ["show"]:
         return show(arguments[1:])
@@ -86,7 +86,11 @@ def main(arguments=None):
     except check.Rejected as error:
         print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
-    except (outside.FileError, CompileError) as error:
+    except OSError as error:
+        place = error.filename or options.output
+        print(f"{place}: cannot be written ({error.strerror}); name another folder with --output", file=sys.stderr)
+        return 2
+    except (outside.FileError, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)
         return 2
     return 0
@@ -173,13 +177,27 @@ def _of_drive(record, name):
 def _written(folder):
     """Path → hash of what earlier runs wrote there, by the manifest."""
     manifest = folder / "manifest.json"
-    return json.loads(manifest.read_text(encoding="utf-8"))["files"] if manifest.exists() else {}
+    if not manifest.exists():
+        return {}
+    try:
+        files = json.loads(manifest.read_text(encoding="utf-8"))["files"]
+        outside = [path for path in files if Path(path).is_absolute() or ".." in Path(path).parts]
+    except (ValueError, KeyError, TypeError) as error:
+        raise DamagedManifest(f"{manifest} is damaged ({error}): remove it; what it listed stays then") from error
+    if outside:
+        raise DamagedManifest(f"{manifest} names {outside[0]}, which is outside its folder: remove it")
+    return files
+
+
+class DamagedManifest(ValueError):
+    """The list of what an earlier run wrote cannot be believed."""
 
 
 def _remove_superseded(folder, files):
     """Remove what earlier runs wrote there and this one does not."""
     for path in _written(folder).keys() - files.keys():
         (folder / path).unlink(missing_ok=True)
+    remove_parts(folder)
 
 
 def _list_in_manifest(folder, files):

@@ -40,3 +40,25 @@ def test_an_unknown_drive_is_named_with_those_known(tmp_path, capsys):
     assert command.main(["worm", "--output", str(tmp_path)]) == 2
     assert "no drive 'worm'; known: cylindrical_worm_za_za" in capsys.readouterr().err
     assert not [*tmp_path.iterdir()]
+
+
+def test_a_damaged_manifest_is_named(tmp_path, capsys):
+    (tmp_path / "manifest.json").write_text('{"files": {"c/drive.h": "12')
+    assert command.main([DRIVE, "--output", str(tmp_path)]) == 2
+    assert "manifest.json is damaged" in capsys.readouterr().err
+    (tmp_path / "manifest.json").write_text('{"files": {"../thesis.txt": "12"}}')
+    assert command.main([DRIVE, "--output", str(tmp_path)]) == 2
+    assert "outside its folder" in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert command.main([DRIVE, "--output", str(tmp_path / "file")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_what_a_killed_run_left_is_removed(tmp_path):
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c" / ".drive.h.1234.part").write_text("half")
+    command._remove_superseded(tmp_path, {})
+    assert not list((tmp_path / "c").iterdir())
