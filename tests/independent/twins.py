@@ -33,7 +33,7 @@ class Twin:
     def solved(self, values, phi, near, inverse):
         """What is seen at the solution, by chords with an approximate inverse Jacobian; ten digits are left over."""
         drive, unknowns = self.of(values), list(near)
-        for _ in range(8):
+        for _ in range(40):
             residual = self.residual(drive, unknowns, phi)
             size = max(map(abs, residual))
             if size < mpf(10) ** (10 - mpmath.mp.dps):

@@ -46,7 +46,7 @@ def test_contact_and_curvatures_are_those_of_the_c_solver(name):
         seen = tca(p=drive.design.parameters, phi=mirror * angles[k], x0=solved.solutions[k] + 1e-5)
         assert np.array(seen["x"]).ravel() == pytest.approx(solved.solutions[k], abs=1e-11)
         assert np.array(seen["curvatures"]).ravel() == pytest.approx(solved.curvatures[k], rel=1e-10)
-        assert np.array(seen["semi_axes"]).ravel() == pytest.approx(solved.semi_axes[k], rel=1e-10)
+        assert np.array(seen["semi_axes"]).ravel() == pytest.approx(solved.semi_axes[k], rel=1e-10, nan_ok=True)
         assert float(seen["residual"]) < 1e-11
 
 

@@ -28,7 +28,7 @@ GIVEN = {
 #: nothing to differentiate.
 LINES = ("spherical-table-2-1", "spur-profile-shift")
 
-#: Misalignments of each family, so that nothing vanishes by symmetry.
+#: Misalignments of each family that has a twin in 50 digits, so that nothing vanishes by symmetry.
 ERRORS = {
     "cylindrical-worm": {"center_distance_mm": 0.01, "vertical_deg": 0.01},
     "spherical": {"center_distance_mm": 0.1, "horizontal_deg": 0.02, "vertical_deg": 0.01},
@@ -69,7 +69,7 @@ def _agree(drive, angle):
     return True
 
 
-@pytest.mark.parametrize("name", design.packaged_names())
+@pytest.mark.parametrize("name", [name for name in design.packaged_names() if design.read(name)["drive"] in ERRORS])
 def test_every_parameter_agrees_with_differences_in_50_digits(name):
     drive = Drive.load(name)
     angle = PLACE * drive.pitch()
