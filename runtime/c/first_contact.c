@@ -570,7 +570,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
         below[top] = 1;
         refine(&h, &at[top], &best);
     }
-    long budget = 200000;
+    long budget = 20000;
     for (size_t t = 0; t < mesh->triangles; t++) {
         place T[3];
         for (int a = 0; a < 3; a++) T[a] = at[mesh->corner[3 * t + (size_t)a]];
