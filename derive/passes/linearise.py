@@ -12,19 +12,21 @@ from dataclasses import dataclass
 class Linear:
     """The tangent system: ``matrix`` · (changes of the unknowns, changes of the angles) = (−residual, 0).
 
-    The first rows belong to the residual; row k of the rest says what changes angle k, which has −1 there.
+    The first rows, ``equations`` of them, belong to the residual; row k of the rest says what changes angle k, which
+    has −1 there.
     """
 
     matrix: list
     unknowns: int
+    equations: int
 
     @property
     def angles(self):
-        return len(self.matrix) - self.unknowns
+        return len(self.matrix) - self.equations
 
 
 def linearise(tape, residual, unknowns):
-    """The :class:`Linear` system of as many residual nodes as unknown (input) nodes."""
+    """The :class:`Linear` system of residual nodes in unknown (input) nodes."""
     angles = _angles(tape, residual, unknowns)
     partial = _Partials(tape, angles)
     columns = [*unknowns, *angles]
@@ -33,7 +35,7 @@ def linearise(tape, residual, unknowns):
         later = len(angles) - k - 1
         row = [partial(angle, x) for x in columns[: len(unknowns) + k]]
         matrix.append([*row, tape.constant(-1), *[tape.constant(0)] * later])
-    return Linear(matrix, len(unknowns))
+    return Linear(matrix, len(unknowns), len(residual))
 
 
 def jacobian(tape, linear):
@@ -47,9 +49,9 @@ def jacobian(tape, linear):
             values = [tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True)]
         return values
 
-    for row in linear.matrix[n:]:
+    for row in linear.matrix[linear.equations :]:
         turning.append(total(row))
-    return [total(row) for row in linear.matrix[:n]]
+    return [total(row) for row in linear.matrix[: linear.equations]]
 
 
 def _angles(tape, outputs, inputs):
