@@ -68,9 +68,8 @@ def main(arguments=None):
     try:
         _refuse_empty(options)
         _refuse_mixed(options)
-        for folder in reversed(options.drives):
-            drives.add(folder)
-        status = options.run(options)
+        with drives.searched_first(options.drives):
+            status = options.run(options)
         sys.stdout.flush()
         return status
     except (DesignError, UsageError, LibraryError) as error:
