@@ -32,7 +32,8 @@ class Wasm:
     def __init__(self, drive):
         wasmtime = pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser")
         self.store = wasmtime.Store()
-        program = wasmtime.Module(self.store.engine, module_of(drive.design.description["name"], drive.design.description["folder"]))
+        described = drive.design.description
+        program = wasmtime.Module(self.store.engine, module_of(described["name"], described["folder"]))
         assert not program.imports
         self.exports = wasmtime.Instance(self.store, program, []).exports(self.store)
         self.model, self.length = drive.model, self("row_length")
