@@ -22,7 +22,8 @@ class Family:
     or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
     ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
     file holds (:mod:`meshwright.rexs`), None if nothing.
-    ``outline`` says how a first design is made; None where the family does not say it.
+    ``outline`` says how a first design is made, ``regrind`` how a resharpened tool enters one; None where the family
+    does not say it.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Family:
     listed: dict
     exchange: dict | None = None
     outline: dict | None = None
+    regrind: dict | None = None
 
     @classmethod
     def of(cls, name, drives):
@@ -47,10 +49,11 @@ class Family:
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
         own = {name: drive["parameters"] for name, drive in named.items()}
         handed = max(drive["handed"] for drive in named.values())
-        exchange, outline = (
-            next((drive[kind] for drive in drives if drive.get(kind)), None) for kind in ("exchange", "outline")
+        exchange, outline, regrind = (
+            next((drive[kind] for drive in drives if drive.get(kind)), None)
+            for kind in ("exchange", "outline", "regrind")
         )
-        return cls(name, parameters, variants, defaults, handed, own, exchange, outline)
+        return cls(name, parameters, variants, defaults, handed, own, exchange, outline, regrind)
 
 
 def _joint(family, place, found, everywhere):
