@@ -75,9 +75,8 @@ def main(arguments=None):
         options = parser(_named(words)).parse_args(words)
         _refuse_empty(options)
         _refuse_mixed(options)
-        for folder in reversed(options.drives):
-            drives.add(folder)
-        status = options.run(options)
+        with drives.searched_first(options.drives):
+            status = options.run(options)
         sys.stdout.flush()
         return status
     except (DesignError, UsageError, LibraryError) as error:

@@ -68,9 +68,9 @@ def _joint(family, place, found, everywhere):
     return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
 
 
-def families():
-    """Every family by name."""
-    return _families(folders())
+def families(places=None):
+    """Every family by name, of the drives in the folders ``places``, by default all that are searched."""
+    return _families(places or folders())
 
 
 @cache
@@ -98,19 +98,20 @@ def _drives_in(folder):
         yield from (d for d in described if d.get("schema") == "meshwright.drive/1")
 
 
-def described(name):
-    """The description of a drive."""
-    return _described(name, folders())
+def described(name, places=None):
+    """The description of a drive; ``folder`` in it is the folder that holds it and its CasADi functions."""
+    return _described(name, places or folders())
 
 
 @cache
 def _described(name, places):
-    return json.loads((folder_of(name) / f"{name}.json").read_text(encoding="utf-8"))
+    folder = folder_of(name, places)
+    return json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) | {"folder": str(folder)}
 
 
-def parameters(family):
+def parameters(family, places=None):
     """The parameters of a family: see :class:`Family`."""
-    return families()[family].parameters
+    return families(places)[family].parameters
 
 
 def drives():
@@ -124,9 +125,9 @@ def table_and_key(place):
     return table or "design", key
 
 
-def choose(family, words):
+def choose(family, words, places=None):
     """The drive of a family for the design words that choose a variant (for example the flank forms)."""
-    for name, variant in families()[family].variants.items():
+    for name, variant in families(places)[family].variants.items():
         if all(words[key] in allowed for key, allowed in variant.items()):
-            return described(name)
+            return described(name, places)
     raise KeyError(words)
