@@ -145,18 +145,22 @@ def test_what_is_no_edge_is_refused():
     assert library().mw_bounds(compiled, 99, 1, pointer(state), pointer(x), 1, pointer(x)) < 0
 
 
-@pytest.mark.parametrize(
-    ("design", "errors"),
-    [("spherical-table-3-1-concave", {"vertical_deg": 0.2}), ("helical-crowned", {})],
-)
-def test_where_an_edge_runs_off_an_edge_both_touch_where_a_search_over_both_flanks_finds_them_first(design, errors):
-    drive = Drive.load(design).with_(misalignment=errors)
-    mesh = Mesh.of(drive)
+def test_where_an_edge_runs_off_an_edge_both_touch_where_a_search_over_both_flanks_finds_them_first():
+    mesh = Mesh.of(Drive.load("spherical-table-3-1-concave").with_(misalignment={"vertical_deg": 0.2}))
     corners = [edge for edge in edge_paths(mesh) if edge is not None and edge.corner is not None]
     assert corners
     for edge in corners:
         on_corner = np.flatnonzero(edge.systems == edge.systems[-1])
         angles = edge.angles[on_corner[1 : len(on_corner) // 2 : 2]]
-        found = drive.first_contact(mesh.mirror * angles)
+        found = mesh.drive.first_contact(mesh.mirror * angles)
         assert found.members == ("both",) * len(angles)
         assert found.errors == pytest.approx(mesh.mirror * edge.errors(angles), abs=1e-11)
+
+
+def test_an_edge_touches_where_a_search_over_both_flanks_finds_it_first():
+    mesh = Mesh.of(Drive.load("helical-crowned"))
+    _, edge = edge_paths(mesh)
+    angles = edge.angles[0] + np.array([0.2, 0.5, 0.8]) * (edge.angles[-1] - edge.angles[0])
+    found = mesh.drive.first_contact(mesh.mirror * angles)
+    assert set(zip(found.kinds, found.members, found.limits, strict=True)) == {("edge", "pinion", ("face",))}
+    assert found.errors == pytest.approx(mesh.mirror * edge.errors(angles), abs=1e-11)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import ffi, library, model, pointer
+from meshwright.base.library import ffi, library, pointer
 from meshwright.base.roots import bracketed
 from meshwright.cycle.path import NODES_PER_PITCH, Path
 from meshwright.cycle.windows import ANGLE_TOLERANCE, Limit, limits_of
@@ -174,7 +174,7 @@ def _system(path, limits):
 
 def _model(path):
     """The compiled model, whatever backend solves the contact."""
-    return model(path.drive.design.description["name"])
+    return path.drive.design.model
 
 
 def _followed(path, system, angle, unknowns, wanted):

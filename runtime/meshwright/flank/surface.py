@@ -103,7 +103,7 @@ class Flank:
         """Slopes (N, 1 + margins, k) by the parameters, at ``parameters`` (N, k), of ``regular`` and of each margin."""
         q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
         slopes = np.empty((len(q), 1 + len(self.body["margins"]), q.shape[1]))
-        compiled = model(self.drive.design.description["name"])
+        compiled = self.drive.design.model
         library().mw_bounds(compiled, self.number, 1, pointer(self.state), pointer(q), len(q), pointer(slopes))
         return slopes
 
