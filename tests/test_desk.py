@@ -11,6 +11,7 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.analysis import statuses
 from meshwright.design import design
+from tests.quick import quick
 
 
 def test_a_packaged_design_is_printed_as_it_is_written(capsys):
@@ -66,7 +67,7 @@ FIRST = [
 ]
 
 
-@pytest.mark.parametrize("words", FIRST)
+@pytest.mark.parametrize("words", quick(FIRST, *FIRST[1:]))
 def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, words):
     monkeypatch.chdir(tmp_path)
     assert main(["new", *words.split(), "--out", "first.toml"]) == 0
