@@ -45,7 +45,8 @@ class Platform:
     def target(self):
         """The compiler for it; that a loop of lanes is not made of vectors there is no error."""
         command = (sys.executable, "-m", "ziglang", "cc", "-target", self.zig)
-        return build.Target(command, self.linker.named, self.linker.beside, ("-Wno-unused-command-line-argument", "-Wno-pass-failed"))
+        quiet = ("-Wno-unused-command-line-argument", "-Wno-pass-failed")
+        return build.Target(command, self.linker.named, self.linker.beside, quiet)
 
 
 PLATFORMS = {

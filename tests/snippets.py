@@ -1,7 +1,7 @@
 """What a Markdown page tells its reader to type, run as the reader would, in order, in one folder.
 
-A block ``console`` holds commands after ``$`` and what they print: a line ``…`` stands for any lines, ``…`` in a line for
-any text, and runs of blanks are one. ``# exit N`` after a command names its exit status if that is not 0. Blocks
+A block ``console`` holds commands after ``$`` and what they print: a line ``…`` stands for any lines, ``…`` in a line
+for any text, and runs of blanks are one. ``# exit N`` after a command names its exit status if that is not 0. Blocks
 ``python`` share one namespace. A block ``c`` or ``toml`` whose first line is a comment that names a file is that file.
 """
 

@@ -9,7 +9,17 @@ from tests import snippets
 PAGES = sorted((snippets.ROOT / "runtime" / "site").rglob("*.md"))
 
 
-@pytest.mark.parametrize("path", [p for p in PAGES if "```console" in p.read_text("utf-8")], ids=lambda p: p.stem)
+#: Pages whose commands take long.
+LONG = ("first-drive", "report")
+
+
+def _typed():
+    for path in PAGES:
+        if "```console" in path.read_text(encoding="utf-8"):
+            yield pytest.param(path, id=path.stem, marks=[pytest.mark.validate] if path.stem in LONG else [])
+
+
+@pytest.mark.parametrize("path", _typed())
 def test_a_page_does_what_it_says(path, tmp_path):
     (tmp_path / "generated").symlink_to(snippets.ROOT / "generated")
     snippets.run(path.read_text(encoding="utf-8"), tmp_path)

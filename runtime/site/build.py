@@ -13,7 +13,7 @@ from pathlib import Path
 from sphinx.cmd.build import main as sphinx
 
 from meshwright import cli, commands
-from meshwright.design import design, description
+from meshwright.design import description, design
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -21,7 +21,8 @@ ROOT = HERE.parents[1]
 
 def main(folder=ROOT / "generated" / "site"):
     """Exit status of the generator; a warning is an error."""
-    pages, beside = ROOT / "build" / "pages", ROOT / "build" / "beside"  # as deep as this folder: inclusions are relative
+    # as deep as this folder, because inclusions are relative
+    pages, beside = ROOT / "build" / "pages", ROOT / "build" / "beside"
     for place in (pages, beside, folder):
         shutil.rmtree(place, ignore_errors=True)
     shutil.copytree(HERE, pages, ignore=shutil.ignore_patterns("build.py", "__pycache__"))

@@ -1,4 +1,4 @@
-"""The site's generator, Sphinx: pages of this folder, the API from docstrings, and what ``make site`` puts beside them."""
+"""The generator is Sphinx: pages of this folder, the API from docstrings, and what ``make site`` puts beside them."""
 
 from importlib import metadata
 
