@@ -94,8 +94,8 @@ def optimised(drive, wanted=WANTED):
 
 @dataclass(frozen=True)
 class _Contact:
-    """At one angle: transmission error (rad), ratio of the speeds, semi-major axis, place on the gear as distance along its pitch cone and
-    height above it, depth of the place on the pinion's blade (mm); numbers or CasADi expressions of the settings.
+    """CasADi expressions of the settings, at one angle: transmission error (rad), ratio of the speeds, semi-major axis,
+    place on the gear as distance along its pitch cone and height above it, depth on the pinion's blade (mm).
     """
 
     error: object
@@ -106,7 +106,7 @@ class _Contact:
 
     @classmethod
     def at(cls, drive, settings, pitches):
-        """As expressions; start values come from the C solver."""
+        """Start values come from the C solver."""
         description, angle = drive.design.description, _angle(drive, pitches)
         outputs = {o["name"]: slice(o["offset"], o["offset"] + o["size"]) for o in description["outputs"]}
         p = differentiable.parameters(drive.design, tuple(FREE))(settings)
@@ -142,7 +142,7 @@ def with_settings(drive, settings):
 
 
 def verified(drive, optimum):
-    """The :class:`Pattern` that the C solver finds, in the drive's contact over a whole pitch, and its contact ratio."""
+    """The :class:`Pattern` that the C solver finds, over a whole pitch, and the contact ratio."""
     best = with_settings(drive, optimum.settings)
     found = best.tca([_angle(drive, pitches) for pitches in (BEGIN, MIDDLE, END)])
     points = found.body_points["wheel"]

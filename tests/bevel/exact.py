@@ -121,8 +121,8 @@ def formate_cradle(
         "sliding_base_mm": z,
         "ratio_of_roll": n2 / n1,
         **_pinion_blank(
-            lay @ (point + np.array([0, 0, apex])), _turn("y", gear_cone - pi / 2) @ np.array([0, 0, 1.0]), lay @ normal,
-            shaft, offset, n1 / n2, width, addendum,
+            lay @ (point + np.array([0, 0, apex])), _turn("y", gear_cone - pi / 2) @ np.array([0, 0, 1.0]),
+            lay @ normal, shaft, offset, n1 / n2, width, addendum,
         ),
     }
     return {
