@@ -14,7 +14,6 @@ from meshwright.base.library import library, pointer
 from meshwright.contact import analysis
 from meshwright.design import design as designs
 
-
 #: Tables whose parameters do not form the flanks, or follow from others.
 _OUTSIDE_THE_FLANKS = ("flank", "placement", "blank", "contact")
 
