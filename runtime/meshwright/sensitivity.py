@@ -40,7 +40,8 @@ class Sensitivity:
 
 
 def sensitivity(drive, angles):
-    """:class:`Sensitivity` of a drive at pinion angles, by every real parameter of design and misalignment, in whatever table.
+    """:class:`Sensitivity` of a drive at pinion angles, by every real parameter of design, in whatever table, and of
+    misalignment.
 
     A parameter that the design leaves to a rule is taken as if it alone were given; what a given parameter changes by
     rules or design systems changes with it. A left-hand drive is the mirror image: its angles, transmission error and
