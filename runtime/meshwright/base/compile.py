@@ -23,6 +23,7 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 CORE = "libmeshwright.so"
@@ -66,6 +67,27 @@ def compiler():
     if probe.returncode == 0:
         return (sys.executable, "-m", "ziglang", "cc")
     raise CompileError("there is no C compiler: install gcc or clang, or `pip install ziglang`, or name one in CC")
+
+
+@dataclass(frozen=True)
+class Target:
+    """What compiles for a machine, and how its linker is told where a shared object finds the core library.
+
+    command:       the C compiler, as the words of a command
+    named:         link options that name the core library to those who use it
+    beside:        link options by which a drive's object finds the core library in its own folder
+    more:          compile options of this machine
+    """
+
+    command: tuple[str, ...]
+    named: tuple[str, ...] = (f"-Wl,-soname,{CORE}",)
+    beside: tuple[str, ...] = ("-Wl,-rpath,$ORIGIN",)
+    more: tuple[str, ...] = ()
+
+
+def native():
+    """This machine."""
+    return Target(compiler())
 
 
 def digest(*parts):
@@ -152,23 +174,25 @@ def sealed(target):
         return {}
 
 
-def core(source, folder, objects):
+def core(source, folder, objects, target=None):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
+    target = target or native()
     folder.mkdir(parents=True, exist_ok=True)
     for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS, *LIVE_SOURCES), "source")):
         for name in names:
             _copy(source / name, folder / place / name)
-    command = compiler()
+    command = (*target.command, *target.more)
     jobs = [(command, unit, objects / f"{unit.stem}.o", (source,), (), ()) for unit in sorted(source.glob("*.c"))]
-    return _linked(command, _compiled(jobs), folder / CORE, (f"-Wl,-soname,{CORE}",))
+    return _linked(target.command, _compiled(jobs), folder / CORE, target.named)
 
 
-def drives(names, folder, package, objects):
+def drives(names, folder, package, objects, target=None):
     """Compile the objects of drives whose generated headers are in ``folder``; ``package`` holds the core library.
 
     Each finds the core library where it is now, or beside itself.
     """
-    command, source = compiler(), package / "source"
+    target, source = target or native(), package / "source"
+    command = (*target.command, *target.more)
     folders = (folder / "include", source, package / "include")
     jobs = [
         (command, source / unit, objects / name / f"{Path(unit).stem}.o", folders, (f"-DMW_DRIVE={name}",),
@@ -176,12 +200,12 @@ def drives(names, folder, package, objects):
         for name in names for unit in DRIVE_UNITS
     ]  # fmt: skip
     compiled, each = _compiled(jobs), len(DRIVE_UNITS)
-    options = (f"-L{package}", "-lmeshwright", "-Wl,-rpath,$ORIGIN")
+    options = (str(package / CORE), *target.beside)
     if folder.resolve() != package.resolve():
         options += (f"-Wl,-rpath,{package.resolve()}",)
     for k, name in enumerate(names):
         units = compiled[k * each : (k + 1) * each]
-        _linked(command, units, folder / f"{name}.so", options, inputs(name, folder, package))
+        _linked(target.command, units, folder / f"{name}.so", options, inputs(name, folder, package))
 
 
 def inputs(name, folder, package):
