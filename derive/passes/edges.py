@@ -78,7 +78,7 @@ def edge_contact(plan, margin):
     margins = [member.margins[k] for member, k in listed]
     tangency = [dot(tape, _tangent(tape, m, k), (wheel if m is pinion else pinion).normal) for m, k in listed]
     equations = [*always, *margins, *tangency]
-    jacobian = linearise.jacobian(tape, linearise.linearise(tape, equations, unknowns))
+    jacobian = linearise.jacobian(tape, linearise.forward(tape, equations, unknowns))
     check.derives("edges", tape, equations, unknowns, jacobian)
     return Edges(equations, jacobian, tuple(_systems(pinion, wheel, len(always), len(listed))))
 
