@@ -8,6 +8,7 @@ Arcs join flanks and root.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -32,11 +33,27 @@ _THICKNESS_TOLERANCE = 1e-9
 _SENSE_STEP = 1e-3
 
 
+@dataclass(frozen=True)
+class ThreadSides:
+    """Both flanks of a thread in hand, the pinion's own side, its blank and a point (3,) of it that faces the wheel."""
+
+    flanks: dict[SideName, ThreadFlank]
+    working: SideName
+    blank: ThreadBlank
+    facing: Floats
+
+
 def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """The thread of a drive with a whole blank; rim_thickness in mm from the root to the bore.
 
     Raises ValueError where the second flank finds no place.
     """
+    sides = thread_sides(drive, member, rim_thickness)
+    return thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
+
+
+def thread_sides(drive: Drive, member: str, rim_thickness: float) -> ThreadSides:
+    """Flanks and blank of the thread of a drive with a whole blank, as for :func:`threads`."""
     sizes = solid_sizes(drive, member)
     bore = bore_radius(sizes["root_radius"], rim_thickness)
     blank = ThreadBlank(sizes["tip_radius"], sizes["root_radius"], sizes["rounding"], bore, sizes["taper"])
@@ -55,7 +72,7 @@ def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
         working: ThreadFlank(_facing(surfaces[0], spans[0], 0.0), spans[0]),
         opposite(working): ThreadFlank(_facing(surfaces[1], spans[1], turn), spans[1]),
     }
-    return thread_teeth(flanks, working, blank, drive.pitch(), facing)
+    return ThreadSides(flanks, working, blank, facing)
 
 
 def contact(drive: Drive, member: str) -> tuple[Floats, Floats]:
