@@ -16,7 +16,7 @@ README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 SECTION = README.split("## In the shop\n")[1].split("\n## ")[0].replace("\\\n", " ")
 LINES = re.findall(r"^    (\.venv/bin/meshwright .*)$", SECTION, re.M)
 COMMANDS = [shlex.split(line, comments=True)[1:] for line in LINES]
-LIFE = [words for words in COMMANDS if words[0] == "hob-life"]
+LONG = [words for words in COMMANDS if words[0] in ("hob-life", "loaded")]
 
 
 def _fill_in(file):
@@ -45,7 +45,7 @@ def test_the_commands_run(tmp_path, monkeypatch, capsys):
     for words in COMMANDS:
         if words[0] == "measured" and "--contact" not in words:
             _fill_in("wheel.csv")
-        if words not in LIFE:
+        if words not in LONG:
             assert main(words) == 0, words
     out = capsys.readouterr().out
     assert "cutting_center_distance_mm" in out and "efficiency" in out
@@ -55,9 +55,14 @@ def test_the_commands_run(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.validate
-@pytest.mark.parametrize("words", LIFE, ids=["states", "oversize"])
-def test_the_life_of_a_hob_runs(words, tmp_path, monkeypatch):
+@pytest.mark.parametrize("words", LONG, ids=[f"{k}-{words[0]}" for k, words in enumerate(LONG)])
+def test_the_long_ones_run(words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    grid = ["grid", "helical-crowned", "--member", "pinion", "--lines", "5x9", "--csv", "pinion.csv"]
+    assert main(grid) == 0
+    points, remarks = read_csv("pinion.csv")
+    points.deviations[:] = 0.0
+    Path("pinion.csv").write_text(csv_text(points, remarks))
     assert main(words) == 0
     if "--toml" in words:
         assert Drive.load("oversize.toml").design.value("hob_pitch_radius_mm") > 20.6
