@@ -12,7 +12,9 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.contact.certificate import degrees_of
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
 from meshwright.cycle.edge import not_first
 from meshwright.pattern.pattern import contour
@@ -30,12 +32,17 @@ SAME_POINT = 1e-5
 def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
+    common.add_friction(parser)
     parser.add_argument(
         "--contour", type=int, metavar="N", help="add the contact patch by separation in N directions, 3 or more (JSON)"
     )
     parser.add_argument(
         "--all-contacts", action="store_true",
         help="search for further contacts of the same tooth pair at each angle (CSV gives their number)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--certify", action="store_true",
+        help="prove each contact: that it exists, is the only one nearby, and how far its numbers can be off",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
@@ -55,13 +62,20 @@ def run(options):
     points = result.to_points()
     for k, point in enumerate(points):
         point["first_contact"] = first.point(k, result.error)
-    for point, moving in zip(points, velocities(drive, result).plain(), strict=True):
-        point |= moving
+    moving = velocities(drive, result)
+    rubbing = efficiency(drive, result, common.friction_of(options), moving)
+    for point, *found in zip(points, moving.plain(), rubbing.plain(), strict=True):
+        for part in found:
+            point |= part
     _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
     if options.all_contacts:
         _add_other_contacts(points, drive, result)
+    if options.certify:
+        certificates = drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
+        for point, certificate in zip(points, certificates.to_plain(), strict=True):
+            point["certificate"] = certificate
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -137,10 +151,11 @@ def _flat(point):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
-        elif key in ("flags", "limits"):
+        elif key in ("flags", "limits", "impossible") and isinstance(value, list):
             flat[key] = " ".join(value)
         elif isinstance(value, list):
-            flat |= {f"{key}_{axis}": v for axis, v in zip("xyz", value, strict=True)}
+            axes = "xyz" if len(value) == 3 else ("low", "high")
+            flat |= {f"{key}_{axis}": v for axis, v in zip(axes, value, strict=True)}
         else:
             flat[key] = value
     return flat
@@ -159,15 +174,32 @@ def _table(drive, points):
             f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
             f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
             f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags'], *_others(point)])}"
+            f"{' '.join([point['status'], *point['flags'], *_others(point), *_efficiency(point), *_shown(point)])}"
         )
     return "\n".join(lines) + "\n"
+
+
+def _efficiency(point):
+    """A remark on the efficiency, where friction is given."""
+    found = point["efficiency"]
+    if found["pinion_drives"] is None:
+        return ()
+    return (f"(efficiency {found['pinion_drives']:.4f}, wheel drives {found['wheel_drives']:.4f})",)
 
 
 def _others(point):
     """A remark on further contacts of the tooth pair, if any were sought and found."""
     others = point.get("other_contacts")
     return (f"(+{len(others)} contact{'s' * (len(others) > 1)})",) if others else ()
+
+
+def _shown(point):
+    """What is proved of a point, if that was asked for."""
+    if (certificate := point.get("certificate")) is None:
+        return ()
+    if certificate["outcome"] != "unique":
+        return (f"({certificate['outcome']}: {certificate['reason']})",)
+    return (f"(certified to {certificate['radius']:.0e} arcsec)",)
 
 
 def _cell(value, form):

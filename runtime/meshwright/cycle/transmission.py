@@ -130,7 +130,7 @@ def _reached(mesh, first, end, sign):
     pitch = mesh.drive.pitch()
     beyond = mesh.sense * first(end + sign * pitch * np.arange(MOST_PAIRS + 1))
     inside = mesh.sense * first(np.array([end - sign * 0.5 * pitch]))
-    least = np.nanmin(np.concatenate([beyond[:1], inside]))
+    least = np.nanmin(np.concatenate([beyond[:1], inside]), initial=np.inf)
     count = 0
     while count < MOST_PAIRS and beyond[count + 1] > least:
         count += 1

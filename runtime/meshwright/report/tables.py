@@ -13,7 +13,8 @@ from meshwright.sensitivity import sensitivity
 #: Derivatives of a position below this are round-off, mm per unit of a key.
 POSITION_ROUND_OFF = 1e-12
 
-_HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank", "contact": "Contact"}
+#: Tables of numbers that no one gives.
+_UNLISTED = ("flank", "placement")
 
 
 @dataclass(frozen=True)
@@ -43,18 +44,19 @@ def groups(analysis):
     found = []
     if analysis.sensitivities and np.isfinite(analysis.tca.error).any():
         found.append(_sensitivities(analysis))
-    return [*found, _design(analysis.drive.design), _positions(analysis)]
+    found += [_design(analysis.drive.design), _positions(analysis)]
+    return [*found, _sliding(analysis)] if analysis.tca.solved.any() else found
 
 
 def _design(design):
     tables = []
-    for name, heading in _HEADINGS.items():
+    names = dict.fromkeys(("design", *(p["table"] for p in design.description["parameters"])))
+    for name in (table for table in names if table not in _UNLISTED):
         rows = [_parameter(design, p) for p in design.description["parameters"] if p["table"] == name]
         rows = [row for row in rows if row[1] != "–"]
-        if name == "design":
-            rows = [(title(key), str(word), "–", "given", key) for key, word in _words(design)] + rows
+        rows = [(title(key), str(word), "–", "given", key) for key, word in _words(design, name)] + rows
         if rows:
-            tables.append(_keys(heading, rows))
+            tables.append(_keys(name.capitalize(), rows))
     sizes = [
         (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"])
         for s in design.description["sizes"]
@@ -71,9 +73,12 @@ def _keys(heading, rows):
     return Table(heading, ("meaning", "value", "unit", "source", "key"), tuple(rows), frozenset({1}), "keys")
 
 
-def _words(design):
-    words = design.tables["design"]
-    return [(key, words[key]) for key in (*design.description["variant"], "hand") if words.get(key)]
+def _words(design, table):
+    """Keys of a table that are given by a word, with it."""
+    places = [key.rpartition(".") for key in (*design.description["variant"], "hand")]
+    keys = [key for where, _, key in places if (where or "design") == table]
+    words = design.tables[table]
+    return [(key, words[key]) for key in keys if words.get(key)]
 
 
 def _parameter(design, parameter):
@@ -181,3 +186,32 @@ def _positions(analysis):
     note = "Contact of one pair over the pinion angle, four positions a pitch; contact point in the fixed frame."
     table = Table("", header, tuple(rows), frozenset(range(9)))
     return Group("positions", "Contact, position by position", note, (table,))
+
+
+def _sliding(analysis):
+    """Velocities and efficiency, position by position."""
+    tca, moving, found = analysis.tca, analysis.moving, analysis.efficiency
+    sliding, entraining = (np.linalg.norm(v, axis=1) for v in (moving.sliding, moving.entraining))
+    specific = moving.specific_sliding
+    columns = {
+        "pinion, °": (np.degrees(tca.angles), 2),
+        "sliding, mm/rad": (sliding, 4),
+        "entraining, mm/rad": (entraining, 4),
+        "specific sliding, pinion": (specific["pinion"], 3),
+        "wheel": (specific["wheel"], 3),
+        "self-locking from friction": (found.self_locking, 4),
+    }
+    if np.isfinite(found.friction).any():
+        columns |= {
+            "friction": (found.friction, 4),
+            "efficiency, pinion drives": (found.pinion_drives, 4),
+            "wheel drives": (found.wheel_drives, 4),
+        }
+    steps = range(0, len(tca.angles), max(1, analysis.steps_per_pitch // 4))
+    rows = tuple(tuple(fixed(values[k], decimals) for values, decimals in columns.values()) for k in steps)
+    note = (
+        "Velocities for one radian of the pinion a second: of the pinion's flank relative to the wheel's, and the mean "
+        "of both through the contact. Specific sliding is infinite where a flank rests in the contact. From the "
+        "coefficient of friction given, the wheel cannot drive the pinion; vibration undoes it."
+    )
+    return Group("sliding", "Sliding and efficiency", note, (Table("", tuple(columns), rows, frozenset(range(9))),))
