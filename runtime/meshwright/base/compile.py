@@ -30,7 +30,7 @@ CORE = "libmeshwright.so"
 
 #: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
 DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
-DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h")
+DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h")
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
 LIVE_SOURCES = ("complete.c", "complete.h")
 #: What programs include, and what generated headers repeat.
@@ -38,10 +38,13 @@ SOLVER = (
     "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",
     "choice",
 )  # fmt: skip
-PUBLIC_HEADERS = ("meshwright.h", "mw_model.h", "mw_status.h", *(f"solver/{part}.h" for part in SOLVER))
+PUBLIC_HEADERS = (
+    "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
+    *(f"solver/{part}.h" for part in SOLVER),
+)  # fmt: skip
 
 #: Generated headers of a drive.
-GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h")
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_certified.h")
 
 FLAGS = (
     "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",
