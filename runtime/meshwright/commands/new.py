@@ -67,7 +67,7 @@ def _first_look(drive):
         word = next((flag for flag in flags if impossible(flag)), None if status in TOUCHING else status)
         if word:
             angle = np.degrees(result.angles[k])
-            return f"careful: at {angle:.4g} degrees {word} (`meshwright explain {word}`): change a size before going on"
+            return f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"
     along = " along a line" if "line_contact" in result.status else ""
     return f"looked at over one pitch: the flanks touch{along}, and nothing else before them"
 
