@@ -3,18 +3,22 @@
 Elastic teeth are factorised once, which takes seconds for gears and about a minute for threads, then every angle takes
 a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
 loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
-pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force.
+pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
+--measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
+touches.
 Exit status 1 if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is
 too large for the method.
 """
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.results import ARCSEC
+from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"
 
@@ -22,6 +26,9 @@ SCHEMA = "meshwright.loaded/1"
 def add_arguments(parser):
     loading.add_arguments(parser)
     common.add_angles(parser)
+    parser.add_argument("--measured", metavar="FILE.csv", help="deviations of a flank: its as-measured contact")
+    parser.add_argument("--member", choices=("pinion", "wheel"), help="whose flank is measured")
+    parser.add_argument("--tooth", type=common.count, metavar="K", help="which tooth; default: the first measured")
     parser.add_argument("--json", metavar="FILE|-", help=f"write as JSON (schema {SCHEMA})")
 
 
@@ -29,13 +36,18 @@ def run(options):
     fe = loading.finite_elements()
     drive = loading.checked_drive(options)
     angles = common.angles_of(options, drive)
+    points = _measured(options)
     with progress(len(angles) + 4) as step:
         gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
+        if points is not None:
+            from meshwright.fe.as_measured import as_measured
+
+            gear = as_measured(gear, drive, options.member, points, options.tooth)
         compliance = loading.compliances(fe, gear, pairs, step)
-        points = []
+        found = []
         for angle in angles:
             step(f"pinion at {np.degrees(angle):.4g} deg")
-            points.append(_point(fe, gear, angle, pairs, load, compliance))
+            found.append(_point(fe, gear, angle, pairs, load, compliance))
     document = {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -43,13 +55,24 @@ def run(options):
         "assumed_blank": gear.assumed,
         "gaps": loading.gap_note(gear),
         "contact_ratio": gear.contact_ratio if np.isfinite(gear.contact_ratio) else None,
-        "points": points,
+        "points": found,
     }
     if options.json:
         write_json(options.json, document)
     else:
         write_text("-", loading.blank_note(gear) + _table(document) + _gaps(document))
-    return 0 if all(point["pairs"] for point in points) else 1
+    return 0 if all(point["pairs"] for point in found) else 1
+
+
+def _measured(options):
+    """The measured points, None if none are given."""
+    if (options.measured is None) != (options.member is None):
+        raise UsageError("--measured and --member belong together: whose flank is it? give both or neither")
+    if options.measured is None:
+        if options.tooth is not None:
+            raise UsageError(f"--tooth {options.tooth}: of a measured member: give --measured and --member")
+        return None
+    return read_csv(options.measured)[0]
 
 
 def _point(fe, gear, angle, pairs, load, compliance):
