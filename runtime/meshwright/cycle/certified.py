@@ -1,5 +1,5 @@
-"""The contact window of a pair with a proof: its branch without a gap, its ends and its peak-to-peak transmission error,
-each between bounds.
+"""The contact window of a pair with a proof: its branch without a gap; its ends, contact ratio and peak-to-peak error
+between bounds.
 """
 
 import math
@@ -15,9 +15,9 @@ LONGEST, BEYOND = 0.25, 1e-3
 @dataclass(frozen=True)
 class CertifiedWindow:
     """``path``: the branch from before the one end to beyond the other. ``ends`` (lower, upper): each ((member, event),
-    low, high), rad, of the right-hand drive, None where it cannot be shown: every margin is positive from the one ``high``
-    to the other ``low``, and that of the event negative at the outer bound. ``contact_ratio``: bounds, None without ends.
-    ``peak_to_peak``: bounds of the transmission error's over the window, rad.
+    low, high), rad, of the right-hand drive, None where it cannot be shown: every margin is positive from the one
+    ``high`` to the other ``low``, and that of the event negative at the outer bound. ``contact_ratio``: bounds, None
+    without ends. ``peak_to_peak``: bounds of the transmission error's over the window, rad.
     """
 
     path: CertifiedPath
