@@ -69,6 +69,13 @@ int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int 
 /* The same of a given box x +- d, d[nx] > 0: one solution, none, or unknown. */
 int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c);
 
+/* Certify n points of one design at once: phi[n], x[n*nx]; unique[n] is 1 where the equations have one solution within 2^-24
+ * natural sizes of x, errors[n] then holds its transmission error, by plain doubles with radii. What a lane does not show is
+ * left to mw_certify. set: as of mw_lanes, NULL: mw_certify alone. Returns how many are unique. */
+struct mw_lane_set;
+size_t mw_certify_many(const struct mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x,
+                       size_t n, unsigned char *unique, mw_ball *errors);
+
 /* A piece of path: at every input angle centre + half t, -1 <= t <= 1, the equations have a solution within x[i].radius of the
  * polynomials x[nx], and no other within box[nx] of them: one branch, without turning point or crossing. margin: regular and
  * margins of the pinion, then of the wheel, along it; margins: how many. */

@@ -78,7 +78,7 @@ class CertifiedPath:
         """Bounds of the transmission error at an angle of the path, rad."""
         piece = self._piece(angle)
         ball = library().mw_piece_at(piece, ffi.addressof(piece.x[self.drive.design.description["error"]]), angle)
-        return ball.mid - ball.radius, ball.mid + ball.radius
+        return math.nextafter(ball.mid - ball.radius, -math.inf), math.nextafter(ball.mid + ball.radius, math.inf)
 
     def _range(self, piece, polynomial, low, high, depth=DEPTH):
         bounds = np.empty(2)
