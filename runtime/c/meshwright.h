@@ -143,13 +143,12 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
 int mw_touch(const mw_model *m, const double *x, const double *o);
 
 /* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
- * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. order[vertices]: every
- * vertex once, from one near contact outwards; parent[vertex]: a neighbour that comes earlier, -1 for the first. bound:
- * the parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
+ * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. bound: the
+ * parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
 typedef struct mw_flank_mesh {
     size_t vertices, triangles;
     const double *q;
-    const int *corner, *order, *parent;
+    const int *corner;
     const unsigned char *open;
     int bound;
     const double *wheel_sizes, *pinion_sizes;
