@@ -1,5 +1,6 @@
 """The first minutes at the command line: designs printed, words explained, misspelt keys named."""
 
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -10,6 +11,7 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.analysis import statuses
 from meshwright.design import design
+from tests.quick import quick
 
 
 def test_a_packaged_design_is_printed_as_it_is_written(capsys):
@@ -65,7 +67,7 @@ FIRST = [
 ]
 
 
-@pytest.mark.parametrize("words", FIRST)
+@pytest.mark.parametrize("words", quick(FIRST, *FIRST[1:]))
 def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, words):
     monkeypatch.chdir(tmp_path)
     assert main(["new", *words.split(), "--out", "first.toml"]) == 0
@@ -110,3 +112,34 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     (tmp_path / "mine.toml").write_text("precious")
     assert main(["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--name", "mine"]) == 2
     assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"
+
+
+def test_bash_completes_designs_and_commands(tmp_path, capsys):
+    bash = shutil.which("bash") or pytest.skip("bash not found")
+    assert main(["completion", "bash"]) == 0
+    script = tmp_path / "complete.bash"
+    script.write_text(capsys.readouterr().out)
+
+    def completed(*words):
+        asked = f"COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _shtab_meshwright meshwright {words[-1]}"
+        told = subprocess.run(
+            [bash, "-c", f'source {script}; {asked}; printf "%s\\n" "${{COMPREPLY[@]}}"'],
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+        )
+        return told.stdout.split()
+
+    assert completed("meshwright", "rat") == ["ratio"]
+    assert completed("meshwright", "tca", "zk-zn") == [n for n in design.packaged_names() if n.startswith("zk-zn")]
+    assert "complete.bash" in completed("meshwright", "tca", "com")
+    assert completed("meshwright", "new", "spher") == ["spherical"]
+
+
+@pytest.mark.parametrize("shell", ["zsh", "fish"])
+def test_other_shells_take_their_script(tmp_path, capsys, shell):
+    program = shutil.which(shell) or pytest.skip(f"{shell} not found")
+    assert main(["completion", shell]) == 0
+    script = tmp_path / "script"
+    script.write_text(capsys.readouterr().out)
+    assert subprocess.run([program, "-n", script], capture_output=True).returncode == 0

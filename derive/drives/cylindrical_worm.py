@@ -5,7 +5,7 @@ Frames: ``f`` fixed, z along the worm axis, x from worm to wheel; the wheel axis
 the mirror image y → −y.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import sympy as sp
@@ -16,7 +16,7 @@ from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.choice import excess
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Loading, Margin, Region, Source, System, ToolUse, body_point
+from derive.language.drive import Body, Drive, Loading, Margin, Region, Regrind, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit, merge_sum
 from derive.language.functions import solid
 from derive.language.rack_and_pinion import Rack
@@ -25,6 +25,7 @@ from derive.tools.axial_blade import axial_blade
 from derive.tools.grinding_arc import grinding_arc
 from derive.tools.grinding_disc import grinding_disc
 from derive.tools.involute import involute
+from derive.tools.reground import reground, working_radius
 from derive.tools.straight_blade import straight_blade
 from derive.tools.tip_rounding import tip_rounding
 from derive.tools.worm_body import WormBody
@@ -73,6 +74,22 @@ hob_lead_angle = parameter("hob_lead_angle_deg", "lambda_hob", "lead angle of th
 center_distance = parameter("center_distance_mm", "A", "centre distance", domain=POSITIVE)
 cutting_distance = parameter("cutting_center_distance_mm", "A_gen", "cutting centre distance", domain=POSITIVE)
 cutting_angle = parameter("cutting_shaft_angle_deg", "Sigma_gen", "cutting shaft angle", domain=(0, sp.pi))
+ground_off = parameter(
+    "hob_regrind_mm", "Delta_hob", "what resharpening took off the radius of the hob", domain=POSITIVE,
+    lower_included=True, default=0,
+)  # fmt: skip
+lead_matched = parameter(
+    "hob_lead_matched_mm",
+    "Delta_lead",
+    "what is ground off the hob where its lead angle and normal module match those of the worm",
+    domain=POSITIVE,
+    lower_included=True,
+    default=0,
+)  # fmt: skip
+working = parameter(
+    "hob_working_radius_mm", "r_w", "radius of the reground hob that rolls where that of a new one would",
+    domain=POSITIVE,
+)  # fmt: skip
 
 error_distance = parameter(
     "center_distance_mm", "dA", "centre distance error, wheel away from the worm", table=Table.MISALIGNMENT, default=0
@@ -131,7 +148,7 @@ allowance = parameter(
 )
 
 
-def _parameters(own):
+def _parameters(own, condition):
     """The parameter vector, with the keys of the two tools' own data."""
     return (
         flank, normal_module, axial_module, threads, teeth, lead_angle, pitch_radius, pressure_angle, shaft_angle,
@@ -139,7 +156,7 @@ def _parameters(own):
         hob_lead_angle, center_distance, cutting_distance, cutting_angle,
         error_distance, error_horizontal, error_vertical, error_axial,
         wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, hob_rounding, preset, separation,
-        allowance,
+        allowance, *condition.parameters,
     )  # fmt: skip
 
 
@@ -170,6 +187,60 @@ p_h = r_h * sp.tan(lam_h)
 r_2 = m_n * T_2 / (2 * sp.sin(Sigma + lam))
 groove_width = sp.pi * m_n / 2 - 2 * shift.symbol * sp.tan(alpha)
 
+
+
+@dataclass(frozen=True)
+class HobCondition:
+    """A hob as the design's word for it says: what is ground off it, and its radius and lead angle where it rolls.
+
+    ``parameters`` are the keys that it needs; ``lead_matched``: the radius at which its module is that of the worm.
+    """
+
+    word: str
+    ground_off: sp.Expr
+    radius: sp.Expr
+    lead_angle: sp.Expr
+    lead_matched: sp.Expr
+    parameters: tuple = ()
+
+    @property
+    def new(self):
+        """Whether nothing is ground off it."""
+        return not self.parameters
+
+
+NEW = HobCondition("new", sp.S.Zero, r_h, lam_h, r_h)
+REGROUND = HobCondition(
+    "reground",
+    ground_off.symbol,
+    working.symbol,
+    sp.atan2(p_h, working.symbol),
+    r_h - lead_matched.symbol,
+    (ground_off, lead_matched, working),
+)
+
+
+def _lead_of_hob(hob):
+    """The lead angle on the new hob's reference cylinder."""
+    matched = sp.asin(m_n * T_h / (2 * hob.lead_matched))
+    return matched if hob.new else sp.atan2(hob.lead_matched * sp.tan(matched), r_h)
+
+
+def _rules(hob):
+    """What completes a design that leaves keys open."""
+    return (
+        *RULES,
+        Rule(lam_h, _lead_of_hob(hob)),
+        Rule(alpha_h, alpha),
+        Rule(A, r_1 + r_2),
+        Rule(A_gen, A + hob.radius - r_1),
+        Rule(Sigma_gen, Sigma + lam - hob.lead_angle),
+        # The recess-action paper's limits, in any proportions; without the preset they stay open (not a number).
+        Rule(wheel_tip.symbol, (r_2 + 2 * m_n - shift.symbol) * preset.symbol),
+        Rule(hob_tip.symbol, (2 * m_n + shift.symbol) * preset.symbol),
+    )
+
+
 RULES = (
     Rule(lam, sp.atan2(m_x * T_1 / 2, r_1)),
     Rule(lam, sp.asin(m_n * T_1 / (2 * r_1))),
@@ -178,14 +249,6 @@ RULES = (
     Rule(r_1, m_n * T_1 / (2 * sp.sin(lam))),
     Rule(r_h, r_1),
     Rule(T_h, T_1),
-    Rule(lam_h, sp.asin(m_n * T_h / (2 * r_h))),
-    Rule(alpha_h, alpha),
-    Rule(A, r_1 + r_2),
-    Rule(A_gen, A + r_h - r_1),
-    Rule(Sigma_gen, Sigma + lam - lam_h),
-    # The recess-action paper's limits, in any proportions; without the preset they stay open (not a number).
-    Rule(wheel_tip.symbol, (r_2 + 2 * m_n - shift.symbol) * preset.symbol),
-    Rule(hob_tip.symbol, (2 * m_n + shift.symbol) * preset.symbol),
 )
 
 #: Proportions of ISO/TR 10828 over the axial module: addendum, clearance, rounding, and how far the outside cylinder of
@@ -197,8 +260,10 @@ STANDARD_ADDENDUM, STANDARD_CLEARANCE, STANDARD_ROUNDING, BEYOND_THROAT = (
 #: Part used of the angle about the hob over which it cuts the wheel.
 SHEET_USED = sp.Rational(6, 10)
 
-#: Distance from the wheel's axis to the tip cylinder of the hob.
-hob_end = A_gen - r_h - hob_tip.symbol
+
+def _hob_end(hob):
+    """Distance from the wheel's axis to the tip cylinder of the hob."""
+    return A_gen - r_h - hob_tip.symbol + hob.ground_off
 
 
 def _standard_rounding():
@@ -222,17 +287,20 @@ def _standard_face():
     return sp.Min(chord, 2 * r_1 * sp.sin(SHEET_USED * sheet))
 
 
-#: What completes a blank. Of two rules for one size the second serves a wheel without a throat.
-PROPORTIONS = (
-    Rule(hob_tip.symbol, (STANDARD_ADDENDUM + STANDARD_CLEARANCE) * m_x + shift.symbol),
-    Rule(wheel_tip.symbol, wheel_throat.symbol + BEYOND_THROAT * m_x),
-    Rule(wheel_tip.symbol, r_2 + STANDARD_ADDENDUM * m_x - shift.symbol),
-    Rule(hob_rounding.symbol, _standard_rounding()),
-    Rule(worm_tip.symbol, A - hob_end - STANDARD_CLEARANCE * m_x),
-    Rule(worm_root.symbol, A - wheel_throat.symbol - STANDARD_CLEARANCE * m_x),
-    Rule(worm_root.symbol, A - wheel_tip.symbol - STANDARD_CLEARANCE * m_x),
-    Rule(face_width.symbol, _standard_face()),
-)
+
+def _proportions(hob):
+    """What completes a blank. Of two rules for one size the second serves a wheel without a throat."""
+    return (
+        Rule(hob_tip.symbol, (STANDARD_ADDENDUM + STANDARD_CLEARANCE) * m_x + shift.symbol),
+        Rule(wheel_tip.symbol, wheel_throat.symbol + BEYOND_THROAT * m_x),
+        Rule(wheel_tip.symbol, r_2 + STANDARD_ADDENDUM * m_x - shift.symbol),
+        Rule(hob_rounding.symbol, _standard_rounding()),
+        Rule(worm_tip.symbol, A - _hob_end(hob) - STANDARD_CLEARANCE * m_x),
+        Rule(worm_root.symbol, A - wheel_throat.symbol - STANDARD_CLEARANCE * m_x),
+        Rule(worm_root.symbol, A - wheel_tip.symbol - STANDARD_CLEARANCE * m_x),
+        Rule(face_width.symbol, _standard_face()),
+    )
+
 
 GUARDS = (
     Guard(
@@ -323,8 +391,11 @@ HOBBED = tuple(
 )
 
 
-def cylindrical_worm(worm_profile, hob_profile):
-    """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC")."""
+def cylindrical_worm(worm_profile, hob_profile, condition=NEW):
+    """The drive whose worm and hob have these ISO 10828 flank forms ("ZA", "ZI", "ZN", "ZK", "ZC").
+
+    The form of a reground hob is that which it had when it was new.
+    """
     definitions = Definitions()
     phi_1 = rotation_angle("phi_worm", "angle of the worm in mesh", "f")
     error = rotation_angle("transmission_error", "wheel angle less ratio times worm angle", "f")
@@ -334,11 +405,13 @@ def cylindrical_worm(worm_profile, hob_profile):
     worm_tool, hob_tool = TOOLS[worm_profile], TOOLS[hob_profile]
     own = _own(worm_tool, hob_tool)
     worm, hob = worm_tool(_worm(own), definitions), hob_tool(_hob(own), definitions)
+    systems = _of_reground_hob(hob, own, definitions) if not condition.new else ()
+    hob = hob if condition.new else reground(hob, _hob(own), definitions, condition.ground_off)
     phi_h = rotation_angle("phi_hob", "angle of the hob in cutting", "gen")
     wheel, psi = _hobbed(hob.flank, phi_h)
     psi_h = hob.flank.parameters[1]
     phi_h = definitions.let("phi_hob", psi - psi_h, "angle of the hob in cutting", "rad", "gen", parity=-1)
-    rounding = tip_rounding(hob, _hob(own), definitions)
+    rounding = tip_rounding(hob, _with_tip(_hob(own), condition), definitions)
     fillet, _ = _hobbed(rounding.surface, rotation_angle("phi_round_hob", "angle of the hob in cutting", "gen"))
 
     t_w, psi_w = worm.flank.parameters
@@ -364,11 +437,12 @@ def cylindrical_worm(worm_profile, hob_profile):
     sizes = {t_w: worm.scale, t_h: hob.scale}
     unknowns = tuple(Unknown(symbol, sizes.get(symbol, sp.Integer(1))) for symbol in (t_w, psi_w, t_h, psi, error))
     return Drive(
-        name=_name(worm_profile, hob_profile),
+        name=_name(worm_profile, hob_profile, condition),
         family="cylindrical-worm",
-        title=f"{worm_profile} worm with a wheel cut by a {hob_profile} hob",
-        parameters=_parameters(own),
-        rules=(*RULES, *_follow(own), *worm.rules, *hob.rules),
+        title=f"{worm_profile} worm with a wheel cut by a {'' if condition.new else 'reground '}{hob_profile} hob",
+        parameters=_parameters(own, condition),
+        rules=(*_rules(condition), *_follow(own), *worm.rules, *hob.rules),
+        systems=systems,
         guards=GUARDS + _profile_guards(worm, hob),
         sizes=SIZES,
         instant=phi_1,
@@ -383,19 +457,19 @@ def cylindrical_worm(worm_profile, hob_profile):
         unknowns=unknowns,
         residual=contact(pinion.placed, wheel_body.placed),
         definitions=definitions,
-        start=_start(worm, hob, psi, phi_1, phi_h, error, definitions),
+        start=_start(worm, hob, condition, psi, phi_1, phi_h, error, definitions),
         guess={t_w: worm.pitch_point, t_h: hob.pitch_point},
-        sample=SAMPLE | worm_tool.sample | hob_tool.sample,
+        sample=SAMPLE | worm_tool.sample | hob_tool.sample | ({} if condition.new else {ground_off.key: 0.5}),
         sample_angle=1.0,
         pinion_teeth=threads.key,
-        variant={"worm_profile": worm_profile, "hob_profile": hob_profile},
-        variant_defaults={"hob_profile": "worm_profile"},
+        variant={"worm_profile": worm_profile, "hob_profile": hob_profile, "hob_condition": condition.word},
+        variant_defaults={"hob_profile": "worm_profile", "hob_condition": NEW.word},
         functions=(
             *generation_functions(
                 worm, hob, Rack(hob.flank, p_h, T_h / T_2, A_gen, Sigma_gen), wheel, psi, wheel_body.recovered,
-                _rack_sizes(worm_profile == hob_profile),
+                _rack_sizes(worm_profile == hob_profile, condition),
             ),
-            *_solids(),
+            *_solids(condition),
         ),
         tools=(
             ToolUse("worm", worm_profile, worm_tool, tuple(own["worm"][d].key for d in worm_tool.data)),
@@ -409,8 +483,9 @@ def cylindrical_worm(worm_profile, hob_profile):
                 for name, p in (("wheel_face", face_width), ("wheel_tip", wheel_tip), ("tool_rounding", hob_rounding))
             },
         ),
-        proportions=PROPORTIONS,
-        exchange=_exchange(),
+        proportions=_proportions(condition),
+        exchange=_exchange() if condition.new else None,
+        regrind=REGRIND,
         sources=SOURCES,
         handed="right",
         exclusive=(
@@ -420,7 +495,18 @@ def cylindrical_worm(worm_profile, hob_profile):
     )
 
 
-def _solids():
+def _of_reground_hob(hob, own, definitions):
+    """The design system of a reground hob; ``hob`` is the new one."""
+    keys = (ground_off.key, hob_radius.key)
+    return (working_radius(hob, _hob(own), definitions, REGROUND.ground_off, working.symbol, keys),)
+
+
+def _with_tip(body, condition):
+    """The data of a hob with the tip that is left of it."""
+    return body if condition.new else replace(body, tip_addendum=body.tip_addendum - condition.ground_off)
+
+
+def _solids(hob):
     """Thread and wheel of a whole blank; the root of the wheel is that of its middle plane."""
     worm = {
         "module": (m_x, "mm"),
@@ -432,7 +518,7 @@ def _solids():
     wheel = {
         "module": (m_x, "mm"),
         "teeth": (T_2, ""),
-        "root_radius": (hob_end, "mm"),
+        "root_radius": (_hob_end(hob), "mm"),
         "face_first": (-face_width.symbol / 2, "mm"),
         "face_last": (face_width.symbol / 2, "mm"),
     }
@@ -446,12 +532,12 @@ def _exchange():
     return EXCHANGE
 
 
-def _rack_sizes(same_profile):
+def _rack_sizes(same_profile, hob):
     """Sizes (value, unit) by name, for limits, sections and the search for contacts."""
     return {
         "module": (m_n, "mm"),
-        "reference_radius_tool": (r_h, "mm"),
-        "end_radius_tool": (r_h + hob_tip.symbol, "mm"),
+        "reference_radius_tool": (hob.radius, "mm"),
+        "end_radius_tool": (r_h + hob_tip.symbol - hob.ground_off, "mm"),
         "reference_radius_pinion": (r_1, "mm"),
         "tip_radius_pinion": (worm_tip.symbol, "mm"),
         "root_radius_pinion": (worm_root.symbol, "mm"),
@@ -461,8 +547,8 @@ def _rack_sizes(same_profile):
         "cutting_distance": (A_gen, "mm"),
         "cutting_angle": (Sigma_gen, "rad"),
         "turns": (T_1 / T_h, ""),
-        "oversize": (r_h - r_1, "mm"),
-        "same_profile": (sp.Integer(int(same_profile)), ""),
+        "oversize": (hob.radius - r_1, "mm"),
+        "same_profile": (sp.Integer(int(same_profile and hob.new)), ""),
     }
 
 
@@ -484,7 +570,7 @@ def _fillet_margins(rounding):
     return Margin("", "bottom", rounding.turn), Margin("", "junction", rounding.before_flank, joins="flank")
 
 
-def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
+def _start(worm, hob, condition, psi, phi_1, phi_h, error, definitions):
     """A point close to contact: on the hob's mid plane Ψ = 0 at the right cutting angle, and below it on the worm."""
     t_w, psi_w = worm.flank.parameters
     t_h = hob.parameter
@@ -497,7 +583,7 @@ def _start(worm, hob, psi, phi_1, phi_h, error, definitions):
         name="start",
         definitions=definitions,
         unknowns=(Unknown(t_w, worm.scale), Unknown(t_h, hob.scale)),
-        residual=(worm_radius - r_1 - (hob_radius_here - r_h), phi_h - phi_1 * T_1 / T_h),
+        residual=(worm_radius - r_1 - (hob_radius_here - condition.radius), phi_h - phi_1 * T_1 / T_h),
         outputs={
             t_w: t_w,
             psi_w: v.arc(hob_y, hob_x) - phi_1 - v.arc(worm_y, worm_x),
@@ -543,17 +629,33 @@ def _profile_guards(worm, hob):
 
 
 def catalogue():
-    """Every combination of a worm and a hob: name → builder.
+    """Every combination of a worm and a hob, new and reground: name → builder.
 
     One program a combination, not flanks composed at run time: fused, residual and Jacobian take 330 (ZN, ZN) to 768
     (ZC, ZC) operations; composed from point, normal and their derivatives on either flank, 537 to 940, that is 1.6 to
-    1.2 times as many, and the pivot order of the Newton step could not be chosen in advance.
+    1.2 times as many, and the pivot order of the Newton step could not be chosen in advance. A reground hob takes more
+    operations than a new one.
     """
-    return {_name(worm, hob): partial(cylindrical_worm, worm, hob) for worm in TOOLS for hob in TOOLS}
+    combinations = [(worm, hob, condition) for condition in (NEW, REGROUND) for worm in TOOLS for hob in TOOLS]
+    return {_name(*words): partial(cylindrical_worm, *words) for words in combinations}
 
 
-def _name(worm_profile, hob_profile):
-    return f"cylindrical_worm_{worm_profile}_{hob_profile}".lower()
+def _name(worm_profile, hob_profile, condition):
+    ending = "" if condition.new else f"_{condition.word}"
+    return f"cylindrical_worm_{worm_profile}_{hob_profile}{ending}".lower()
+
+
+#: What resharpening the hob changes.
+REGRIND = Regrind(
+    command="hob-life",
+    summary="The life of a hob: what its wheels do in contact from the first to the last resharpening.",
+    words={"hob_condition": REGROUND.word},
+    amount=ground_off.place,
+    radius=hob_radius.place,
+    mate=pitch_radius.place,
+    working=working.place,
+    settings=(cutting_distance.place, cutting_angle.place),
+)
 
 
 #: A regular design (the fully recess-action drive) and angles: here pivots are chosen and self-tests are made.

@@ -85,6 +85,7 @@ def identity(drive):
         "variant": {key: [word] for key, word in drive.variant.items()},
         "variant_defaults": drive.variant_defaults,
         "handed": drive.handed,
+        "regrind": drive.regrind and asdict(drive.regrind),
     }
 
 

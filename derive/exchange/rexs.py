@@ -159,11 +159,12 @@ def angle_between_shafts():
 
 def table(drives):
     """The exchange of a family as plain data, None if it has none: what writing and reading needs, and the rules,
-    guards and exclusive keys by which a design is complete without a compiled drive.
+    guards and exclusive keys by which a design is complete without a compiled drive. Drives without one do not count.
     """
-    exchange = drives[0].exchange
-    if exchange is None:
+    drives = [drive for drive in drives if drive.exchange is not None]
+    if not drives:
         return None
+    exchange = drives[0].exchange
     check(exchange)
     rules = {(rule.target.name, str(rule.value)): rule for drive in drives for rule in drive.completion}
     solved = {target for drive in drives for system in drive.systems for target in system.fills}

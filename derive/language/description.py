@@ -279,6 +279,7 @@ def _describe(drive):
             for f in drive.functions
         ],
         "loading": drive.loading and asdict(drive.loading),
+        "regrind": drive.regrind and asdict(drive.regrind),
         "sample": {key: str(value) for key, value in drive.sample.items()},
         "sample_angle": str(drive.sample_angle),
     }  # fmt: skip

@@ -190,6 +190,25 @@ class Loading:
 
 
 @dataclass(frozen=True)
+class Regrind:
+    """How a tool that is resharpened enters a design, and the ``command`` that follows it over its life (``summary``).
+
+    Design keys: ``words`` that choose the drive with such a tool, the ``amount`` that is ground off, the ``radius`` of
+    the new tool, that of the member for which it stands (``mate``), the ``working`` radius that the tool then has, and
+    ``settings`` of the machine, which follow the tool: what a design gives of them is moved as their rules move.
+    """
+
+    command: str
+    summary: str
+    words: dict[str, str]
+    amount: str
+    radius: str
+    mate: str
+    working: str
+    settings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
@@ -201,8 +220,9 @@ class Drive:
     ``reference_angle`` (a parameter, or 0) is the input angle at which the pair meets in the middle of its flanks: the
     start values lead there, and relative transmission errors refer to it.
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
-    contact itself leaves them open. ``loading`` says how it is usually loaded, ``sources`` what its page follows,
-    ``exchange`` what of it a neutral file holds (:class:`~derive.exchange.rexs.Exchange`).
+    contact itself leaves them open. ``loading`` says how it is usually loaded, ``regrind`` how a resharpened tool
+    enters, ``sources`` what its page follows, ``exchange`` what of it a neutral file holds
+    (:class:`~derive.exchange.rexs.Exchange`).
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     ``least_teeth``, by member, says how the least number of teeth without undercut is sought; ``tool_clearance`` what
@@ -249,6 +269,7 @@ class Drive:
     reference_angle: sp.Expr = sp.S.Zero
     proportions: tuple[Rule, ...] = ()
     loading: Loading | None = None
+    regrind: Regrind | None = None
     exchange: object = None
     sources: tuple[Source, ...] = ()
 

@@ -13,19 +13,28 @@ from meshwright.base import drives
 from meshwright.base.errors import DesignError, LibraryError, UsageError
 
 
-def parser(names=tuple(commands.MODULES)):
-    """The argument parser of these commands."""
+def parser(names=None):
+    """The argument parser of these commands, by default of all."""
     top = argparse.ArgumentParser(prog="meshwright", description="Tooth contact analysis of gear drives.")
     top.add_argument("--version", action=_Version, help="show the version and exit")
     top.add_argument("--drives", action="append", default=[], metavar="DIR", help="folder of drives to search first")
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name in names:
-        module = commands.module(name)
-        summary = module.__doc__.strip().splitlines()[0]
-        sub = subparsers.add_parser(name, help=summary, description=module.__doc__)
+    for name in commands.every() if names is None else names:
+        module, summary = commands.module(name), commands.summary(name)
+        text = summary + module.__doc__.strip().partition("\n")[2]
+        sub = subparsers.add_parser(name, help=summary, description=text)
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
     return top
+
+
+def _named(words):
+    """The command that is named, as a list: it waits for no other's imports. None where all are to answer."""
+    known = commands.MODULES
+    if not any(word in known for word in words):
+        known = commands.every()
+    named = [word for word in words if word in known][:1]
+    return named if named and not _asks_for_help(words, named[0]) else None
 
 
 def _asks_for_help(words, command):
@@ -60,17 +69,14 @@ def joined(arguments):
 def main(arguments=None):
     """Run one command; returns the exit status."""
     words = joined(sys.argv[1:] if arguments is None else arguments)
-    # a command waits for no other's imports; what names none is answered with all of them
-    named = [word for word in words if word in commands.MODULES][:1]
-    options = parser(*([named] if named and not _asks_for_help(words, named[0]) else [])).parse_args(words)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal without a letter of ours shows "?"
     try:
+        options = parser(_named(words)).parse_args(words)
         _refuse_empty(options)
         _refuse_mixed(options)
-        for folder in reversed(options.drives):
-            drives.add(folder)
-        status = options.run(options)
+        with drives.searched_first(options.drives):
+            status = options.run(options)
         sys.stdout.flush()
         return status
     except (DesignError, UsageError, LibraryError) as error:

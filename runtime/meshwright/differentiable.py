@@ -6,10 +6,11 @@ generated.
 Lengths in mm, angles in rad, except where a design key names its unit.
 """
 
+from pathlib import Path
+
 import casadi
 import numpy as np
 
-from meshwright.base.drives import folder_of
 from meshwright.base.errors import UsageError
 from meshwright.design import design as designs
 
@@ -114,7 +115,7 @@ def _by_system(description, system, p, known):
 def _system_values(description, system):
     """CasADi function p → values of a design system, its solution followed along its path in equal steps."""
     name = f"{description['name']}_{system['name']}"
-    generated = casadi.Function.load(str(folder_of(description["name"]) / f"{name}.casadi"))
+    generated = _loaded(description, name)
     p, path, y = (casadi.SX.sym(q, generated.size1_in(q)) for q in ("p", "path", "y"))
     out = dict(zip(generated.name_out(), generated(p, path, y), strict=True))
     regular = casadi.logic_all(casadi.vertcat(casadi.norm_inf(out["residual"]) <= RESIDUAL, out["watch"] > 0.0))
@@ -133,9 +134,13 @@ def _system_values(description, system):
 
 def _generated(description):
     """The generated function of a drive, symbols for its inputs p, phi, x, and its outputs by name."""
-    values = casadi.Function.load(str(folder_of(description["name"]) / f"{description['name']}.casadi"))
+    values = _loaded(description, description["name"])
     inputs = [casadi.SX.sym(name, values.size1_in(name)) for name in values.name_in()]
     return values, *inputs, dict(zip(values.name_out(), values(*inputs), strict=True))
+
+
+def _loaded(description, name):
+    return casadi.Function.load(str(Path(description["folder"]) / f"{name}.casadi"))
 
 
 def _place(description, key):

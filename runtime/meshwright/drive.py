@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from meshwright import limits
-from meshwright.base.drives import add
+from meshwright.base.drives import folders
 from meshwright.base.errors import UsageError
-from meshwright.base.library import library, model, pointer, text
+from meshwright.base.library import library, pointer, text
 from meshwright.contact import analysis
 from meshwright.contact.functions import Function
 from meshwright.cycle import contact_ratio, edge, first_contact, windows
@@ -22,14 +22,14 @@ from meshwright.pattern.used import uses
 
 
 def _compiled(design):
-    return model(design.description["name"])
+    return design.model
 
 
 def _casadi(design):
     from meshwright.contact.casadi_backend import model_of
 
     try:
-        return model_of(design.description)
+        return model_of(design)
     except ModuleNotFoundError as error:
         remedy = "`pip install 'meshwright[casadi]'` brings it"
         raise UsageError(f"backend = 'casadi': {error.name} is not installed; {remedy}") from error
@@ -49,18 +49,17 @@ class Drive:
     def load(cls, name_or_path, backend="c", drives=None):
         """The drive of a packaged design or a TOML file; raises :class:`~meshwright.base.errors.DesignError`.
 
-        ``drives`` is a folder of drives that is searched first from now on, as by ``MESHWRIGHT_DRIVES``.
+        ``drives`` is a folder of drives that is searched first, for this drive and those made from it.
         """
-        if drives is not None:
-            add(drives)
-        return cls.from_tables(designs.read(name_or_path), backend)
+        return cls.from_tables(designs.read(name_or_path), backend, drives)
 
     @classmethod
-    def from_tables(cls, tables, backend="c"):
-        """The drive of a design given as nested dictionaries, as in a TOML file."""
+    def from_tables(cls, tables, backend="c", drives=None):
+        """The drive of a design given as nested dictionaries, as in a TOML file; ``drives`` as in :meth:`load`."""
+        places = folders() if drives is None else folders(drives)
         if backend not in BACKENDS:
             raise UsageError(f"backend = {backend!r}: no such backend; use one of {', '.join(BACKENDS)}")
-        return cls(designs.check(tables), backend)
+        return cls(designs.check(tables, places), backend)
 
     def with_(self, **tables):
         """A new drive with keys changed: ``drive.with_(misalignment={"center_distance_mm": -0.1})``."""
@@ -70,7 +69,8 @@ class Drive:
                 changes |= {f"{table}.{key}": value for key, value in entries.items()}
             else:
                 changes[table] = entries
-        return Drive.from_tables(designs.changed(self.design.given(), changes), self.backend)
+        tables = designs.changed(self.design.given(), changes)
+        return Drive(designs.check(tables, self.design.places), self.backend)
 
     def __repr__(self):
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"

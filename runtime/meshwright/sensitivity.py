@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import library, model, pointer
+from meshwright.base.library import library, pointer
 from meshwright.contact import analysis
 from meshwright.design import design as designs
 
@@ -73,7 +73,7 @@ def _counts(parameter, k, design):
 
 def _of_design(design, column):
     """Change of the complete parameter vector per unit of one parameter, as if that were given."""
-    m = model(design.description["name"])
+    m = design.model
     given, change = designs.given_vector(design), np.zeros(m.np)
     given[column], change[column] = design.parameters[column], 1.0
     ended = library().mw_complete_tangent(m, pointer(given), pointer(design.parameters), pointer(change))
@@ -82,7 +82,7 @@ def _of_design(design, column):
 
 def _of_contact(drive, angles, design):
     """Changes (N, K, nx) of the unknowns and (N, K, 3) of the contact point of the right-hand drive."""
-    m, p = model(drive.design.description["name"]), drive.design.parameters
+    m, p = drive.design.model, drive.design.parameters
     solved = analysis.analyse(drive, angles)
     changes = np.full((len(angles), design.shape[1], m.nx), np.nan)
     points, s = np.full((*changes.shape[:2], 3), np.nan), np.empty(m.ns)

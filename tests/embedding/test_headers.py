@@ -12,6 +12,9 @@ from tests.embedding.machines import MACHINES, Problem
 DRIVES = sorted(json.loads(p.read_text())["name"] for p in c.GENERATED.glob("*.json"))
 FAMILIES = ("cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm")
 
+#: One small drive in the quick tests, the others in the longer ones.
+ONE_QUICKLY = [pytest.param(drive, marks=[pytest.mark.validate] * (drive != FAMILIES[1])) for drive in FAMILIES]
+
 
 def problem_of(drive):
     """The drive's self-test: arguments of ``solve`` and the solution to 40 digits, rounded."""
@@ -35,7 +38,7 @@ def _native(drive, folder, command, level):
     return steps, x
 
 
-@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("drive", ONE_QUICKLY)
 @pytest.mark.parametrize("standard", ["c99", "c++11"])
 @pytest.mark.parametrize("name", sorted(c.compilers()))
 def test_a_header_alone_compiles_strictly_and_needs_only_sqrt(tmp_path, drive, standard, name):
@@ -74,13 +77,14 @@ CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUS
 
 
 @pytest.mark.parametrize("fused", [False, True])
-@pytest.mark.parametrize("drive", FAMILIES)
-def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, fused):
+@pytest.mark.parametrize("levels", [("-O0", "-O3"), pytest.param(("-O1", "-O2"), marks=pytest.mark.validate)])
+@pytest.mark.parametrize("drive", ONE_QUICKLY)
+def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, levels, fused):
     """A contact from nothing: with this machine's instructions too, products are fused where the header says."""
     problem, solution = problem_of(drive)
     results = {}
     for name, (command, _) in c.compilers().items():
-        for level in ("-O0", "-O1", "-O2", "-O3"):
+        for level in levels:
             for way in ("fused",) if fused else ("separate", "native"):
                 folder = tmp_path / f"{name}{level}{way}"
                 folder.mkdir()
@@ -117,7 +121,7 @@ void scalar(const double *p, double phi, int l, double *s, double *x, double *z)
 """
 
 
-@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("drive", ONE_QUICKLY)
 @pytest.mark.parametrize("width", [2, 4, 8, 16])
 @pytest.mark.parametrize("contraction", ["separate", "fused"])
 def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width, contraction):
@@ -141,7 +145,7 @@ def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width, contra
         assert size[0] == sizes[lane]
 
 
-@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("drive", ONE_QUICKLY)
 def test_fusing_changes_no_more_than_round_off(tmp_path, drive):
     _, solution = problem_of(drive)
     command = sorted(c.compilers().items())[-1][1][0]

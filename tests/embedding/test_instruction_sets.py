@@ -10,7 +10,7 @@ import pytest
 from meshwright.base import compile as build
 from tests.embedding import compile as c
 from tests.embedding.machines import arm64
-from tests.embedding.test_headers import FAMILIES, problem_of
+from tests.embedding.test_headers import ONE_QUICKLY, problem_of
 
 OBJECTS = c.ROOT / ".venv" / "objects"
 
@@ -32,6 +32,7 @@ def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has():
             assert not _VECTOR.search(code), path.name
 
 
+@pytest.mark.validate
 def test_the_library_builds_for_arm64(tmp_path):
     """Core and a drive in one: the wide units are empty there."""
     library = tmp_path / "libmeshwright.so"
@@ -97,7 +98,7 @@ int solve(const double *p, double phi, double *s, double *x)
 """
 
 
-@pytest.mark.parametrize("drive", FAMILIES)
+@pytest.mark.parametrize("drive", ONE_QUICKLY)
 def test_lanes_on_an_arm64_processor_give_the_bits_of_its_scalar_kernel(tmp_path, drive):
     pytest.importorskip("unicorn")
     problem, _ = problem_of(drive)

@@ -8,6 +8,7 @@ import pytest
 from meshwright import Drive, UsageError
 from meshwright.cli import main
 from meshwright.fe.closed_body import closed_body, volume
+from meshwright.flank.polygon import triangles
 
 
 def _edges(triangles):
@@ -52,9 +53,34 @@ def test_a_whole_gear_lies_between_its_root_and_tip_cylinders():
 
 def test_a_left_hand_body_is_the_mirror_image():
     drive = Drive.load("plain-za")
-    right = closed_body(drive, "wheel", 1)
-    left = closed_body(drive.with_(design={"hand": "left"}), "wheel", 1)
+    right = closed_body(drive, "pinion", departure=5e-2)
+    left = closed_body(drive.with_(design={"hand": "left"}), "pinion", departure=5e-2)
     assert left.volume == pytest.approx(right.volume, rel=1e-9)
+
+
+def test_a_worm_is_a_screw_of_its_cross_section():
+    """All sections of a helicoid across its axis are alike: the volume is the end face's area by the length."""
+    body = closed_body(Drive.load("plain-za"), "pinion", departure=5e-3)
+    there, back = (set(map(tuple, e.tolist())) for e in (_edges(body.triangles), _edges(body.triangles)[:, ::-1]))
+    assert there == back and body.departure <= 5e-3
+    ends = body.points[:, 2].min(), body.points[:, 2].max()
+    corners = body.points[body.triangles]
+    top = corners[(corners[:, :, 2] == ends[1]).all(axis=1)]
+    (ax, ay), (bx, by) = (top[:, k, :2].T - top[:, 0, :2].T for k in (1, 2))
+    area = 0.5 * (ax * by - ay * bx).sum()
+    assert body.volume == pytest.approx(area * (ends[1] - ends[0]), rel=1e-3)  # facets 5 µm off on 44 mm
+    tip = Drive.load("plain-za").design.value("worm_tip_radius_mm", "blank")
+    assert np.hypot(body.points[:, 0], body.points[:, 1]).max() == pytest.approx(tip, abs=1e-6)
+
+
+def test_a_polygon_with_a_hole_is_filled():
+    turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+    star = (2.0 + (np.arange(24) % 2))[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    hole = np.array([[1.0, 0.0], [0.0, -1.0], [-1.0, 0.0], [0.0, 1.0]])
+    corners = np.concatenate([star, star[:1], hole, hole[:1]])
+    a, b, c = (corners[triangles(corners)[:, k]] for k in range(3))
+    areas = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    assert (areas > 0.0).all() and areas.sum() == pytest.approx(0.5 * 24 * 6.0 * np.sin(turn[1]) - 2.0)
 
 
 def test_the_command_writes_a_watertight_stl(tmp_path, capsys):
@@ -65,8 +91,10 @@ def test_the_command_writes_a_watertight_stl(tmp_path, capsys):
 
 
 def test_what_has_no_closed_body_says_why(capsys):
-    with pytest.raises(UsageError, match="goes on as a thread"):
-        closed_body(Drive.load("plain-za"), "pinion")
+    with pytest.raises(UsageError, match="has no declared sizes of solid teeth"):
+        closed_body(Drive.load("bevel-crown-pair"), "pinion")
+    with pytest.raises(UsageError, match="one body with 2 threads"):
+        closed_body(Drive.load("plain-za"), "pinion", 1)
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid", "--teeth", "999", "--stl", "-"]) == 2
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid"]) == 2
     assert "choose from 1 to" in capsys.readouterr().err

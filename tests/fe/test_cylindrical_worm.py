@@ -41,12 +41,14 @@ def body_of(member, angle):
 
 
 def places(drive, member, turn):
-    """Parameters (S, 2) around a place on the flank of a member."""
+    """Parameters (S, 2) around a place on the flank of a member, away from its singular lines on their inner side."""
     flank = drive.flank(member)
     grid = drive.surface(member, (9, 9)).values
     profile, along = np.meshgrid(np.linspace(grid[:, 0].min(), grid[:, 0].max(), 12), np.linspace(-1.6, 1.6, 33))
     assert len(flank.parameters) == 2
-    return np.stack([profile.ravel(), turn + along.ravel()], axis=1)
+    around = np.stack([profile.ravel(), turn + along.ravel()], axis=1)
+    # on such a line no step leads on, and from beyond it every step leads to the other sheet
+    return around[flank(around).regular > 1e-6]
 
 
 @pytest.mark.parametrize("member", ["pinion", "wheel"])
@@ -54,8 +56,6 @@ def test_teeth(drive_and_gear, member):
     """Valid elements, and both flanks on the generated surfaces: the worm's second one that of the next groove."""
     drive, gear, angle = drive_and_gear
     worm = member == "pinion"
-    if worm and drive.design.description["name"] == "cylindrical_worm_zk_zn":
-        pytest.xfail("some nodes at the end of the ground flank lie 1.3e-5 mm off it; the cause is not found")
     of = getattr(gear, member)
     own_angle = angle if worm else angle * gear.ratio
     body, order = body_of(of, own_angle)
@@ -156,9 +156,12 @@ def test_face_beyond_the_hob_is_refused_with_the_widest_one(capsys, name, width)
     assert form.faces == pytest.approx((-0.5 * widest, 0.5 * widest))
 
 
-@pytest.mark.parametrize(("tip", "said"), [(60.0, "no flank below the tip"), (90.0, "does not reach its tip")])
+@pytest.mark.parametrize(
+    ("tip", "said"),
+    [(60.0, "blank.wheel_tip_radius_mm = 60.0: the flank of the wheel is empty"), (90.0, "does not reach its tip")],
+)
 def test_a_tip_off_the_flank_at_every_width_is_refused(capsys, tip, said):
-    """At 90 degrees the flank in the middle plane lies between these radii."""
+    """At 90 degrees the flank in the middle plane lies between these radii; the hob's tip leaves a root of 61.4 mm."""
     blank = ["--set", f"blank.wheel_tip_radius_mm={tip}", "--set", "blank.worm_root_radius_mm=4"]
     assert main(["loaded", "zk-zn-90", "--torque-nm", "20", *blank]) == 2
     message = capsys.readouterr().err

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive, live
+from meshwright.base.drives import SHIPPED
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer
 from meshwright.cli import main
@@ -31,7 +32,8 @@ class Wasm:
     def __init__(self, drive):
         wasmtime = pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser")
         self.store = wasmtime.Store()
-        program = wasmtime.Module(self.store.engine, module_of(drive.design.description["name"]))
+        described = drive.design.description
+        program = wasmtime.Module(self.store.engine, module_of(described["name"], described["folder"]))
         assert not program.imports
         self.exports = wasmtime.Instance(self.store, program, []).exports(self.store)
         self.model, self.length = drive.model, self("row_length")
@@ -145,7 +147,7 @@ def test_without_the_compiler_the_remedy_is_named(monkeypatch):
     found = importlib.util.find_spec
     monkeypatch.setattr(module.importlib.util, "find_spec", lambda name: None if name == "ziglang" else found(name))
     with pytest.raises(UsageError, match=r"ziglang.*pip install 'meshwright\[live\]'"):
-        live.compiled("face_worm")
+        live.compiled("face_worm", SHIPPED)
 
 
 def _table(browser, table):

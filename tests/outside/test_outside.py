@@ -13,7 +13,7 @@ import pytest
 from meshwright import Drive
 from meshwright.base import compile as build
 from meshwright.base import drives
-from meshwright.base.errors import LibraryError
+from meshwright.base.errors import DesignError, LibraryError
 from meshwright.design import design
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -67,13 +67,17 @@ def test_a_drive_of_one_file_is_solved_by_every_way_to_name_its_folder(folder, c
     assert np.ptp(bent) > 1e-3
 
 
-def test_the_python_package_takes_a_folder_of_drives(folder, crowned, monkeypatch):
-    monkeypatch.setenv(drives.ENVIRONMENT, "")
+def test_the_python_package_takes_a_folder_of_drives(folder, crowned):
+    """The folder travels with the drive: the process knows nothing of it, drives made from the drive do."""
     angles = np.radians([-20.0, 0.0, 20.0])
-    own = Drive.load(crowned(0.0), drives=folder).tca(angles)
-    assert np.abs(own.error - Drive.load("plain-za").tca(angles).error).max() < 1e-14
-    casadi = Drive.load(crowned(0.002), backend="casadi").tca(angles)
-    assert np.abs(casadi.error - Drive.load(crowned(0.002)).tca(angles).error).max() < 1e-12
+    own = Drive.load(crowned(0.0), drives=folder)
+    assert np.abs(own.tca(angles).error - Drive.load("plain-za").tca(angles).error).max() < 1e-14
+    bent = own.with_(design={"blade_crown_per_mm": 0.002})
+    casadi = Drive.load(crowned(0.002), backend="casadi", drives=folder).tca(angles)
+    assert np.abs(casadi.error - bent.tca(angles).error).max() < 1e-12
+    with pytest.raises(DesignError, match="blade_crown_per_mm|ZX"):
+        Drive.load(crowned(0.002))
+    assert str(folder) not in os.environ.get(drives.ENVIRONMENT, "")
 
 
 def test_the_schema_offers_its_words_and_its_key(folder):

@@ -8,6 +8,7 @@ from meshwright import Drive
 from meshwright.design import design
 from meshwright.sensitivity import sensitivity
 from tests.independent.twins import twin
+from tests.quick import quick
 
 #: Share of the pitch at which the packaged designs are looked at.
 PLACE = 0.11
@@ -24,6 +25,8 @@ GIVEN = {
     "spherical-table-4-4-convex": ({"wheel_half_space_mm": 3.1}, {"edge_offset_mm": 4.2}),
 }
 
+CASES = [(name, given) for name, cases in GIVEN.items() for given in cases]
+
 #: Equal spheres and unmodified spur gears touch along a line, and misaligned not in a point of their own: there is
 #: nothing to differentiate.
 LINES = ("spherical-table-2-1", "spur-profile-shift")
@@ -35,6 +38,11 @@ ERRORS = {
     "face-worm": {"offset_mm": 0.05, "shaft_angle_deg": 0.02},
     "cylindrical-gears": {"center_distance_mm": 0.05, "horizontal_deg": 0.02, "vertical_deg": 0.01, "axial_mm": 0.3},
 }
+
+WITH_TWINS = [name for name in design.packaged_names() if design.read(name)["drive"] in ERRORS]
+
+#: A design of each family.
+NOW = ("recess-action-full", "spherical-table-2-2-convex-20", "face-worm-conical-concave", "helical-crowned")
 
 
 def _values(drive, keys):
@@ -69,7 +77,7 @@ def _agree(drive, angle):
     return True
 
 
-@pytest.mark.parametrize("name", [name for name in design.packaged_names() if design.read(name)["drive"] in ERRORS])
+@pytest.mark.parametrize("name", quick(WITH_TWINS, *NOW))
 def test_every_parameter_agrees_with_differences_in_50_digits(name):
     drive = Drive.load(name)
     angle = PLACE * drive.pitch()
@@ -77,7 +85,7 @@ def test_every_parameter_agrees_with_differences_in_50_digits(name):
     assert [_agree(d, angle) for d in (drive, misaligned)] == [name not in LINES] * 2
 
 
-@pytest.mark.parametrize("name, given", [(name, g) for name, cases in GIVEN.items() for g in cases])
+@pytest.mark.parametrize("name, given", quick(CASES, CASES[0], CASES[4], CASES[6]))
 def test_what_is_given_instead_of_derived_stays_where_it_is(name, given):
     drive = Drive.load(name).with_(design=given)
     assert _agree(drive, PLACE * drive.pitch())
@@ -88,7 +96,7 @@ def test_what_is_given_instead_of_derived_stays_where_it_is(name, given):
         assert result.design[places.index(True)] == pytest.approx(np.eye(len(result.keys))[own], abs=0.0)
 
 
-@pytest.mark.parametrize("name", ["plain-zi", "recess-action-full", "zk-zn-60"])
+@pytest.mark.parametrize("name", quick(["plain-zi", "recess-action-full", "zk-zn-60"], "plain-zi"))
 def test_a_left_hand_drive_is_the_mirror_image(name):
     drive = Drive.load(name).with_(design={"hand": "left"}, misalignment=ERRORS["cylindrical-worm"])
     assert _agree(drive, PLACE * drive.pitch())

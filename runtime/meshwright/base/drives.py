@@ -27,18 +27,28 @@ ENVIRONMENT, CACHE, GROUP = "MESHWRIGHT_DRIVES", "MESHWRIGHT_CACHE", "meshwright
 SEAL = "sealed.json"
 
 
-def add(folder):
-    """Search a folder of drives before all others, in this process and in those that it starts."""
-    place = Path(folder).absolute()
-    if not place.is_dir():
-        raise UsageError(f"drives = {folder}: no such folder; `python -m derive FILE.py --into {folder}` makes one")
-    others = [path for path in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if path and path != str(place)]
-    os.environ[ENVIRONMENT] = os.pathsep.join([str(place), *others])
+def folders(*first):
+    """The folders of drives, in the order in which they are searched: the ``first`` before all others."""
+    places = tuple(Path(folder).absolute() for folder in first)
+    for folder, place in zip(first, places, strict=True):
+        if not place.is_dir():
+            raise UsageError(f"drives = {folder}: no such folder; `python -m derive FILE.py --into {folder}` makes one")
+    return tuple(dict.fromkeys((*places, *_folders(os.environ.get(ENVIRONMENT, "")))))
 
 
-def folders():
-    """The folders of drives, in the order in which they are searched."""
-    return _folders(os.environ.get(ENVIRONMENT, ""))
+@contextmanager
+def searched_first(named):
+    """For the time of a command, the folders ``named`` are searched first, also by the processes that it starts."""
+    before = os.environ.get(ENVIRONMENT)
+    if named:
+        os.environ[ENVIRONMENT] = os.pathsep.join(map(str, folders(*named)[:-1]))
+    try:
+        yield
+    finally:
+        if before is None:
+            os.environ.pop(ENVIRONMENT, None)
+        else:
+            os.environ[ENVIRONMENT] = before
 
 
 @cache
@@ -70,17 +80,23 @@ def _folder_of(offered):
     return Path(offered.__path__[0]) if hasattr(offered, "__path__") else Path(offered)
 
 
-def folder_of(name):
-    """The folder that holds a drive; one that no folder holds is derived, compiled and kept in the cache."""
-    for folder in folders():
+def folder_of(name, places=None):
+    """The folder that holds a drive; one that no folder holds is derived, compiled and kept in the cache.
+
+    ``places`` are the folders to search, by default :func:`folders`.
+    """
+    for folder in places or folders():
         if (folder / f"{name}.json").exists():
             return folder
     return _derived(name)
 
 
-def object_of(name):
-    """Path of a drive's shared object; one that is missing, damaged or of other sources is compiled into the cache."""
-    folder = folder_of(name)
+def object_of(name, places=None):
+    """Path of a drive's shared object; one that is missing, damaged or of other sources is compiled into the cache.
+
+    ``places`` as in :func:`folder_of`.
+    """
+    folder = folder_of(name, places)
     path = folder / f"{name}.so"
     if folder == SHIPPED and path.exists():
         return path

@@ -149,16 +149,16 @@ def pointer(array, kind="double[]"):
     return ffi.from_buffer(kind, array)
 
 
-def model(name):
-    """The model table of a drive, from its own shared object."""
+def model(name, places=None):
+    """The model table of a drive, from its own shared object in the first of the folders ``places`` that has it."""
     library()
     with _loading:
-        return _model(name, folders())
+        return _model(name, places or folders())
 
 
 @cache
 def _model(name, places):
-    path = object_of(name)
+    path = object_of(name, places)
     try:
         table = getattr(ctypes.CDLL(str(path)), f"mw_drive_{name}")
     except (OSError, AttributeError) as error:

@@ -13,12 +13,17 @@ def add_arguments(parser):
     parser.add_argument("word", nargs="?", metavar="WORD", help="for example off_tip, line_contact, throat")
 
 
-def run(options):
-    known = {
+def meanings():
+    """``{"status" | "flag" | "event": {word: what it means}}``."""
+    return {
         "status": {word: status_text(word) for word in dict.fromkeys(statuses().values())},
         "flag": {word: _flag(word) for word in words.FLAGS},
         "event": words.EVENTS,
     }
+
+
+def run(options):
+    known = meanings()
     found = [(kind, meant[options.word]) for kind, meant in known.items() if options.word in meant]
     if options.word is None:
         lines = [f"{kind:<7} {word:<18} {text}" for kind, meant in known.items() for word, text in meant.items()]

@@ -132,7 +132,7 @@ def _corrected(parameters, found):
         if key not in POSE and math.isfinite(value):
             changes[key] = nominal - float(value)
     tables = designs.changed(parameters.drive.design.given(), changes)
-    designs.check(tables)  # a setting beyond its bounds is named here
+    designs.check(tables, parameters.drive.design.places)  # a setting beyond its bounds is named here
     return tables
 
 

@@ -2,7 +2,9 @@
 
 Total deviation F, slope deviation f_H and form deviation f_f along the normal, over the length of each trace; pitch
 where every tooth is measured, along the circle through the middle of the grid. Reads the points that `grid` writes,
-with deviation_um filled in: positive for excess material.
+with deviation_um filled in: positive for excess material. With --contact also what the as-measured flank of one tooth
+does with the nominal mate: tangency and first contact, contact pattern and ease-off; what lies beyond the measured grid
+has no numbers. Exit status 1 if the flanks touch there nowhere on the grid.
 """
 
 import math
@@ -12,6 +14,9 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.pairs import Mesh
+from meshwright.shop.as_measured import AsMeasured
 from meshwright.shop.measured import measured
 from meshwright.shop.tables import read_csv
 
@@ -20,6 +25,9 @@ def add_arguments(parser):
     common.add_design(parser)
     parser.add_argument("--member", choices=("pinion", "wheel"), required=True)
     parser.add_argument("--measured", required=True, metavar="FILE.csv", help="points with deviation_um, as of `grid`")
+    parser.add_argument("--contact", action="store_true", help="the contact of the as-measured flank as well")
+    common.add_angles(parser)
+    parser.add_argument("--tooth", type=common.count, metavar="K", help="whose contact; default: the first measured")
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.measured/1)")
 
 
@@ -28,12 +36,66 @@ def run(options):
     points, _ = read_csv(options.measured)
     if not np.isfinite(points.deviations).any():
         raise UsageError(f"{options.measured}: deviation_um is empty in every line; fill in what was measured")
+    if not options.contact and (options.tooth or options.phi_deg):
+        raise UsageError("--phi-deg and --tooth are of the contact: add --contact")
     found = measured(drive, options.member, points)
+    contact = _contact(drive, options, points) if options.contact else None
     if options.json:
-        write_json(options.json, document(found))
+        write_json(options.json, document(found) | {"contact": contact and _plain(*contact)})
     else:
-        write_text("-", _table(found))
-    return 0
+        write_text("-", _table(found) + (_contact_table(*contact) if contact else ""))
+    return 0 if contact is None or all(kind is not None for kind in contact[0].kinds) else 1
+
+
+def _contact(drive, options, points):
+    """Contact and ease-off of the as-measured flank."""
+    flank = AsMeasured.of(drive, options.member, points, options.tooth)
+    window = Mesh.of(drive).window
+    ends = (window.begin.angle, window.end.angle) if window.complete else (-0.5 * drive.pitch(), 0.5 * drive.pitch())
+    separation = drive.design.value("separation_mm", "contact")
+    return flank.tca(common.angles_of(options, drive)), flank.ease_off(*sorted(ends), separation)
+
+
+def _plain(tca, ease_off):
+    return {
+        "points": [
+            {
+                "pinion_angle_deg": float(np.degrees(tca.angles[k])), "status": tca.status[k],
+                "transmission_error_arcsec": _number(tca.errors[k] / ARCSEC),
+                "nominal_transmission_error_arcsec": _number(tca.nominal[k] / ARCSEC),
+                "contact_point_mm": _row(tca.points[k]), "contact_normal": _row(tca.normals[k]),
+                "first_contact": tca.kinds[k] and {
+                    "kind": tca.kinds[k], "transmission_error_arcsec": _number(tca.first[k] / ARCSEC),
+                },
+            }
+            for k in range(len(tca.angles))
+        ],
+        "ease_off_um": [[_um(value) for value in row] for row in ease_off.ease_off],
+        "pattern_share": ease_off.pattern,
+        "separation_mm": ease_off.separation,
+    }  # fmt: skip
+
+
+def _number(value):
+    return float(value) if math.isfinite(value) else None
+
+
+def _row(values):
+    return values.tolist() if np.isfinite(values).all() else None
+
+
+def _contact_table(tca, ease_off):
+    lines = [f"{'pinion':>10}{'measured':>14}{'nominal':>14}{'first contact':>16}   transmission error, arcsec"]
+    for k, angle in enumerate(np.degrees(tca.angles)):
+        values = (tca.errors[k], tca.nominal[k], tca.first[k])
+        cells = (f"{v / ARCSEC:.5f}" if math.isfinite(v) else "–" for v in values)
+        row = "".join(f"{cell:>{width}}" for cell, width in zip(cells, (14, 14, 16), strict=True))
+        lines.append(f"{angle:>10.3f}{row}   {tca.status[k]}, {tca.kinds[k] or 'no contact'}")
+    lines.append(
+        f"pattern at {1e3 * ease_off.separation:g} µm: {100.0 * ease_off.pattern:.1f} % of the measured grid; ease-off "
+        f"up to {1e3 * np.nanmax(ease_off.ease_off):.1f} µm"
+    )
+    return "\n".join(lines) + "\n"
 
 
 def document(found):

@@ -73,8 +73,9 @@ def _words(family, text):
         raise UsageError(f"--profile {text}: more words than {', '.join(keys) or 'this family has'}; give fewer")
     words = dict(zip(keys, asked, strict=False)) | {key: word for key, word in [*keys.items()][len(asked) :] if word}
     if words:
-        # a key that may be left out follows another
-        whole = words | {key: words.get(key, words.get(other)) for key, other in family.variant_defaults.items()}
+        # a key that may be left out follows another, or is a word of its own
+        defaults = family.variant_defaults.items()
+        whole = words | {key: words.get(key, words.get(other, other)) for key, other in defaults}
         if not any(all(whole.get(k) in v for k, v in variant.items()) for variant in family.variants.values()):
             offered = {k: sorted({w for v in family.variants.values() for w in v.get(k, ())}) for k in keys}
             listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in offered.items())

@@ -8,6 +8,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.analysis import largest_angle
+from meshwright.contact.friction import Friction
 from meshwright.design import design as designs
 from meshwright.drive import BACKENDS, Drive
 
@@ -114,3 +115,21 @@ def angles_of(options, drive):
     if options.phi_deg is not None:
         return angles(options.phi_deg)
     return np.linspace(-0.5, 0.5, 13) * drive.pitch()
+
+
+def add_friction(parser):
+    """--friction and --pinion-rpm."""
+    parser.add_argument(
+        "--friction", metavar="MU|FILE.csv",
+        help="coefficient of friction, or a table velocity_m_per_s,friction: adds the efficiency",
+    )  # fmt: skip
+    parser.add_argument("--pinion-rpm", type=positive, metavar="N", help="speed of the pinion, for a table of friction")
+
+
+def friction_of(options):
+    """The friction that the options give, None if they give none."""
+    if options.friction is None:
+        if options.pinion_rpm is not None:
+            raise UsageError(f"--pinion-rpm {options.pinion_rpm:g}: only a table of friction needs it: give --friction")
+        return None
+    return Friction.of(options.friction, options.pinion_rpm)

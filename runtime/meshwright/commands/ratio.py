@@ -12,6 +12,7 @@ from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.shown import shown
 from meshwright.contact.analysis import status_text
+from meshwright.contact.friction import mean_efficiency
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.ends import why_open
@@ -24,13 +25,14 @@ ORDERS = 8
 def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
+    common.add_friction(parser)
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.ratio/1)")
 
 
 def run(options):
     drive = common.drive_of(options)
     found = drive.contact_ratio()
-    contents = document(drive, found, common.angles_of(options, drive))
+    contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
     if options.json:
         write_json(options.json, contents)
     else:
@@ -38,8 +40,10 @@ def run(options):
     return 0 if found.mesh.window.complete and not found.impossible else 1
 
 
-def document(drive, found, angles):
-    """The ``meshwright.ratio/1`` document of a contact ratio; contact teeth at the pinion ``angles``, rad."""
+def document(drive, found, angles, friction=None):
+    """The ``meshwright.ratio/1`` document of a contact ratio; contact teeth at the pinion ``angles``, rad, efficiency
+    with a :class:`~meshwright.contact.friction.Friction`.
+    """
     return {
         "schema": "meshwright.ratio/1",
         "drive": drive.design.family,
@@ -56,7 +60,19 @@ def document(drive, found, angles):
         "contact_teeth": [_teeth(found.mesh, angle) for angle in angles],
         "transmission_error": _transmission(found),
         "backlash_arcsec": _number(found.backlash / ARCSEC),
+        "efficiency": _efficiency(mean_efficiency(found.mesh, friction)),
     }
+
+
+def _efficiency(mean):
+    """Means over one pitch; None where they do not exist."""
+    if mean is None:
+        return dict.fromkeys(("pinion_drives", "wheel_drives", "self_locking_friction"))
+    locking = [_number(value) for value in mean.self_locking]
+    return {
+        "pinion_drives": _number(mean.pinion_drives), "wheel_drives": _number(mean.wheel_drives),
+        "self_locking_friction": {"least": locking[0], "largest": locking[1]},
+    }  # fmt: skip
 
 
 def _event(event):
@@ -142,7 +158,19 @@ def _rows(found, contents):
         ("pairs change at", ", ".join(shown(a, "deg") for a in transfers)),
         ("vertex at", shown(error["vertex_deg"], "deg")),
         ("backlash", _arcsec(contents["backlash_arcsec"], "of the wheel"), _backlash(found)),
+        *_efficiency_rows(contents["efficiency"]),
     ]  # fmt: skip
+
+
+def _efficiency_rows(found):
+    """Efficiency with the friction given, and the friction from which the wheel cannot drive."""
+    rows = []
+    if found["pinion_drives"] is not None:
+        rows = [("efficiency, pinion drives", shown(found["pinion_drives"])),
+                ("  wheel drives", shown(found["wheel_drives"]))]  # fmt: skip
+    if (locking := found["self_locking_friction"]) is not None and locking["least"] is not None:
+        rows.append(("self-locking from friction", shown(locking["least"]), f"everywhere {shown(locking['largest'])}"))
+    return rows
 
 
 def _at(event):

@@ -13,6 +13,7 @@ FORMATS = ("pdf", "svg", "png")
 
 def add_arguments(parser):
     common.add_design(parser)
+    common.add_friction(parser)
     parser.add_argument("--html", metavar="FILE", help="write the page")
     parser.add_argument("--figures", metavar="FOLDER", help="write the figures for print, one file each")
     parser.add_argument("--format", choices=FORMATS, default="pdf", help="of the figures for print")
@@ -22,9 +23,9 @@ def run(options):
     if not options.html and not options.figures:
         raise UsageError("report: nothing to write; give --html FILE, --figures FOLDER or both")
     report = _report()
-    drive = common.drive_of(options)
+    drive, friction = common.drive_of(options), common.friction_of(options)
     with progress(report.steps(drive) + 1) as step:
-        analysis = report.analyse(drive, step)
+        analysis = report.analyse(drive, step, friction)
         step("figures")
         if options.html:
             write_text(options.html, report.page(analysis))

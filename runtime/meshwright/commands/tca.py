@@ -13,6 +13,7 @@ from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
 from meshwright.cycle.edge import not_first
 from meshwright.pattern.pattern import contour
@@ -30,6 +31,7 @@ SAME_POINT = 1e-5
 def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
+    common.add_friction(parser)
     parser.add_argument(
         "--contour", type=int, metavar="N", help="add the contact patch by separation in N directions, 3 or more (JSON)"
     )
@@ -55,8 +57,11 @@ def run(options):
     points = result.to_points()
     for k, point in enumerate(points):
         point["first_contact"] = first.point(k, result.error)
-    for point, moving in zip(points, velocities(drive, result).plain(), strict=True):
-        point |= moving
+    moving = velocities(drive, result)
+    rubbing = efficiency(drive, result, common.friction_of(options), moving)
+    for point, *found in zip(points, moving.plain(), rubbing.plain(), strict=True):
+        for part in found:
+            point |= part
     _say_unresolved(first)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
@@ -159,9 +164,17 @@ def _table(drive, points):
             f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
             f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
             f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags'], *_others(point)])}"
+            f"{' '.join([point['status'], *point['flags'], *_others(point), *_efficiency(point)])}"
         )
     return "\n".join(lines) + "\n"
+
+
+def _efficiency(point):
+    """A remark on the efficiency, where friction is given."""
+    found = point["efficiency"]
+    if found["pinion_drives"] is None:
+        return ()
+    return (f"(efficiency {found['pinion_drives']:.4f}, wheel drives {found['wheel_drives']:.4f})",)
 
 
 def _others(point):

@@ -5,10 +5,10 @@ pointers lead here. Only the arithmetic differs from the C backend; solver, stat
 """
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
-from meshwright.base.drives import folder_of
 from meshwright.base.library import callback, ffi, model
 from meshwright.design import description as metadata
 
@@ -19,16 +19,16 @@ REPLACED = (
 )  # fmt: skip
 
 
-def model_of(description):
+def model_of(design):
     """A model table whose functions are CasADi's. Its state is the parameters followed by the input angle."""
-    return _table(description["name"])[0]
+    return _table(design.description["name"], design.places)[0]
 
 
 @cache
-def _table(name):
+def _table(name, places):
     """A copy of the compiled model table with the arithmetic replaced; returns it with what must stay alive."""
-    compiled = model(name)
-    arithmetic = _Arithmetic(metadata.described(name), compiled)
+    compiled = model(name, places)
+    arithmetic = _Arithmetic(metadata.described(name, places), compiled)
     table = ffi.new("mw_model *", compiled[0])
     table.ns = arithmetic.parameters + 1
     table.kernels = ffi.NULL  # lanes and tangents are of the compiled arithmetic
@@ -48,7 +48,7 @@ class _Arithmetic:
     def __init__(self, description, compiled):
         import casadi
 
-        self.values = casadi.Function.load(str(folder_of(description["name"]) / f"{description['name']}.casadi"))
+        self.values = casadi.Function.load(str(Path(description["folder"]) / f"{description['name']}.casadi"))
         self.names = self.values.name_out()
         self.unknowns, self.parameters = len(description["unknowns"]), len(description["parameters"])
         self.observed = compiled.no

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright.base.library import library, model, pointer
+from meshwright.base.library import library, pointer
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Function:
         description = drive.design.description
         for k, function in enumerate(description["functions"]):
             if function["name"] == name:
-                return cls(drive, function, model(description["name"]).functions[k])
+                return cls(drive, function, drive.design.model.functions[k])
         raise KeyError(f"the drive {description['name']} has no function {name!r}")
 
     @property
@@ -49,7 +49,7 @@ class Function:
     @cached_property
     def state(self):
         """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
-        compiled = model(self.drive.design.description["name"])
+        compiled = self.drive.design.model
         s = np.empty(compiled.ns)
         compiled.setup(pointer(self.drive.design.parameters), pointer(s))
         return s

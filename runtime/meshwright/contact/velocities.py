@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import library, model, pointer
+from meshwright.base.library import library, pointer
 from meshwright.contact.placement import placed
 
 
@@ -78,7 +78,7 @@ def velocities(drive, result):
 
 def _of_point(drive, angles, solutions, rows):
     """dr/dφ1 (N, 3) of the right-hand drive's contact points in these rows (N,) of bool, NaN elsewhere."""
-    m, p = model(drive.design.description["name"]), drive.design.parameters
+    m, p = drive.design.model, drive.design.parameters
     moving, s, unchanged, dx = np.full((len(angles), 3), np.nan), np.empty(m.ns), np.zeros(m.np), np.empty(m.nx)
     m.setup(pointer(p), pointer(s))
     dr = np.empty(3)

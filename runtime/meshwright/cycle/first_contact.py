@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import ffi, library, model, pointer
+from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.placement import placements_at
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
@@ -211,9 +211,9 @@ class _Search:
 
     def at(self, angles):
         """``mw_first`` or None at angles (N,) of the right-hand drive."""
-        description = self.drive.design.description
-        state = self.drive.flank(description["bodies"][1]["name"]).state
-        return [self._one(model(description["name"]), state, angle) for angle in angles]
+        design = self.drive.design
+        state = self.drive.flank(design.description["bodies"][1]["name"]).state
+        return [self._one(design.model, state, angle) for angle in angles]
 
     def _one(self, compiled, state, angle):
         """``mw_first`` at one angle: from the contact known nearest to it, else from others."""

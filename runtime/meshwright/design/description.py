@@ -22,7 +22,8 @@ class Family:
     or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
     ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
     file holds (:mod:`meshwright.rexs`), None if nothing.
-    ``outline`` says how a first design is made; None where the family does not say it.
+    ``outline`` says how a first design is made, ``regrind`` how a resharpened tool enters one; None where the family
+    does not say it.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Family:
     listed: dict
     exchange: dict | None = None
     outline: dict | None = None
+    regrind: dict | None = None
 
     @classmethod
     def of(cls, name, drives):
@@ -47,10 +49,11 @@ class Family:
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
         own = {name: drive["parameters"] for name, drive in named.items()}
         handed = max(drive["handed"] for drive in named.values())
-        exchange, outline = (
-            next((drive[kind] for drive in drives if drive.get(kind)), None) for kind in ("exchange", "outline")
+        exchange, outline, regrind = (
+            next((drive[kind] for drive in drives if drive.get(kind)), None)
+            for kind in ("exchange", "outline", "regrind")
         )
-        return cls(name, parameters, variants, defaults, handed, own, exchange, outline)
+        return cls(name, parameters, variants, defaults, handed, own, exchange, outline, regrind)
 
 
 def _joint(family, place, found, everywhere):
@@ -65,9 +68,9 @@ def _joint(family, place, found, everywhere):
     return shared[0] | {"tools": tools, "required": everywhere and all(p["required"] for p in found)}
 
 
-def families():
-    """Every family by name."""
-    return _families(folders())
+def families(places=None):
+    """Every family by name, of the drives in the folders ``places``, by default all that are searched."""
+    return _families(places or folders())
 
 
 @cache
@@ -95,19 +98,20 @@ def _drives_in(folder):
         yield from (d for d in described if d.get("schema") == "meshwright.drive/1")
 
 
-def described(name):
-    """The description of a drive."""
-    return _described(name, folders())
+def described(name, places=None):
+    """The description of a drive; ``folder`` in it is the folder that holds it and its CasADi functions."""
+    return _described(name, places or folders())
 
 
 @cache
 def _described(name, places):
-    return json.loads((folder_of(name) / f"{name}.json").read_text(encoding="utf-8"))
+    folder = folder_of(name, places)
+    return json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) | {"folder": str(folder)}
 
 
-def parameters(family):
+def parameters(family, places=None):
     """The parameters of a family: see :class:`Family`."""
-    return families()[family].parameters
+    return families(places)[family].parameters
 
 
 def drives():
@@ -121,9 +125,9 @@ def table_and_key(place):
     return table or "design", key
 
 
-def choose(family, words):
+def choose(family, words, places=None):
     """The drive of a family for the design words that choose a variant (for example the flank forms)."""
-    for name, variant in families()[family].variants.items():
+    for name, variant in families(places)[family].variants.items():
         if all(words[key] in allowed for key, allowed in variant.items()):
-            return described(name)
+            return described(name, places)
     raise KeyError(words)

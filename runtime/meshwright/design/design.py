@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pydantic
 
+from meshwright.base.drives import folders
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, pointer, text
 from meshwright.design import description as metadata
@@ -109,6 +110,7 @@ class Design:
     """A checked design: the drive that solves it and its complete parameter vector (inner units).
 
     ``sizes`` are derived, in the units of their keys; NaN where they follow from what the design leaves open.
+    ``places`` are the folders in which its drive was searched (:func:`meshwright.base.drives.folders`).
     """
 
     tables: dict
@@ -116,6 +118,12 @@ class Design:
     parameters: np.ndarray
     sizes: dict
     mirrored: bool
+    places: tuple[Path, ...]
+
+    @property
+    def model(self):
+        """The compiled model table of the drive, as a cffi pointer."""
+        return model(self.description["name"], self.places)
 
     @property
     def label(self):
@@ -162,7 +170,7 @@ class Design:
         for number, p in zip(self.parameters, self.description["parameters"], strict=True):
             if p["key"] == key and p["table"] == table:
                 return float(number)
-        if any(p["key"] == key and p["table"] == table for p in metadata.parameters(self.family)):
+        if any(p["key"] == key and p["table"] == table for p in metadata.parameters(self.family, self.places)):
             return math.nan
         raise KeyError(f"{table}.{key}")
 
@@ -178,7 +186,7 @@ class Design:
         filled = [of[name] for name in names if math.isnan(known[name]) and not math.isnan(whole[name])]
         assumed = {p["key"]: whole[p["name"]] / p["factor"] for p in filled}
         changes = {f"{p['table']}.{p['key']}": assumed[p["key"]] for p in filled}
-        return (check(changed(self.given(), changes)) if changes else self), assumed
+        return (check(changed(self.given(), changes), self.places) if changes else self), assumed
 
     def given(self):
         """The tables as the design file gives them, without the keys that it leaves open."""
@@ -220,26 +228,30 @@ def _shown(parameter, number):
     return words.get(number, number / parameter["factor"])
 
 
-def validated(tables):
+def validated(tables, places=None):
     """Family and tables of a design, each key checked by itself; raises :class:`DesignError`."""
-    known = metadata.families()
+    known = metadata.families(places)
     if "drive" not in tables:
         raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
     family = tables["drive"]
     if not isinstance(family, str) or family not in known:
         raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
-    return family, _validated(family, tables)
+    return family, _validated(family, tables, places)
 
 
-def check(tables):
-    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them."""
-    family, checked = validated(tables)
-    description = _variant(family, checked)
+def check(tables, places=None):
+    """The :class:`Design` of raw tables; raises :class:`DesignError` for the first thing wrong with them.
+
+    ``places`` are the folders in which its drive is searched, by default :func:`meshwright.base.drives.folders`.
+    """
+    places = places or folders()
+    family, checked = validated(tables, places)
+    description = metadata.choose(family, words_of(metadata.families(places)[family], checked), places)
     _check_exclusive(description, tables["design"])
-    _check_needed(description, checked)
+    _check_needed(description, checked, places)
     _check_together(description, checked)
     _check_order(description, checked)
-    c = model(description["name"])
+    c = model(description["name"], places)
     parameters = _vector(description, checked)
     p = pointer(parameters)
     _complete(c, description, p, checked)
@@ -248,7 +260,7 @@ def check(tables):
     if failed:
         raise _guard_error(description["guards"][failed - 1], checked)
     parameters.flags.writeable = False
-    return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked))
+    return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked), places)
 
 
 def by_rules(tables):
@@ -265,8 +277,8 @@ def by_rules(tables):
         "title": f"{family} drive", "family": family, "parameters": known.listed[drive], "together": [],
         "exclusive": known.exchange["exclusive"],
     }  # fmt: skip
-    for check_of_keys in (_check_needed, _check_order):
-        check_of_keys(description, checked)
+    _check_needed(description, checked)
+    _check_order(description, checked)
     _check_exclusive(description, tables["design"])
     symbols = {p["name"]: math.nan for p in known.parameters}
     given = zip(description["parameters"], _vector(description, checked), strict=True)
@@ -278,16 +290,16 @@ def by_rules(tables):
     return checked, symbols
 
 
-def _validated(family, tables):
+def _validated(family, tables, places):
     try:
-        return schema.design_model(family).model_validate(tables).model_dump()
+        return schema.design_model(family, places).model_validate(tables).model_dump()
     except pydantic.ValidationError as error:
         # a misspelt key is what the missing one was meant to be: it is named first
         first = sorted(error.errors(), key=lambda problem: problem["type"] != "extra_forbidden")[0]
-        raise _first_error(family, first) from None
+        raise _first_error(family, first, places) from None
 
 
-def _first_error(family, problem):
+def _first_error(family, problem, places):
     place = [str(part) for part in problem["loc"] if not str(part).startswith(("function-", "constrained"))]
     key = ".".join(dict.fromkeys(p for p in place if p not in ("float", "int")))
     value, kind, context = problem.get("input"), problem["type"], problem.get("ctx", {})
@@ -295,7 +307,7 @@ def _first_error(family, problem):
         case "missing":
             return DesignError(key, None, "the key is missing", "add it to the design")
         case "extra_forbidden":
-            near = difflib.get_close_matches(place[-1], _known_keys(family, place), n=1)
+            near = difflib.get_close_matches(place[-1], _known_keys(family, place, places), n=1)
             remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
             return DesignError(key, value, "unknown key", remedy)
         case "greater_than":
@@ -328,15 +340,10 @@ def _first_error(family, problem):
             return DesignError(key, value, problem["msg"], "correct the value")
 
 
-def _known_keys(family, place):
+def _known_keys(family, place, places):
     if len(place) == 1:
-        return list(schema.design_model(family).model_fields)
-    return [entry["key"] for entry in schema.keys(family) if entry["table"] == place[0]]
-
-
-def _variant(family, checked):
-    """The drive for the design's words; words left out follow the word they default to."""
-    return metadata.choose(family, words_of(metadata.families()[family], checked))
+        return list(schema.design_model(family, places).model_fields)
+    return [entry["key"] for entry in schema.keys(family, places) if entry["table"] == place[0]]
 
 
 def words_of(family, checked):
@@ -383,14 +390,14 @@ def _check_exclusive(description, given):
             raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
 
 
-def _check_needed(description, checked):
+def _check_needed(description, checked, places=None):
     """Every key that the drive requires is given, and none that its tools do not use."""
     own = {(p["table"], p["key"]) for p in description["parameters"]}
     for p in description["parameters"]:
         if p["required"] and p["table"] != "flank" and checked[p["table"]].get(p["key"]) is None:
             place = f"{p['table']}.{p['key']}"
             raise DesignError(place, None, f"a {description['title']} cannot be made without it", "add it")
-    for p in metadata.parameters(description["family"]):
+    for p in metadata.parameters(description["family"], places):
         table, key = p["table"], p["key"]
         if table != "flank" and (table, key) not in own and (value := checked[table].get(key)) is not None:
             of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else ""

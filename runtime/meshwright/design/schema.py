@@ -75,9 +75,9 @@ def _has_required(model):
     return any(field.is_required() for field in model.model_fields.values())
 
 
-def design_model(family):
+def design_model(family, places=None):
     """The pydantic model of a family's design file."""
-    return _design_model(metadata.families()[family])
+    return _design_model(metadata.families(places)[family])
 
 
 @cache
@@ -122,9 +122,9 @@ def json_schema():
     }
 
 
-def keys(family):
+def keys(family, places=None):
     """Keys of a family as plain data, for ``meshwright drives``."""
-    model = design_model(family).model_json_schema()
+    model = design_model(family, places).model_json_schema()
     definitions = model.pop("$defs")
     listed = []
     for name, definition in definitions.items():

@@ -16,8 +16,10 @@ from meshwright.fe.generated import about_z
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.hexahedra import FACES, Floats, HexMesh, Ints, merge
 from meshwright.fe.rim import check_rim
-from meshwright.fe.sizes import solid_sizes
+from meshwright.fe.sizes import other_flank, solid_sizes
 from meshwright.fe.solids import RIM_MODULES, teeth_of
+from meshwright.fe.thread_body import facet_departures, finer_rows, thread_body
+from meshwright.fe.thread_flanks import thread_sides
 from meshwright.fe.tooth import Stations, ToothForm, mesh_tooth, moved
 
 _MERGE_TOLERANCE = 1e-8
@@ -50,9 +52,11 @@ def closed_body(
     whole, _ = drive.design.with_whole_blank()
     drive = Drive(whole, drive.backend)
     sizes = solid_sizes(drive, member)
-    if "teeth" not in sizes:
-        what = "goes on as a thread beyond the portion in mesh" if sizes else "has no declared sizes of solid teeth"
+    if not sizes:
+        what = "has no declared sizes of solid teeth"
         raise UsageError(f"--solid: the {member} of this drive {what}; export its flank and fillet instead")
+    if "tip_radius" in sizes:
+        return _threaded(drive, member, teeth, departure, rim_thickness or RIM_MODULES * sizes["module"])
     count = round(sizes["teeth"])
     if teeth is not None and not 1 <= teeth <= count:
         raise UsageError(f"--teeth {teeth}: the {member} has {count} teeth; choose from 1 to {count}")
@@ -66,11 +70,31 @@ def closed_body(
         raise DesignError("blank", None, f"the {member} has no whole teeth: {error}", "change its blank") from error
     density, reached = _density(form, departure)
     body = _teeth(form, density, teeth or count, _to_next(form, count))
-    points, triangles = _boundary(body)
+    return _of_design(drive, *_boundary(body), reached, teeth or count)
+
+
+def _threaded(drive: Drive, member: str, teeth: int | None, departure: float, rim_thickness: float) -> ClosedBody:
+    """All threads of a member, along its axis as far as what contact uses of its flanks."""
+    count = round(2.0 * np.pi / drive.pitch())
+    if teeth not in (None, count):
+        raise UsageError(f"--teeth {teeth}: the {member} is one body with {count} threads; leave --teeth out")
+    used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in (drive, other_flank(drive))])
+    try:
+        sides = thread_sides(drive, member, rim_thickness)
+        sections, reached = thread_body(sides, drive.pitch(), (float(used.min()), float(used.max())), departure)
+    except DesignError:
+        raise
+    except ValueError as error:
+        raise DesignError("blank", None, f"the {member} has no whole thread: {error}", "change its blank") from error
+    return _of_design(drive, *sections.triangles(), reached, count)
+
+
+def _of_design(drive: Drive, points: Floats, triangles: Ints, reached: float, teeth: int) -> ClosedBody:
+    """The body with the hand of the design; raises ValueError where it is not closed."""
     if drive.design.mirror.sign < 0:
         points, triangles = points * drive.design.mirror.flip, triangles[:, ::-1]
     _check_closed(triangles)
-    return ClosedBody(points, triangles, volume(points, triangles), reached, teeth or count)
+    return ClosedBody(points, triangles, volume(points, triangles), reached, teeth)
 
 
 def volume(points: Floats, triangles: Ints) -> float:
@@ -81,39 +105,24 @@ def volume(points: Floats, triangles: Ints) -> float:
 
 def _density(form: ToothForm, departure: float) -> tuple[MeshDensity, float]:
     """The rows at which the sagitta of the flanks' facets is below ``departure``, and that sagitta."""
-    (profile, face), before = _FEWEST, np.inf
+    profile, face = _FEWEST
     while True:
-        along_profile, along_face = (
-            max(_sagitta(form, name, profile, face)[k] for name in ("left", "right")) for k in (0, 1)
-        )
-        reached = along_profile + along_face
-        # a flank that is itself interpolated between followed lines gets no nearer by more facets
-        if reached <= departure or (profile, face) == _MOST or reached > 0.7 * before:
+        across, along, reached = np.max([_off(form, name, profile, face) for name in ("left", "right")], axis=0)
+        finer = finer_rows((profile, face), (across, max(along, reached - across)), departure, _MOST)
+        if reached <= departure or finer == (profile, face):
             break
-        before = reached
-        profile = min(_MOST[0], int(np.ceil(profile * max(1.0, np.sqrt(2.2 * along_profile / departure)))))
-        face = min(_MOST[1], int(np.ceil(face * max(1.0, np.sqrt(2.2 * along_face / departure)))))
+        profile, face = finer
     fillet = max(8, 2 * (profile // 4))
     return MeshDensity(coarse_rows=(2, profile, face), coarse_fillet_rows=fillet), reached
 
 
-def _sagitta(form: ToothForm, name: str, profile: int, face: int) -> tuple[float, float]:
-    """Largest distance of a facet's edge from the flank it spans, along profile and face, mm: κ h²/8."""
-    values = np.linspace(*form.faces, face + 1)
-    fractions = np.broadcast_to(np.linspace(0.0, 1.0, profile + 1), (face + 1, profile + 1))
-    grid = form.side(name).flank.rail(values).at(fractions)
-
-    def bend(before: Floats, at: Floats, after: Floats) -> float:
-        chord = after - before
-        off = (before + after) / 2.0 - at
-        across = off - chord * (np.sum(off * chord, axis=-1) / np.sum(chord**2, axis=-1))[..., None]
-        # the facet spans half of this chord
-        return float(np.linalg.norm(across, axis=-1).max() / 4.0)
-
-    return (
-        bend(grid[:, :-2], grid[:, 1:-1], grid[:, 2:]),
-        bend(grid[:-2], grid[1:-1], grid[2:]),
-    )
+def _off(form: ToothForm, name: str, profile: int, face: int) -> tuple[float, float, float]:
+    """:func:`~meshwright.fe.thread_body.facet_departures` of one flank's facets."""
+    values = np.linspace(*form.faces, 2 * face + 1)
+    fractions = np.broadcast_to(np.linspace(0.0, 1.0, 2 * profile + 1), (len(values), 2 * profile + 1))
+    rail = form.side(name).flank.rail(values)
+    places = rail.parameters(fractions)
+    return facet_departures(*rail.curves.surface(places, rail.curves.solve(values, places)))
 
 
 def _to_next(form: ToothForm, count: int) -> Floats:

@@ -46,11 +46,11 @@ def _sides(drive: Drive, member: str) -> tuple[SideName, dict[SideName, ToothSid
     except DesignError:
         raise
     except ValueError as error:
-        widest = _widest_face(drive, member, width)
+        widest, narrowest = _widest_face(drive, member, width)
+        reason = f"the tool leaves no whole tooth there: {error if widest else narrowest}"
         remedy = f"choose at most {widest:g}, the widest face found whole" if widest else (
             f"no narrower face is found whole either: change {key_of(drive, 'wheel_tip')}"
         )
-        reason = f"the tool leaves no whole tooth there: {error}"
         raise DesignError(place, width, reason, remedy) from error
 
 
@@ -60,24 +60,27 @@ def _side(drive: Drive, member: str) -> ToothSide:
     return generated_side(drive, member, span(drive, member), (sizes["face_first"], sizes["face_last"]))
 
 
-def _widest_face(drive: Drive, member: str, width: float) -> float | None:
-    """Largest face width in mm, of three digits and less than a given one, that has whole sides; None: no width has."""
+def _widest_face(drive: Drive, member: str, width: float) -> tuple[float | None, str]:
+    """Largest face width in mm, of three digits and less than a given one, that has whole sides, None if no width has;
+    and what the narrowest one without lacks.
+    """
     decimals = 2 - int(np.floor(np.log10(width)))
     table, key = table_and_key(key_of(drive, "wheel_face"))
 
-    def whole(steps: int) -> bool:
+    def lacks(steps: int) -> str:
         try:
             for one in (drive, other_flank(drive)):
                 _side(one.with_(**{table: {key: round(steps * 10.0**-decimals, decimals)}}), member)
-        except ValueError:
-            return False
-        return True
+        except ValueError as error:
+            return str(error)
+        return ""
 
-    narrow, wide = 0, int(np.ceil(width * 10.0**decimals))
+    narrow, wide, reason = 0, int(np.ceil(width * 10.0**decimals)), ""
     while wide - narrow > 1:
         middle = (narrow + wide) // 2
-        narrow, wide = (middle, wide) if whole(middle) else (narrow, middle)
-    return round(narrow * 10.0**-decimals, decimals) if narrow else None
+        lacking = lacks(middle)
+        narrow, wide, reason = (narrow, middle, lacking) if lacking else (middle, wide, reason)
+    return round(narrow * 10.0**-decimals, decimals) if narrow else None, reason
 
 
 def _check_land(form: ToothForm, drive: Drive) -> None:

@@ -43,6 +43,23 @@ class Outline:
     below_tip: Callable[[Floats], Floats]
     radius: float
 
+    def arc_centres(self, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
+        """Centres (..., 3) of the arcs that touch a flank at points with normals (..., 3), and its unit normals
+        (..., 3) within the sections.
+        """
+        across = self.across(points)
+        within = normals - np.sum(normals * across, axis=-1, keepdims=True) * across
+        within = within / np.linalg.norm(within, axis=-1, keepdims=True)
+        return points + self.radius * within, within
+
+    def arcs(self, centre: Floats, within: Floats, share: Floats) -> tuple[Floats, Floats]:
+        """Points and normals (..., 3) at shares (...,) of the arcs from root to flank."""
+        _, upward = self.above_root(centre)
+        whole = np.arccos(np.clip(np.sum(upward * within, axis=-1), -1.0, 1.0))
+        shares = [np.sin((1.0 - share) * whole) / np.sin(whole), np.sin(share * whole) / np.sin(whole)]
+        normals = shares[0][..., None] * upward + shares[1][..., None] * within
+        return centre - self.radius * normals, normals
+
 
 def rounded_side(
     surface: Surface, section: Section, span: Span, faces: tuple[float, float], outline: Outline
@@ -58,7 +75,7 @@ def rounded_side(
     joint = np.full_like(values, span.root)
     reaches = arcs.overlap(joint, values) < 0.0
     if reaches.any():
-        joint[reaches] = _crossing(arcs.overlap, values[reaches], (span.root, span.middle))
+        joint[reaches] = crossing(arcs.overlap, values[reaches], (span.root, span.middle))
     joint_of = CubicSpline(values, joint)
     flank = SectionCurves(surface, section, joint_of, tip)
     fillet = SectionCurves(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
@@ -72,11 +89,14 @@ def _tip_line(
 
     below_tip: points (..., 3) to the height (...,) left. Raises ValueError where the flank does not reach the tip.
     """
-    return CubicSpline(values, _crossing(lambda u, s: below_tip(_at(flank, s, u)[0]), values, ends))
+    return CubicSpline(values, crossing(lambda u, s: below_tip(_at(flank, s, u)[0]), values, ends))
 
 
-def _crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[float, float]) -> Floats:
-    """Profile parameter (K,) between ``ends`` at which the function of it and of the section (K,) vanishes."""
+def crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[float, float]) -> Floats:
+    """Profile parameter (K,) between ``ends`` at which the function of it and of the section (K,) vanishes.
+
+    Raises ValueError where it does not.
+    """
     found = elementwise.find_root(function, ends, args=(values,), tolerances={"xatol": 1e-13, "xrtol": 1e-13})
     if not np.all(found.success):
         raise ValueError("the flank does not reach its tip in every section of its face")
@@ -99,11 +119,7 @@ class _Arcs:
 
     def centre(self, profile: Floats, values: Floats) -> tuple[Floats, Floats]:
         """Centres (K, 3) and the flank's unit normals (K, 3) within the sections."""
-        points, normals = _at(self.flank, values, profile)
-        across = self.outline.across(points)
-        within = normals - np.sum(normals * across, axis=-1, keepdims=True) * across
-        within = within / np.linalg.norm(within, axis=-1, keepdims=True)
-        return points + self.outline.radius * within, within
+        return self.outline.arc_centres(*_at(self.flank, values, profile))
 
     def overlap(self, profile: Floats, values: Floats) -> Floats:
         """Height (K,) of the arcs above the root: 0 where they touch it."""
@@ -116,12 +132,7 @@ class _Arcs:
             profile, face = np.broadcast_arrays(profile, face)
             values, which = np.unique(face, return_inverse=True)
             centre, within = self.centre(joint(values), values)
-            _, upward = self.outline.above_root(centre)
-            turn = np.arccos(np.clip(np.sum(upward * within, axis=-1), -1.0, 1.0))
             which = which.reshape(face.shape)
-            whole = turn[which]
-            shares = [np.sin((1.0 - profile) * whole) / np.sin(whole), np.sin(profile * whole) / np.sin(whole)]
-            normals = shares[0][..., None] * upward[which] + shares[1][..., None] * within[which]
-            return centre[which] - self.outline.radius * normals, normals
+            return self.outline.arcs(centre[which], within[which], profile)
 
         return evaluate

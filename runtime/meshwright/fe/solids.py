@@ -22,7 +22,7 @@ from meshwright.fe.material import Material, Materials
 from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.rim import check_rim
 from meshwright.fe.sizes import solid_sizes
-from meshwright.fe.thread_flanks import threads
+from meshwright.fe.thread_flanks import place_in_contact, threads
 from meshwright.fe.tooth import Teeth
 
 # Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
@@ -125,10 +125,7 @@ def _touch(drive: Drive, angle: float) -> Touch | None:
 
 def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) -> Member:
     """The member in its placement, turning about its own z axis."""
-    if not np.all(np.isfinite(drive.tca([0.0]).wheel_angles)):
-        raise DesignError(
-            "design", drive.design.tables["name"], "no contact at a pinion angle of 0", "check the design"
-        )
+    place_in_contact(drive, name)
     stand = placed(drive, [0.0], [0.0])
     zero, direction = stand.matrices[name][0], stand.axes[name][0][0]
     turning = 1 if direction @ zero[:3, 2] > 0.0 else -1

@@ -8,10 +8,12 @@ Arcs join flanks and root.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.base.errors import DesignError
+from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
 from meshwright.fe.generated import constant, region_surface, turned
 from meshwright.fe.hexahedra import Floats
@@ -31,11 +33,27 @@ _THICKNESS_TOLERANCE = 1e-9
 _SENSE_STEP = 1e-3
 
 
+@dataclass(frozen=True)
+class ThreadSides:
+    """Both flanks of a thread in hand, the pinion's own side, its blank and a point (3,) of it that faces the wheel."""
+
+    flanks: dict[SideName, ThreadFlank]
+    working: SideName
+    blank: ThreadBlank
+    facing: Floats
+
+
 def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """The thread of a drive with a whole blank; rim_thickness in mm from the root to the bore.
 
     Raises ValueError where the second flank finds no place.
     """
+    sides = thread_sides(drive, member, rim_thickness)
+    return thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
+
+
+def thread_sides(drive: Drive, member: str, rim_thickness: float) -> ThreadSides:
+    """Flanks and blank of the thread of a drive with a whole blank, as for :func:`threads`."""
     sizes = solid_sizes(drive, member)
     bore = bore_radius(sizes["root_radius"], rim_thickness)
     blank = ThreadBlank(sizes["tip_radius"], sizes["root_radius"], sizes["rounding"], bore, sizes["taper"])
@@ -54,18 +72,32 @@ def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
         working: ThreadFlank(_facing(surfaces[0], spans[0], 0.0), spans[0]),
         opposite(working): ThreadFlank(_facing(surfaces[1], spans[1], turn), spans[1]),
     }
-    return thread_teeth(flanks, working, blank, drive.pitch(), facing)
+    return ThreadSides(flanks, working, blank, facing)
 
 
 def contact(drive: Drive, member: str) -> tuple[Floats, Floats]:
     """Point and outward normal (3,) of a member, body frame, in contact at pinion angle 0."""
-    found = drive.tca([0.0])
-    if not found.solved[0]:
-        name = drive.design.tables.get("name")
-        raise DesignError("design", name, "no contact at a pinion angle of 0", "check the design")
-    flank = drive.flank(member)
-    here = flank([[found.unknowns[name][0] for name in flank.parameters]])
+    here = drive.flank(member)(place_in_contact(drive, member)[None])
     return here.points[0], here.normals[0]
+
+
+def place_in_contact(drive: Drive, member: str) -> Floats:
+    """Parameters (k,) of a member's flank in contact at pinion angle 0.
+
+    Raises DesignError where nothing touches, naming the flank that the blank leaves empty if that is why.
+    """
+    found = drive.tca([0.0])
+    if found.solved[0]:
+        return np.array([found.unknowns[name][0] for name in drive.flank(member).parameters])
+    for of in ("pinion", "wheel"):
+        flank = drive.region(of)
+        if flank.empty:
+            tip = drive.design.description["loading"]["keys"].get(f"{of}_tip") if "tip" in flank.conflict else None
+            value = drive.design.value(*reversed(table_and_key(tip))) if tip else None
+            raise DesignError(tip or "blank", value, flank.why_empty, f"change {tip}" if tip else "change the blank")
+    name = drive.design.tables.get("name")
+    reason = f"no contact at a pinion angle of 0 ({found.status[0]})"
+    raise DesignError("design", name, reason, "change the blank or the design until `meshwright tca` finds one there")
 
 
 def span(drive: Drive, member: str) -> Span:

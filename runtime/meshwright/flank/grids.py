@@ -51,10 +51,7 @@ def grid(drive, member, shape, name, uses, inset=0.0):
     whole = region(drive, member, name, uses)
     triangles = mesh(whole, tuple(n - 1 for n in shape))
     if not len(triangles.triangles):
-        raise UsageError(
-            f"the {name} of the {member} is empty: no part of its surface lies within the limits of the design;"
-            " change [blank] or [design]"
-        )
+        raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
     values = _Lines.over(whole, triangles, shape[1], inset).rows(shape[0], inset)
     return _of_design(drive, whole.flank, shape, values, triangles)
 

@@ -173,13 +173,15 @@ class Lattice:
 @dataclass(frozen=True)
 class Region:
     """A bounded surface: the ``chart`` it is found in, its ``limits``, an inner place ``seed`` (k,), None where the
-    limits leave nothing of it, and a ``box`` (2, 2), lower and upper coordinates, that holds it.
+    limits leave nothing of it, and a ``box`` (2, 2), lower and upper coordinates, that holds it. ``conflict`` names the
+    limits exceeded where the surface of an empty region comes nearest to keeping them all.
     """
 
     chart: Chart
     limits: Limits
     seed: np.ndarray | None
     box: np.ndarray
+    conflict: tuple[str, ...] = ()
 
     @property
     def flank(self):
@@ -189,6 +191,14 @@ class Region:
     def empty(self):
         """Whether no part of the surface lies inside all limits."""
         return self.seed is None
+
+    @property
+    def why_empty(self):
+        """An empty region and what leaves nothing of it, in words."""
+        return (
+            f"the {self.flank.region} of the {self.flank.body['name']} is empty: no part of its surface lies within "
+            + (f"these limits at once: {', '.join(self.conflict)}" if self.conflict else "the limits of the design")
+        )
 
     def lattice(self, cells):
         """The :class:`Lattice` of cells × cells over the box, a cell more on every side: nodes that hang together with
@@ -207,12 +217,12 @@ def region(drive, member, name, uses):
     flank = drive.flank(member, name)
     places, sizes = uses.on(flank)
     limits = _limits(drive, flank, uses)
-    start = _start(flank, limits, places, sizes)
+    start, conflict = _start(flank, limits, places, sizes)
     if start is None:
         if not np.isfinite(flank(places).points).all(axis=1).any():
             raise UsageError(f"the {name} of the {member} is not defined: give its sizes in [blank]")
         chart = Chart.at(flank, _on_surface(flank, places[:1], sizes)[0], sizes)
-        return Region(chart, limits, None, np.zeros((2, 2)))
+        return Region(chart, limits, None, np.zeros((2, 2)), conflict)
     chart = Chart.at(flank, start, sizes)
     limits = _closed(chart, limits, start, places, uses.beyond)
     return _boxed(chart, limits, _deeper(chart, limits, start))
@@ -268,7 +278,7 @@ def _limits(drive, flank, uses):
     else:
         whole = region(drive, flank.body["name"], "flank", uses)
         if whole.empty:
-            raise UsageError(f"the flank of the {flank.body['name']} is empty: nothing of it lies within the limits")
+            raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
         inner = mesh(whole, (CELLS, CELLS))
         along, _ = lengthwise(whole.flank, whole.flank(inner.parameters))
         low, high, name = along.min(), along.max(), "face"
@@ -299,20 +309,26 @@ def _on_surface(flank, places, sizes):
 
 
 def _start(flank, limits, places, sizes):
-    """A place (k,) inside every limit, from the places that contact uses; None if no such place is found."""
+    """A place (k,) inside every limit, from the places that contact uses, and (); where no such place is found None
+    and the names of the limits exceeded at the place that exceeds them least.
+    """
     q = _on_surface(flank, places[np.isfinite(places).all(axis=1)], sizes)
+    nearest, conflict = -np.inf, ()
     for _ in range(NEWTON_STEPS):
         if not len(q):
-            return None
-        found = flank(q)
-        values = limits.values(found)
+            break
+        values = limits.values(flank(q))
         least = values.min(axis=1)
-        if (least >= 0.0).any():
-            return q[np.argmax(least)]
+        best = int(np.argmax(least))
+        if least[best] >= 0.0:
+            return q[best], ()
+        if least[best] > nearest:
+            exceeded = [name for name, value in zip(limits.names, values[best], strict=True) if value < 0.0]
+            nearest, conflict = least[best], tuple(dict.fromkeys(exceeded))
         q = q[np.isfinite(least)]
         if len(q):
             q = _inwards(flank, limits, q, sizes)
-    return None
+    return None, conflict
 
 
 def _inwards(flank, limits, q, sizes):

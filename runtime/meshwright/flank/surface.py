@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import library, model, pointer
+from meshwright.base.library import library, pointer
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Flank:
     @cached_property
     def state(self):
         """State of the compiled model, whatever backend solves the contact: flanks do not depend on it."""
-        compiled = model(self.drive.design.description["name"])
+        compiled = self.drive.design.model
         s = np.empty(compiled.ns)
         compiled.setup(pointer(self.drive.design.parameters), pointer(s))
         return s

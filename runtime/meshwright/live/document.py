@@ -16,7 +16,7 @@ def page(drive):
         "TITLE": html.escape(f"{contents['name']} – {contents['title']}"),
         "STYLE": _part("live.css"),
         "DATA": json.dumps(contents, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
-        "MODULE": base64.b64encode(compiled(contents["drive"])).decode("ascii"),
+        "MODULE": base64.b64encode(compiled(contents["drive"], drive.design.description["folder"])).decode("ascii"),
         "SCRIPT": "\n".join(_part(f"{name}.js") for name in ("solver", "plots", "live")),
     }
     text = _part("live.html")

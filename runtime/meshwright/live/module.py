@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from meshwright.base.drives import SHIPPED, folder_of
+from meshwright.base.drives import SHIPPED
 from meshwright.base.errors import LibraryError, UsageError
 
 SOURCE = Path(__file__).parent / "page" / "live.c"
@@ -22,8 +22,8 @@ FLAGS = (
 )  # fmt: skip
 
 
-def compiled(name):
-    """The WebAssembly module (bytes) of the drive ``name``.
+def compiled(name, folder):
+    """The WebAssembly module (bytes) of the drive ``name``, whose headers the folder of drives has.
 
     Raises :class:`UsageError` without the compiler (clang of the package ``ziglang``), :class:`LibraryError` if it
     refuses a source.
@@ -32,9 +32,9 @@ def compiled(name):
         raise UsageError(
             "live: ziglang, the compiler for WebAssembly, is not installed; `pip install 'meshwright[live]'` brings it"
         )
-    headers = (SOURCE.parent / "include", folder_of(name) / "include", SHIPPED / "include", SHIPPED / "source")
-    with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder) / f"{name}.wasm"
+    headers = (SOURCE.parent / "include", Path(folder) / "include", SHIPPED / "include", SHIPPED / "source")
+    with tempfile.TemporaryDirectory() as work:
+        target = Path(work) / f"{name}.wasm"
         command = [
             sys.executable, "-m", "ziglang", "cc", *FLAGS, *(f"-I{place}" for place in headers),
             f"-DLIVE_DRIVE={name}", f'-DLIVE_HEADER="{name}.h"', str(SOURCE), "-o", str(target),

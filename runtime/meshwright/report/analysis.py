@@ -6,8 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshwright.contact.contact_line import ContactLine, contact_line
+from meshwright.contact.friction import Efficiency, efficiency
 from meshwright.contact.placement import placements
 from meshwright.contact.results import TCA, impossible
+from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.pairs import Mesh
@@ -83,7 +85,8 @@ class Analysis:
     ``tca`` is at N ascending angles, ``steps_per_pitch`` of them a pitch; ``pattern`` is at some of them. ``lines`` (N)
     exist only where the flanks touch along lines. They, the ``matrices`` (N, 4, 4) that place the members' frames in
     the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
-    flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch.
+    flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch,
+    ``moving`` and ``efficiency`` the velocities and what friction makes of them.
     """
 
     drive: Drive
@@ -96,6 +99,8 @@ class Analysis:
     patches: dict[str, Patch]
     sensitivities: tuple[Sensitivity, ...]
     breaks: np.ndarray
+    moving: Velocities
+    efficiency: Efficiency
 
     @property
     def mirror(self):
@@ -121,8 +126,11 @@ class Analysis:
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
 
-def analyse(drive, step):
-    """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work."""
+def analyse(drive, step, friction=None):
+    """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work.
+
+    ``friction`` is a :class:`~meshwright.contact.friction.Friction` or None.
+    """
     step("window of contact")
     mesh = Mesh.of(drive)
     along_lines = mesh.window.status == "line_contact"
@@ -141,9 +149,11 @@ def analyse(drive, step):
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
         sensitivities.append(sensitivity(drive, parameter, angles))
+    moving = velocities(drive, tca)
     return Analysis(
-        drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca)
-    )
+        drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),
+        moving, efficiency(drive, tca, friction, moving),
+    )  # fmt: skip
 
 
 def steps(drive):

@@ -43,7 +43,8 @@ def groups(analysis):
     found = []
     if analysis.sensitivities and np.isfinite(analysis.tca.error).any():
         found.append(_sensitivities(analysis))
-    return [*found, _design(analysis.drive.design), _positions(analysis)]
+    found += [_design(analysis.drive.design), _positions(analysis)]
+    return [*found, _sliding(analysis)] if analysis.tca.solved.any() else found
 
 
 def _design(design):
@@ -181,3 +182,32 @@ def _positions(analysis):
     note = "Contact of one pair over the pinion angle, four positions a pitch; contact point in the fixed frame."
     table = Table("", header, tuple(rows), frozenset(range(9)))
     return Group("positions", "Contact, position by position", note, (table,))
+
+
+def _sliding(analysis):
+    """Velocities and efficiency, position by position."""
+    tca, moving, found = analysis.tca, analysis.moving, analysis.efficiency
+    sliding, entraining = (np.linalg.norm(v, axis=1) for v in (moving.sliding, moving.entraining))
+    specific = moving.specific_sliding
+    columns = {
+        "pinion, °": (np.degrees(tca.angles), 2),
+        "sliding, mm/rad": (sliding, 4),
+        "entraining, mm/rad": (entraining, 4),
+        "specific sliding, pinion": (specific["pinion"], 3),
+        "wheel": (specific["wheel"], 3),
+        "self-locking from friction": (found.self_locking, 4),
+    }
+    if np.isfinite(found.friction).any():
+        columns |= {
+            "friction": (found.friction, 4),
+            "efficiency, pinion drives": (found.pinion_drives, 4),
+            "wheel drives": (found.wheel_drives, 4),
+        }
+    steps = range(0, len(tca.angles), max(1, analysis.steps_per_pitch // 4))
+    rows = tuple(tuple(fixed(values[k], decimals) for values, decimals in columns.values()) for k in steps)
+    note = (
+        "Velocities for one radian of the pinion a second: of the pinion's flank relative to the wheel's, and the mean "
+        "of both through the contact. Specific sliding is infinite where a flank rests in the contact. From the "
+        "coefficient of friction given, the wheel cannot drive the pinion; vibration undoes it."
+    )
+    return Group("sliding", "Sliding and efficiency", note, (Table("", tuple(columns), rows, frozenset(range(9))),))

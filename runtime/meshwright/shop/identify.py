@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import library, model, pointer
+from meshwright.base.library import library, pointer
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
 from meshwright.shop.least_squares import Estimate, estimate
@@ -241,7 +241,7 @@ def _of_design(flanks, member, key, fixed):
     """Column (N,) of a key of the design, mm per unit of the key; the keys ``fixed`` do not follow it."""
     column = np.empty(sum(len(rows) for rows in flanks.rows))
     for drive, rows, q in zip(flanks.drives, flanks.rows, flanks.parameters, strict=True):
-        m, p = model(drive.design.description["name"]), drive.design.parameters
+        m, p = drive.design.model, drive.design.parameters
         given, change = designs.given_vector(drive.design), np.zeros(m.np)
         for other in fixed:
             if other not in POSE:

@@ -20,6 +20,7 @@ from meshwright.base.errors import DesignError, UsageError
 from meshwright.base.files import locked, write_bytes
 from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, SOLVED
+from meshwright.design import design as designs
 from meshwright.drive import Drive
 from meshwright.sweep import samples, slices
 
@@ -68,7 +69,8 @@ class Plan:
     """A sweep: raw design tables, variations, pinion angles (rad), number of samples or grid levels, seed.
 
     ``portable`` rows have the same bits on every machine; otherwise they differ by round-off between those whose
-    processor fuses products into sums and those whose does not.
+    processor fuses products into sums and those whose does not. ``places`` are the folders in which the drive is
+    searched, by default :func:`meshwright.base.drives.folders`.
     """
 
     tables: dict
@@ -78,11 +80,17 @@ class Plan:
     levels: int = 0
     seed: int = 0
     portable: bool = False
+    places: tuple[Path, ...] | None = None
+
+    @property
+    def drive(self):
+        """The nominal drive."""
+        return Drive(designs.check(self.tables, self.places))
 
     @property
     def identity(self):
         """Hash of everything that decides a row: what is asked, and the compiled drive that answers."""
-        description = Drive.from_tables(self.tables).design.description
+        description = self.drive.design.description
         how = [self.angles, self.samples, self.levels, self.seed, self.portable]
         who = [description["name"], description["specification_hash"], description["generator"]]
         data = [self.tables, [vars(v) for v in self.variations], *how, *who]
@@ -138,7 +146,7 @@ def check(plan):
     if plan.count * len(plan.angles) > MOST_POINTS:
         points = plan.count * len(plan.angles)
         raise UsageError(f"{points} points: {MOST_POINTS} at most; sweep fewer samples or levels")
-    drive = Drive.from_tables(plan.tables)
+    drive = plan.drive
     for k, v in enumerate(plan.variations):
         samples.column(drive, v.key)
         if v.key in {other.key for other in plan.variations[:k]}:

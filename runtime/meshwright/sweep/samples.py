@@ -220,6 +220,7 @@ def column(drive, key):
     """Index and entry of the parameter that a key ("table.key") of the design file sets; it must be free to vary."""
     table, _, name = key.partition(".")
     description = drive.design.description
+    known = metadata.parameters(description["family"], drive.design.places)
     if table == "design" and designs.has_rival(drive.design, name):
         raise DesignError(key, None, "another key of the design determines it", "vary that key instead")
     if any(key in group for group in description["together"]) and not _is_given(drive.design, table, name):
@@ -227,7 +228,7 @@ def column(drive, key):
     for k, p in enumerate(description["parameters"]):
         if (p["table"], p["key"]) == (table, name) and designs.is_real(p):
             return k, p
-    if any((p["table"], p["key"]) == (table, name) for p in metadata.parameters(description["family"])):
+    if any((p["table"], p["key"]) == (table, name) for p in known):
         raise DesignError(key, None, f"a {description['title']} does not use it", "vary another key")
     raise DesignError(key, None, "no real parameter of this drive", "`meshwright drives` lists the keys as table.key")
 

@@ -1,0 +1,404 @@
+"""The as-measured flank in contact: nominal surface plus interpolated deviation along its normal.
+
+r̃ = r + δ n with a bicubic spline δ through the measured values; along the tooth its coordinate is that of the lines,
+and across it the share of the way from the first to the last of them. The normal follows without differences: with the
+shape operator S, ñ ∝ n − (1 − δ S)⁻¹ ∇δ. Nothing is extrapolated: a contact beyond the measured grid has no numbers.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.base.errors import UsageError
+from meshwright.contact.placement import placed
+from meshwright.flank.region import lengthwise
+from meshwright.pattern.gap import smallest_margin
+from meshwright.shop.located import located
+from meshwright.shop.spline import Knots
+from meshwright.shop.tables import Points
+
+#: Points of a file are a grid if shares of the profile differ by less than this from line to line.
+REGULAR = 1e-4
+
+#: Newton steps, the size at which they are done (mm and rad), what is left of a solved contact, and steps of the
+#: differences by which the matrix of the equations, not their solution, is known.
+STEPS, DONE, SOLVED, DIFFERENCE = 40, 1e-12, 1e-9, 1e-6
+
+#: Points into which each cell of the grid is divided, each way, for first contact, pattern and ease-off; angles of the
+#: window at which pattern and ease-off are looked at.
+FINER, ANGLES = 4, 33
+
+#: A place outside the grid by less than this share of a cell is on its border.
+ON_BORDER = 1e-6
+
+#: A tangency is the first contact if no other place of the grid overlaps by more than this, mm.
+OVERLAP = 1e-6
+
+
+@dataclass(frozen=True)
+class Field:
+    """Deviations ``values`` (N, M), mm, over a flank: lines across it at ``along`` (M,) with ``ends`` (2, M) of the
+    profile parameter; ``nodes`` (N, M, k) parameters of the flank.
+    """
+
+    flank: object
+    across: Knots
+    along: Knots
+    ends: np.ndarray
+    values: np.ndarray
+    nodes: np.ndarray
+
+    @classmethod
+    def of(cls, drive, member, points, tooth=None):
+        """The field of the design's flank of one tooth, by default the first that is measured.
+
+        Raises :class:`~meshwright.base.errors.UsageError` where it is not a whole grid.
+        """
+        word = drive.design.tables["flank"]
+        own = np.array([w == word for w in points.flank])
+        if not own.any():
+            raise UsageError(f"flank = {word!r}: the design's flank is not measured; set the flank that is")
+        tooth = int(points.tooth[own].min()) if tooth is None else tooth
+        rows = np.flatnonzero(own & (points.tooth == tooth))
+        if not len(rows):
+            raise UsageError(f"--tooth {tooth}: its {word} flank is not measured; name one of the file's teeth")
+        chosen = Points(
+            points.tooth[rows], tuple(points.flank[k] for k in rows), points.i[rows], points.j[rows],
+            points.points[rows], points.normals[rows], points.deviations[rows],
+        )  # fmt: skip
+        shape = int(chosen.i.max()) + 1, int(chosen.j.max()) + 1
+        order = np.full(shape, -1)
+        order[chosen.i, chosen.j] = np.arange(len(rows))
+        missing = np.argwhere((order < 0) | ~np.isfinite(chosen.deviations[order]))
+        if min(shape) < 2 or len(missing):
+            i, j = missing[0] if len(missing) else (1, 1)
+            raise UsageError(
+                f"tooth {tooth}, {word} flank, i = {i}, j = {j}: not measured, so that there is no surface between its "
+                "neighbours; measure a grid without gaps: a larger --margin-percent of `meshwright grid`"
+            )
+        flanks = located(drive, member, chosen)
+        return cls._over(flanks.drives[0].flank(member), flanks.parameters[0][order], chosen.deviations[order])
+
+    @classmethod
+    def _over(cls, flank, nodes, values):
+        reached = lengthwise(flank, flank(nodes.reshape(-1, nodes.shape[2])))[0].reshape(values.shape)
+        profile, along = nodes[:, :, 0], reached.mean(axis=0)
+        ends = profile[[0, -1]]
+        shares = (profile - ends[0]) / (ends[1] - ends[0])
+        across = shares.mean(axis=1)
+        uneven = np.ptp(shares, axis=1).max() + np.ptp(reached, axis=0).max() / np.ptp(along)
+        if not uneven < REGULAR:
+            raise UsageError("--measured: its points are not those of one `meshwright grid`; measure such a grid")
+        order = np.argsort(along)
+        return cls(
+            flank, Knots.at(across), Knots.at(along[order]), ends[:, order], values[:, order], nodes[:, order]
+        )
+
+    def at(self, found):
+        """Deviations (P,) at flank points, their slopes by the flank's parameters (P, k), and places (P, 2) in the
+        grid: 0 to 1 each way inside it.
+        """
+        reached, by_q = lengthwise(self.flank, found)
+        room = np.diff(self.along.places)
+        y = np.clip(reached, self.along.places[0] - room[0], self.along.places[-1] + room[-1])
+        along, along_slope = self.along.weights(y)
+        low, high = along @ self.ends[0], along @ self.ends[1]
+        low_slope, high_slope = along_slope @ self.ends[0], along_slope @ self.ends[1]
+        share = (found.parameters[:, 0] - low) / (high - low)
+        step = np.diff(self.across.places)
+        across, across_slope = self.across.weights(np.clip(share, -step[0], 1.0 + step[-1]))
+        value = np.einsum("pi,ij,pj->p", across, self.values, along)
+        by_share = np.einsum("pi,ij,pj->p", across_slope, self.values, along)
+        by_along = np.einsum("pi,ij,pj->p", across, self.values, along_slope)
+        by_along -= by_share * (low_slope + share * (high_slope - low_slope)) / (high - low)
+        slopes = by_along[:, None] * by_q
+        slopes[:, 0] += by_share / (high - low)
+        place = np.stack([share, (reached - self.along.places[0]) / np.ptp(self.along.places)], axis=1)
+        return value, slopes, place
+
+    def inside(self, place):
+        """Which places (P, 2) lie in the grid."""
+        margin = ON_BORDER / (np.array(self.values.shape) - 1.0)
+        return ((place > -margin) & (place < 1.0 + margin)).all(axis=1)
+
+    def lattice(self, finer=FINER):
+        """Parameters (n·m, k) of the flank on a lattice over the grid that holds its nodes, and its shape."""
+        lines = [_divided(knots.places, finer) for knots in (self.across, self.along)]
+        across, along = (knots.weights(line)[0] for knots, line in zip((self.across, self.along), lines, strict=True))
+        q = np.einsum("ai,ijk,bj->abk", across, self.nodes, along).reshape(-1, self.nodes.shape[2])
+        for _ in range(STEPS if q.shape[1] > 2 else 0):  # back onto the surface, by the shortest way
+            conditions = self.flank(q).conditions
+            step = np.einsum("pkc,pc->pk", np.linalg.pinv(conditions[:, :, 1:]), conditions[:, :, 0])
+            q = q - step
+            if not np.abs(step).max() > 1e-13:
+                break
+        return q, (len(lines[0]), len(lines[1]))
+
+
+def _divided(places, finer):
+    steps = np.arange(finer) / finer
+    return np.append((places[:-1, None] + np.diff(places)[:, None] * steps).ravel(), places[-1])
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A member's flank, with a :class:`Field` of deviations or without: points, normals, conditions, body frame."""
+
+    flank: object
+    field: Field | None = None
+
+    def __call__(self, q):
+        """Points (P, 3), unit normals (P, 3), conditions (P, c) and whether a measured value is there (P,)."""
+        found = self.flank(q)
+        if self.field is None:
+            return found.points, found.normals, found.conditions[:, :, 0], smallest_margin(found) > -SOLVED
+        value, slopes, place = self.field.at(found)
+        curved = self.flank.curvature(q)
+        matrix = np.concatenate(
+            [np.einsum("pax,pkx->pak", curved.basis, found.tangents), found.conditions[:, :, 1:]], axis=1
+        )
+        right = np.zeros((len(value), matrix.shape[1], 2))
+        right[:, 0, 0] = right[:, 1, 1] = 1.0
+        with np.errstate(invalid="ignore"):
+            steps = _solve(matrix, right)
+        gradient = np.einsum("pk,pka->pa", slopes, steps)
+        shrunk = np.eye(2) - value[:, None, None] * curved.second_form
+        turned = _solve(shrunk, gradient[:, :, None])[:, :, 0]
+        normals = found.normals - np.einsum("pa,pax->px", turned, curved.basis)
+        normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+        points = found.points + value[:, None] * found.normals
+        return points, normals, found.conditions[:, :, 0], self.field.inside(place)
+
+
+def _solve(matrix, right):
+    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(right).all(axis=(1, 2))
+    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
+    found = np.full((len(matrix), matrix.shape[2], right.shape[2]), np.nan)
+    found[good] = np.linalg.solve(matrix[good], right[good])
+    return found
+
+
+@dataclass(frozen=True)
+class MeasuredContact:
+    """Contact of as-measured flanks at N pinion ``angles``; NaN where there is none on the measured grid.
+
+    ``errors``: transmission error of the tangency, ``nominal`` that of the design, rad; ``points`` and ``normals``
+    (N, 3) fixed frame, normals out of the pinion. ``status``: converged, off_grid or diverged. ``first``: transmission
+    error at which the flanks touch first, ``kinds`` tangency or edge: of the grid or of the mate.
+    """
+
+    angles: np.ndarray
+    status: tuple[str, ...]
+    errors: np.ndarray
+    nominal: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    first: np.ndarray
+    kinds: tuple[str | None, ...]
+
+
+@dataclass(frozen=True)
+class EaseOff:
+    """Over the nodes of the grid (N, M), mm: ``ease_off``, the normal distance from the conjugate of the mate, least 0;
+    NaN where the mate never comes; ``pattern``: the share of the grid that comes nearer to the mate than the
+    ``separation`` in any position of the pair.
+    """
+
+    ease_off: np.ndarray
+    pattern: float
+    separation: float
+
+
+@dataclass(frozen=True)
+class AsMeasured:
+    """A drive whose ``member`` has a measured :class:`Field`; all inside is of the right-hand drive."""
+
+    drive: object
+    member: str
+    field: Field
+
+    @classmethod
+    def of(cls, drive, member, points, tooth=None):
+        """From :class:`~meshwright.shop.tables.Points` with deviations."""
+        return cls(drive, member, Field.of(drive, member, points, tooth))
+
+    @property
+    def _bodies(self):
+        return self.drive.design.description["bodies"]
+
+    def _surfaces(self):
+        return [Surface(self.drive.flank(b["name"]), self.field if b["name"] == self.member else None)
+                for b in self._bodies]  # fmt: skip
+
+    def tca(self, angles):
+        """:class:`MeasuredContact` at pinion angles (N,), rad."""
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        nominal, mirror = self.drive.tca(angles), self.drive.design.mirror
+        turned = mirror.sign * angles
+        parts = [nominal.solutions[:, b["unknowns"]] for b in self._bodies]
+        errors = nominal.solutions[:, self.drive.design.description["error"]]
+        start = np.concatenate([*parts, errors[:, None]], axis=1)
+        first, nearest, sense = self._first(turned, parts, errors)
+        found = self._solved(turned, start)
+        from_lattice = self._solved(turned, nearest)
+        better = ~found.good | (sense * from_lattice.errors > sense * found.errors + DONE)
+        found = found.where(from_lattice.good & better, from_lattice)
+        touching = found.good & found.inside
+        lever = np.abs(nominal.lever_arms["wheel"])
+        tangency = touching & ~(sense * (first - found.errors) * lever > OVERLAP)
+        first = np.where(tangency, found.errors, first)
+        kept = np.where(touching, 1.0, np.nan)
+        status = [("converged" if t else "off_grid") if g else "diverged" for g, t in
+                  zip(found.good, touching, strict=True)]  # fmt: skip
+        kinds = tuple(None if math.isnan(f) else "tangency" if t else "edge" for f, t in
+                      zip(first, tangency, strict=True))  # fmt: skip
+        flip = mirror.flip
+        return MeasuredContact(
+            angles, tuple(status), mirror.sign * kept * found.errors, nominal.error,
+            kept[:, None] * found.points * flip, kept[:, None] * found.normals * flip, mirror.sign * first, kinds,
+        )  # fmt: skip
+
+    def ease_off(self, low, high, separation):
+        """:class:`EaseOff` over the positions of a pair between two pinion angles, rad, at a ``separation`` in mm."""
+        angles = np.linspace(low, high, ANGLES)
+        nominal = self.drive.tca(angles)
+        turned = self.drive.design.mirror.sign * angles
+        parts = [nominal.solutions[:, b["unknowns"]] for b in self._bodies]
+        errors = nominal.solutions[:, self.drive.design.description["error"]]
+        behind, near = [], []
+        q, shape = self.field.lattice()
+        for k in np.flatnonzero(np.isfinite(errors)):
+            found, lever, _ = self._turned(turned[k], [p[k] for p in parts], errors[k], q)
+            sense = np.sign(nominal.lever_arms["wheel"][k])
+            if np.isfinite(found).any():
+                behind.append(-sense * found * np.abs(lever))
+                near.append((np.nanmax(sense * found) - sense * found) * np.abs(lever))
+        if not behind:
+            raise UsageError("--measured: the mate comes nowhere to the measured grid; check member, flank and tooth")
+        with np.errstate(invalid="ignore"):
+            least = np.fmin.reduce(behind).reshape(shape)
+            close = np.fmin.reduce(near).reshape(shape)
+        nodes = (slice(None, None, FINER),) * 2
+        return EaseOff(least[nodes] - np.nanmin(least), float(np.mean(close < separation)), float(separation))
+
+    def _first(self, angles, parts, errors):
+        """First contact over the lattice: transmission errors (N,), starts (N, k) there, and the sense of the wheel."""
+        q, _ = self.field.lattice()
+        first, starts = np.full(len(angles), np.nan), np.full((len(angles), sum(p.shape[1] for p in parts) + 1), np.nan)
+        senses = np.full(len(angles), np.nan)
+        for k in np.flatnonzero(np.isfinite(errors)):
+            found, lever, other = self._turned(angles[k], [p[k] for p in parts], errors[k], q)
+            if not np.isfinite(found).any():
+                continue
+            senses[k] = np.sign(lever[np.flatnonzero(np.isfinite(found))[0]])
+            best = int(np.nanargmax(senses[k] * found))
+            first[k] = found[best]
+            pair = [q[best] if b["name"] == self.member else other[best] for b in self._bodies]
+            starts[k] = np.concatenate([*pair, found[best : best + 1]])
+        return first, starts, senses
+
+    def _turned(self, angle, parts, error, q):
+        """Transmission errors (P,) at which the mate reaches measured points of parameters q (P, k) at a pinion angle,
+        the levers of the wheel there (mm), and the mate's parameters. NaN where it does not reach them.
+        """
+        surfaces, names = self._surfaces(), [b["name"] for b in self._bodies]
+        own = names.index(self.member)
+        fixed = surfaces[own](q)[0]
+        flank = surfaces[1 - own].flank
+        other, errors = np.tile(parts[1 - own], (len(q), 1)), np.full(len(q), error)
+        open_, size = np.ones(len(q), dtype=bool), np.full(len(q), np.inf)
+        for _ in range(STEPS):
+            found, matrices, points, arm = self._meeting(angle, errors, own, fixed, flank, other)
+            residual = np.concatenate([points[own] - points[1 - own], found.conditions[:, :, 0]], axis=1)
+            rotation = matrices[names[1 - own]][:, :3, :3]
+            n, k = other.shape
+            slopes = np.zeros((n, residual.shape[1], k + 1))
+            slopes[:, :3, :k] = -np.einsum("nij,nkj->nik", rotation, found.tangents)
+            slopes[:, :3, k] = arm if names[own] == "wheel" else -arm
+            slopes[:, 3:, :k] = found.conditions[:, :, 1:]
+            step = _solve(slopes, residual[:, :, None])[:, :, 0]
+            size = np.abs(np.einsum("nki,nk->ni", found.tangents, step[:, :k])).max(axis=1)
+            step *= np.minimum(1.0, 2.0 / np.maximum(size, 1e-300))[:, None]
+            other, errors = other - step[:, :k], errors - step[:, k]
+            open_ = ~(size < 1e-10)
+            if not (open_ & np.isfinite(size)).any():
+                break
+        found, matrices, points, arm = self._meeting(angle, errors, own, fixed, flank, other)
+        with np.errstate(invalid="ignore"):
+            lost = open_ | ~(smallest_margin(found) > -SOLVED)
+        normals = np.einsum("nij,nj->ni", matrices[names[1 - own]][:, :3, :3], found.normals)
+        lever = np.einsum("ni,ni->n", normals, arm) * (1.0 if names[1 - own] == "pinion" else -1.0)
+        return np.where(lost, np.nan, errors), np.where(lost, np.nan, lever), other
+
+    def _meeting(self, angle, errors, own, fixed, flank, other):
+        """The mate's flank points, placements, the points of both (fixed frame), and how the wheel moves there."""
+        names = [b["name"] for b in self._bodies]
+        stand = placed(self.drive, np.full(len(errors), angle), self.drive.ratio * angle + errors)
+        found = flank(other)
+        points = [None, None]
+        for which, body in ((own, fixed), (1 - own, found.points)):
+            matrix = stand.matrices[names[which]]
+            points[which] = np.einsum("nij,nj->ni", matrix[:, :3, :3], body) + matrix[:, :3, 3]
+        direction, origin = stand.axes["wheel"]
+        return found, stand.matrices, points, np.cross(direction, points[names.index("wheel")] - origin)
+
+    def _solved(self, angles, start):
+        """Tangencies from start values (N, k1 + k2 + 1) by Newton's method."""
+        x = start.copy()
+        for _ in range(STEPS):
+            residual = self._residual(angles, x)[0]
+            matrix = np.empty((*residual.shape, x.shape[1]))
+            for c in range(x.shape[1]):
+                step = DIFFERENCE * np.maximum(1.0, np.abs(x[:, c]))
+                ahead, back = x.copy(), x.copy()
+                ahead[:, c] += step
+                back[:, c] -= step
+                sides = [self._residual(angles, y)[0] for y in (ahead, back)]
+                matrix[:, :, c] = (sides[0] - sides[1]) / (2.0 * step)[:, None]
+            step = _solve(matrix, residual[:, :, None])[:, :, 0]
+            x = x - step * np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1), 1e-300))[:, None]
+            if not (np.abs(step) > DONE * np.maximum(1.0, np.abs(x))).any():
+                break
+        residual, points, normals, inside = self._residual(angles, x)
+        with np.errstate(invalid="ignore"):
+            good = (np.abs(residual) < SOLVED).all(axis=1)
+        return _Tangencies(good, inside, x[:, -1], points, normals)
+
+    def _residual(self, angles, x):
+        """Residual (N, k1 + k2 + 1): places apart, normals' tangential parts, conditions; and where that is."""
+        stand = placed(self.drive, angles, self.drive.ratio * angles + x[:, -1])
+        at, points, normals, conditions, inside = 0, [], [], [], np.ones(len(x), dtype=bool)
+        for body, surface in zip(self._bodies, self._surfaces(), strict=True):
+            count = len(surface.flank.parameters)
+            place, normal, left, here = surface(x[:, at : at + count])
+            matrix = stand.matrices[body["name"]]
+            points.append(np.einsum("nij,nj->ni", matrix[:, :3, :3], place) + matrix[:, :3, 3])
+            normals.append(np.einsum("nij,nj->ni", matrix[:, :3, :3], normal))
+            conditions.append(left)
+            inside &= here
+            at += count
+        first = np.cross(normals[0], np.eye(3)[np.argmin(np.abs(np.nan_to_num(normals[0])), axis=1)])
+        first /= np.linalg.norm(first, axis=1)[:, None]
+        apart = [np.einsum("ni,ni->n", normals[1], t)[:, None] for t in (first, np.cross(normals[0], first))]
+        return np.concatenate([points[0] - points[1], *apart, *conditions], axis=1), points[0], normals[0], inside
+
+
+@dataclass(frozen=True)
+class _Tangencies:
+    """Solved contacts: which are ``good`` and ``inside`` the grid and the mate's limits; errors, points, normals."""
+
+    good: np.ndarray
+    inside: np.ndarray
+    errors: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+
+    def where(self, chosen, other):
+        """The other ones where chosen (N,)."""
+        pick = chosen[:, None]
+        return _Tangencies(
+            np.where(chosen, other.good, self.good), np.where(chosen, other.inside, self.inside),
+            np.where(chosen, other.errors, self.errors), np.where(pick, other.points, self.points),
+            np.where(pick, other.normals, self.normals),
+        )  # fmt: skip

@@ -1,0 +1,12 @@
+"""Parameters of which some are tried by ``make test`` and the others by ``make validate``."""
+
+import pytest
+
+
+def quick(values, *now):
+    """The values as parameters of a test; all but those of ``now`` are marked ``validate``."""
+    return [pytest.param(*_listed(v), marks=[] if v in now else [pytest.mark.validate]) for v in values]
+
+
+def _listed(value):
+    return value if isinstance(value, tuple) else (value,)
