@@ -4,8 +4,9 @@ Elastic teeth are factorised once, which takes seconds for gears and about a min
 a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
 loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
 pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force.
-Exit status 1 if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is
-too large for the method.
+Where the two bounded flanks of a pair touch first on an edge, before the tangency that the method builds on, there are
+no figures: status ``not_first``. Exit status 1 then, and if no tooth pair touches at one of the angles, its contact
+under load is not found, or the torque is too large for the method.
 """
 
 import numpy as np
@@ -15,6 +16,7 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.edge import not_first
 
 SCHEMA = "meshwright.loaded/1"
 
@@ -31,11 +33,12 @@ def run(options):
     angles = common.angles_of(options, drive)
     with progress(len(angles) + 4) as step:
         gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
-        compliance = loading.compliances(fe, gear, pairs, step)
+        late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+        compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
         points = []
-        for angle in angles:
+        for angle, why in zip(angles, late, strict=True):
             step(f"pinion at {np.degrees(angle):.4g} deg")
-            points.append(_point(fe, gear, angle, pairs, load, compliance))
+            points.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
     document = {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -52,8 +55,28 @@ def run(options):
     return 0 if all(point["pairs"] for point in points) else 1
 
 
-def _point(fe, gear, angle, pairs, load, compliance):
-    point = {
+def _not_first(fe, drive, gear, angle, pairs):
+    """Why there are no figures at an angle: the pairs whose tangency lies inside the other flank, and what touches
+    first; "" if every tangency is the first contact of its flanks.
+    """
+    numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
+    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers]))
+    first = drive.first_contact(result.angles, result)
+    overlaps = 1000.0 * first.overlaps(result.error)
+    return "; ".join(
+        f"the tangency of pair {number:+d} would lie {overlaps[k]:.4g} um inside the other flank: first contact is "
+        f"{first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the method has no figures"
+        for k, number in enumerate(numbers)
+        if "not_first" in not_first(result, first).flags[k]
+    )
+
+
+def _refused(angle, message):
+    return _nothing(angle) | {"status": "not_first", "message": message}
+
+
+def _nothing(angle):
+    return {
         "pinion_angle_deg": float(np.degrees(angle)),
         "status": "no_contact",
         "message": "no tooth pair touches at this angle",
@@ -62,6 +85,10 @@ def _point(fe, gear, angle, pairs, load, compliance):
         "rotation_rad": None,
         "pairs": [],
     }
+
+
+def _point(fe, gear, angle, pairs, load, compliance):
+    point = _nothing(angle)
     if not fe.pair.touches(gear, angle, pairs):
         return point
     try:

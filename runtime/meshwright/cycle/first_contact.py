@@ -67,6 +67,13 @@ class FirstContacts:
         """
         return np.maximum(self.levers * (self.errors - errors), 0.0)
 
+    def words(self, k):
+        """First contact k in words, such as "edge of the wheel (face)"; "" if there is none."""
+        if self.kinds[k] in (None, "tangency"):
+            return self.kinds[k] or ""
+        whose = "both members" if self.members[k] == "both" else f"the {self.members[k]}"
+        return f"{self.kinds[k]} of {whose} ({', '.join(self.limits[k])})".replace("_", " ")
+
     def point(self, k, errors):
         """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
         if self.kinds[k] is None:
