@@ -7,7 +7,7 @@ READY  := $(VENV)/.ready
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
 
-.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate
+.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
 
 setup: $(READY)
 
@@ -51,7 +51,7 @@ build: setup
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
-	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r $$folder generated && rm -r $$folder
+	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site $$folder generated && rm -r $$folder
 
 # Set up, regenerate, prove, compile, and solve a published drive beside the paper's table.
 run: setup
@@ -77,6 +77,15 @@ test-fe: build solver
 # Points a second of every kernel and of the baselines, in one table.
 bench: build
 	$(PY) -m tests.benchmarks.bench
+
+# The site: tutorial, reference, live pages, audit record; one static folder, generated/site, that is not committed.
+site: build
+	$(PY) -m pip install --quiet --editable '.[site,live]'
+	$(PY) runtime/site/build.py
+
+# Wheels for Linux, macOS and Windows in dist/, all cross-compiled here; with TARGETS="linux-aarch64 …" those.
+wheels: build
+	$(PY) runtime/wheels.py dist $(TARGETS:%=--target %)
 
 # Build and run the examples: C, C++, ctypes, CMake, pkg-config, wheel, CasADi, WebAssembly, Cortex-M7, ARM64.
 examples: build cmake

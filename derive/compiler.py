@@ -17,7 +17,7 @@ import json
 from pathlib import Path
 
 from derive.audit.provenance import provenance
-from derive.emit import c99, casadi, lanes, metadata, sensitivity
+from derive.emit import c99, casadi, certified, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals
 from derive.passes import guards
@@ -64,6 +64,7 @@ def _files(plan, origin):
     files = {
         f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
         f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
+        f"c/{drive.name}_certified.h": certified.header(plan, metadata.GENERATOR),
         f"descriptions/{drive.name}.json": description.text(drive),
     }
     files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}

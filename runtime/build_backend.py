@@ -37,15 +37,19 @@ global-exclude *.py[cod]
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """A wheel with the compiled libraries; it runs on any processor of this platform, and with any Python 3."""
+    """A wheel with the compiled libraries; it runs on any processor of this platform, and with any Python 3.
+
+    With the setting ``libraries = "built"`` it holds those that ``make build`` has left in the checkout.
+    """
+    settings = dict(config_settings or {})
     generated = ROOT / "generated"
     families = json.loads((generated / "families.json").read_text(encoding="utf-8"))
     drives = _program("derive/packaged.py").packaged(families)
     arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects")]
-    if _program("runtime/meshwright/base/compile.py").main(arguments):
+    if settings.pop("libraries", None) != "built" and _program("runtime/meshwright/base/compile.py").main(arguments):
         raise SystemExit("the libraries do not compile: see above")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    options = {**(config_settings or {}), "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
+    options = {**settings, "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
     with _record(generated / "audit"):
         return build_meta.build_wheel(wheel_directory, options, metadata_directory)
 

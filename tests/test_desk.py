@@ -34,7 +34,7 @@ def test_every_packaged_design_survives_printing(name):
 def test_every_status_and_flag_is_explained(capsys):
     assert main(["explain"]) == 0
     shown = capsys.readouterr().out
-    for word in (*statuses().values(), "interference", "throat"):
+    for word in (*statuses().values(), "interference", "throat", "not_first", "edge_contact"):
         assert f" {word} " in shown
     assert main(["explain", "interference"]) == 0
     assert "bodies cannot make" in capsys.readouterr().out

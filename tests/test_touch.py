@@ -56,6 +56,7 @@ def test_a_surface_parameter_outside_its_domain_is_no_flank():
     assert _touch(drive, x, o) == library().MW_LEFT_FLANK
 
 
+@pytest.mark.validate
 def test_normals_that_are_parallel_are_never_a_contact():
     """Both bodies on one side of the tangent plane, the worm at a negative radius: the equations hold all the same."""
     drive = Drive.from_tables(DESIGN)

@@ -189,7 +189,7 @@ def bevel(cut_gear):
         start=mean.start(phi_1, error, ratio),
         guess={},
         sample=SAMPLE_FORMATE if formate else SAMPLE,
-        sample_angle=0.03,
+        sample_angle=0.9 if formate else 0.03,
         reference_angle=k.mean_pinion_angle.symbol,
         pinion_teeth=k.pinion_teeth.key,
         variant_defaults={"pinion.method": "generated", "gear.method": "generated"},

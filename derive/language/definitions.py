@@ -18,6 +18,7 @@ class Definitions:
         self._values = {}
         self._derivatives = {}
         self._origins = {}
+        self._equations = {}
 
     def __getitem__(self, symbol):
         return self._values[symbol]
@@ -31,6 +32,14 @@ class Definitions:
     def origin(self, symbol):
         """The :class:`~derive.language.origin.Origin` given with a name, or None."""
         return self._origins.get(symbol)
+
+    def solves(self, symbol, equation, slope):
+        """A name is the solution of ``equation`` = 0, an expression of the name with this derivative by it."""
+        self._equations[symbol] = equation, slope
+
+    def equations(self):
+        """(name, equation, slope) of every name that solves an equation."""
+        return tuple((symbol, *rest) for symbol, rest in self._equations.items())
 
     def let(self, name, value, meaning="", unit="", frame="", origin=None, parity=1):
         """Name a value; numbers and single symbols need no name and are returned as they are.

@@ -90,6 +90,7 @@ def explicit(surface):
         named = surface.definitions.let(
             parameter.name, solution, parameter.meaning, parameter.unit, origin=origin, parity=parameter.parity
         )
+        surface.definitions.solves(named, replaced(condition, {parameter: named}), slope)
         remaining = tuple(p for p in surface.parameters if p != parameter)
         done = replace(surface, parameters=remaining, conditions=tuple(others))
         made = Step.of("solved", parameter=parameter, value=solution)

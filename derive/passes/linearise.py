@@ -1,39 +1,90 @@
-"""Linearisation by way of the angles.
+"""Linearisation by way of the angles and of what equations were solved for.
 
 An angle on which several unknowns act (the sum in a rotation) is treated as a variable of its own: everything behind
-it is differentiated by it once, not once for each unknown. The result is a sparse linear system in the changes of the
-unknowns and of these angles; eliminating the angles gives the Jacobian.
+it is differentiated by it once, not once for each unknown. So is the solution of an equation: its derivatives are
+those of the equation over its slope, shorter than those of the solution. The result is a sparse linear system in the
+changes of the unknowns and of these variables; eliminating the variables gives the Jacobian.
 """
 
 from dataclasses import dataclass
 
+from derive.program.tape import Stage
+
 
 @dataclass(frozen=True)
 class Linear:
-    """The tangent system: ``matrix`` · (changes of the unknowns, changes of the angles) = (−residual, 0).
+    """The tangent system: ``matrix`` · (changes of the unknowns, changes of the variables) = (−residual, 0).
 
-    The first rows belong to the residual; row k of the rest says what changes angle k, which has −1 there.
+    The first rows belong to the residual; row k of the rest says what changes variable k, an angle or the solution of
+    an equation, which has −1 there.
     """
 
     matrix: list
     unknowns: int
 
     @property
-    def angles(self):
+    def variables(self):
         return len(self.matrix) - self.unknowns
 
 
-def linearise(tape, residual, unknowns):
-    """The :class:`Linear` system of as many residual nodes as unknown (input) nodes."""
-    angles = _angles(tape, residual, unknowns)
-    partial = _Partials(tape, angles)
-    columns = [*unknowns, *angles]
-    matrix = [[partial(row, x) for x in columns] for row in residual]
-    for k, angle in enumerate(angles):
-        later = len(angles) - k - 1
-        row = [partial(angle, x) for x in columns[: len(unknowns) + k]]
-        matrix.append([*row, tape.constant(-1), *[tape.constant(0)] * later])
-    return Linear(matrix, len(unknowns))
+def linearise(tape, residual, unknowns, solutions=()):
+    """The :class:`Linear` system of as many residual nodes as unknown (input) nodes.
+
+    ``solutions`` are nodes (solution, equation, slope): the equation is 0, its derivative by the solution the slope.
+    What is held as a variable, and which way each row is differentiated, is what needs the fewest operations.
+    """
+    best = _assembled(tape, residual, unknowns, {})
+    equations = {solution: rest for solution, *rest in solutions}
+    if equations:
+        held = _assembled(tape, residual, unknowns, equations)
+        best = min(best, held, key=lambda linear: _operations(tape, residual, linear.matrix))
+    return best
+
+
+def _assembled(tape, residual, unknowns, equations):
+    variables = _variables(tape, residual, unknowns, equations)
+    columns = [*unknowns, *variables]
+    forward, backward = _Forward(tape, variables), _Backward(tape, columns)
+    rows = [*residual, *(equations.get(variable, (variable,))[0] for variable in variables)]
+    sides = [[side(row, columns) for side in (forward, backward)] for row in rows]
+    for k, variable in enumerate(variables):
+        for way, row in enumerate(sides[len(residual) + k]):
+            sides[len(residual) + k][way] = _closed(tape, row, len(unknowns) + k, equations.get(variable), variable)
+    return Linear(_cheapest(tape, residual, sides), len(unknowns))
+
+
+def _closed(tape, row, at, equation, variable):
+    """The row of a variable, −1 in its own column: what changes it are the columns before."""
+    before = row[:at]
+    if equation is not None:
+        with tape.within(tape.origins.get(variable)):
+            over = tape.div(tape.constant(-1), equation[1])
+        before = [tape.mul(slope, over) for slope in before]
+    return [*before, tape.constant(-1), *[tape.constant(0)] * (len(row) - at - 1)]
+
+
+def _cheapest(tape, residual, sides):
+    """Of two ways to write each row the ones that together need the fewest operations: rows turn alone or in pairs,
+    since two rows may share what the one alone would not pay for.
+    """
+    rows = [forward for forward, _ in sides]
+    least = _operations(tape, residual, rows)
+    places = range(len(rows))
+    for turned in ((k, m) for k in places for m in places if k <= m):
+        tried = [sides[k][1] if k in turned else row for k, row in enumerate(rows)]
+        if (count := _operations(tape, residual, tried)) < least:
+            rows, least = tried, count
+    return rows
+
+
+def _operations(tape, residual, rows):
+    """Operations of a Newton step, but for the solution of the system in the unknowns alone."""
+    entries = [[tape.const_value(e) is None for e in row] for row in rows]
+    values = (e for row, varies in zip(rows, entries, strict=True) for e, v in zip(row, varies, strict=True) if v)
+    needed = tape.needed([*dict.fromkeys((*residual, *values))])
+    eliminated = range(len(residual), len(rows))
+    elimination = 2 * sum(sum(entries[k]) * sum(tape.const_value(row[k]) != 0 for row in rows) for k in eliminated)
+    return sum(tape.stages[i] == Stage.ITERATE for i in needed) + elimination
 
 
 def jacobian(tape, linear):
@@ -52,29 +103,34 @@ def jacobian(tape, linear):
     return [total(row) for row in linear.matrix[:n]]
 
 
-def _angles(tape, outputs, inputs):
-    """Arguments of sines and cosines that depend on more than one input, in order of evaluation."""
+def _variables(tape, outputs, inputs, equations):
+    """Solutions of equations, and arguments of sines and cosines that depend on more than one input, as evaluated."""
     acting = {i: {i} for i in inputs}
-    turned = set()
+    held = set()
     order = tape.needed(outputs, set(inputs))
     for i in order:
         node = tape.nodes[i]
         acting[i] = set().union(*(acting.get(a, ()) for a in node.args))
         if node.op in ("sin", "cos") and len(acting[i]) > 1:
-            turned.add(node.args[0])
-    return [i for i in order if i in turned]
+            held.add(node.args[0])
+        if i in equations and len(acting[i]) > 1:
+            held.add(i)
+    return [i for i in order if i in held]
 
 
-class _Partials:
-    """Derivatives by a variable while the other angles are held."""
+class _Forward:
+    """Derivatives by each variable while the others are held, by the chain rule from the inputs on."""
 
-    def __init__(self, tape, angles):
+    def __init__(self, tape, variables):
         self.tape = tape
-        self.angles = set(angles)
+        self.variables = set(variables)
         self._done = {}
 
-    def __call__(self, i, variable):
-        """∂(node i)/∂variable; node i itself may be an angle."""
+    def __call__(self, i, variables):
+        """∂(node i)/∂(each variable); node i itself may be one of them."""
+        return [self._by(i, variable) for variable in variables]
+
+    def _by(self, i, variable):
         stack = [i]
         while stack:
             top = stack[-1]
@@ -89,9 +145,35 @@ class _Partials:
         return self._slope(i, variable) if i == variable else self._done[i, variable]
 
     def _held(self, i, variable):
-        return i == variable or i in self.angles or not self.tape.nodes[i].args
+        return i == variable or i in self.variables or not self.tape.nodes[i].args
 
     def _slope(self, i, variable):
         if self._held(i, variable):
             return self.tape.constant(1 if i == variable else 0)
         return self._done[i, variable]
+
+
+class _Backward:
+    """The same by the adjoint chain rule, from the result back: once for all variables."""
+
+    def __init__(self, tape, variables):
+        self.tape = tape
+        self.variables = variables
+
+    def __call__(self, i, variables):
+        tape, known = self.tape, set(self.variables) - {i}
+        order = tape.needed([i], known)
+        moved = set(known)
+        for k in order:
+            if any(a in moved for a in tape.nodes[k].args):
+                moved.add(k)
+        adjoint = {i: tape.constant(1)}
+        for k in reversed(order):
+            if k not in adjoint or k not in moved:
+                continue
+            for a in dict.fromkeys(tape.nodes[k].args):
+                if a in moved:
+                    slopes = {b: tape.constant(int(b == a)) for b in tape.nodes[k].args}
+                    share = tape.mul(adjoint[k], tape.rule(k, slopes))
+                    adjoint[a] = tape.add(adjoint[a], share) if a in adjoint else share
+        return [adjoint.get(x, tape.constant(0)) if x != i else tape.constant(1) for x in variables]

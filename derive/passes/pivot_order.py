@@ -1,6 +1,6 @@
 """One fused Newton step: x − J⁻¹R as straight-line operations with a pivot order chosen offline.
 
-The system solved is the one in the unknowns and the angles (see :mod:`derive.passes.linearise`), sparser than J.
+The system solved is the one in the unknowns and further variables (see :mod:`derive.passes.linearise`), sparser than J.
 
 The order is found at a sample solution: among the entries that are large enough to be stable, the one that costs
 least fill (Markowitz). The runtime checks the step and falls back on complete pivoting where the order fails.
@@ -17,7 +17,7 @@ def newton_step(plan):
     """Nodes of the updated unknowns and of their changes."""
     tape, linear = plan.tape, plan.linear
     order = _pivot_order(plan, sample.in_double(plan.sample))
-    right = [*plan.residual, *[tape.constant(0)] * linear.angles]
+    right = [*plan.residual, *[tape.constant(0)] * linear.variables]
     changes = _solve(tape, linear.matrix, right, order)[: linear.unknowns]
     unknowns = [plan.lower(u) for u in plan.unknowns]
     updated = [tape.sub(x, d) for x, d in zip(unknowns, changes, strict=True)]
@@ -28,7 +28,7 @@ def _pivot_order(plan, inputs):
     matrix = plan.linear.matrix
     n = len(matrix)
     flat = [e for row in matrix for e in row]
-    scales = [*plan.scales, *[plan.tape.constant(1)] * plan.linear.angles]
+    scales = [*plan.scales, *[plan.tape.constant(1)] * plan.linear.variables]
     numbers = plan.tape.evaluate(flat + scales, inputs)
     size = numbers[n * n :]
     values = [[numbers[i * n + j] * size[j] for j in range(n)] for i in range(n)]

@@ -183,7 +183,8 @@ def _system(plan, residual, unknowns, fixed=None):
     nodes = [lower(r) for r in residual]
     if fixed:
         nodes = [_fixed(plan, i, fixed) for i in nodes]
-    return nodes, linearise.linearise(tape, nodes, [lower(u) for u in unknowns])
+    solutions = () if fixed else [tuple(map(lower, entry)) for entry in plan.drive.definitions.equations()]
+    return nodes, linearise.linearise(tape, nodes, [lower(u) for u in unknowns], solutions)
 
 
 def _fixed(plan, node, values):

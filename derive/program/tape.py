@@ -17,6 +17,7 @@ import sympy as sp
 from derive.language.choice import excess, unit_step
 from derive.language.definitions import Definitions
 from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT
+from derive.program.enclosure import Enclosure
 
 
 class Stage(IntEnum):
@@ -56,6 +57,7 @@ class Tape:
         self._index = {}
         self._constants = {}
         self._exact = {}
+        self._enclosures = {}
         self._derivatives = {}
 
     # -- building ---------------------------------------------------------------------------------------------
@@ -80,14 +82,34 @@ class Tape:
                 self.origins[i] = self._within or PARTIAL[op]
         return i
 
-    def constant(self, value):
-        """A constant: exact where rational, else a float."""
+    def constant(self, value, bounds=None):
+        """A constant: exact where rational, else a float that stands for the number within ``bounds``, an
+        :class:`~derive.program.enclosure.Enclosure`; without them for itself.
+        """
         i = self._constants.get(value)
-        if i is None:
+        new = i is None
+        if new:
             exact = Fraction(value) if isinstance(value, int) else value
             i = self._constants[value] = self._new("const", value=exact)
             self._exact[i] = exact
+        if bounds is not None and bounds != Enclosure.of(value):
+            if value in (0, 1, -1):
+                raise ValueError(f"a constant that is not {value} would be taken for it")
+            self._enclosures[i] = bounds if new else bounds.hull(self.enclosure(i))
         return i
+
+    def enclosure(self, i):
+        """What a constant stands for, an :class:`~derive.program.enclosure.Enclosure`; None if the node is none."""
+        if i in self._enclosures:
+            return self._enclosures[i]
+        return Enclosure.of(self._exact[i]) if i in self._exact else None
+
+    def _folded(self, apply, *args):
+        """The constant ``apply`` makes of constants."""
+        value = apply(*[self._exact[a] for a in args])
+        if not any(a in self._enclosures for a in args) and isinstance(value, Fraction | int):
+            return self.constant(value)
+        return self.constant(value, apply(*map(self.enclosure, args)))
 
     def input(self, symbol, stage):
         """An input that becomes known at ``stage``."""
@@ -107,8 +129,8 @@ class Tape:
         return node.args[0] if node.op == "neg" else None
 
     def neg(self, a):
-        if (value := self.const_value(a)) is not None:
-            return self.constant(-value)
+        if self.const_value(a) is not None:
+            return self._folded(operator.neg, a)
         if (inner := self._negated(a)) is not None:
             return inner
         return self._new("neg", (a,))
@@ -116,7 +138,7 @@ class Tape:
     def add(self, a, b):
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
-            return self.constant(p + q)
+            return self._folded(operator.add, a, b)
         if p == 0:
             return b
         if q == 0:
@@ -130,7 +152,7 @@ class Tape:
     def sub(self, a, b):
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
-            return self.constant(p - q)
+            return self._folded(operator.sub, a, b)
         if a == b:
             return self.constant(0)
         if q == 0:
@@ -148,7 +170,7 @@ class Tape:
     def mul(self, a, b):
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
-            return self.constant(p * q)
+            return self._folded(operator.mul, a, b)
         if p is not None:
             a, b, p, q = b, a, q, p
         if q == 0:
@@ -196,7 +218,10 @@ class Tape:
 
     def sqrt(self, a):
         if (value := self.const_value(a)) is not None:
-            return self.constant(math.sqrt(value) if math.isqrt(int(value)) ** 2 != value else math.isqrt(int(value)))
+            root = math.isqrt(int(value))
+            if root**2 == value:
+                return self.constant(root)
+            return self.constant(math.sqrt(value), self.enclosure(a).sqrt())
         return self._new("sqrt", (a,))
 
     def sin(self, a):
@@ -427,7 +452,7 @@ class Lowering:
                     return self(self.definitions[e])
             raise KeyError(f"{e} is neither an input nor defined")
         if e.is_NumberSymbol or e.is_Float:
-            return t.constant(float(e))
+            return t.constant(float(e), Enclosure.of_symbol(e))
         if e.is_Add:
             return self._sum(e.args)
         if e.is_Mul:

@@ -1,7 +1,8 @@
-/* What a drive's object holds beside its model table: lane kernels and tangents.  SPDX-License-Identifier: MIT-0 */
+/* What a drive's object holds beside its model table: lane kernels, tangents, tables.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_KERNELS_H
 #define MW_KERNELS_H
 
+#include "mw_certified.h"
 #include "mw_model.h"
 
 /* A design system's tangents: see the generated sensitivity headers. */
@@ -36,6 +37,7 @@ typedef enum mw_instruction_set { MW_NATIVE, MW_AVX2, MW_AVX512, MW_INSTRUCTION_
 /* lanes: NULL for an instruction set that was not compiled. */
 typedef struct mw_kernels {
     const mw_tangents *tangents;
+    const mw_certified *certified;
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;
 

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include "mw_model.h"
 #include "mw_status.h"
+#include "mw_certify.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -10,7 +10,7 @@ from meshwright import limits
 from meshwright.base.drives import folders
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, text
-from meshwright.contact import analysis
+from meshwright.contact import analysis, certificate
 from meshwright.contact.functions import Function
 from meshwright.cycle import contact_ratio, edge, first_contact, windows
 from meshwright.design import design as designs
@@ -123,6 +123,22 @@ class Drive:
         if outside.any() and self.past_the_tips:
             result = result.without_contact(outside)
         return edge.flagged(result, self.edge_window)
+
+    @cached_property
+    def enclosed(self):
+        """The design's state enclosed: :class:`~meshwright.contact.certificate.EnclosedDesign`."""
+        return certificate.EnclosedDesign.of(self.design, _compiled(self.design))
+
+    def certify(self, angles, result=None, degrees=None):
+        """Proofs of the contacts at pinion angles (rad): :class:`~meshwright.contact.certificate.Certificates`.
+
+        ``result``: a TCA of these angles, if there is one. Each angle is the exact double that it is or, where
+        ``degrees`` are given, exactly so many degrees (fractions).
+        """
+        angles = analysis.checked_angles(angles)
+        result = self.tca(angles) if result is None else result
+        lines = [word == "line_contact" for word in result.status]
+        return certificate.certify(self, angles, result.solutions, lines, degrees)
 
     def first_contact(self, angles, result=None):
         """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:

@@ -14,6 +14,9 @@ from meshwright.base.library import library, pointer
 from meshwright.contact import analysis
 from meshwright.design import design as designs
 
+#: Tables whose parameters do not form the flanks, or follow from others.
+_OUTSIDE_THE_FLANKS = ("flank", "placement", "blank", "contact")
+
 
 @dataclass(frozen=True)
 class Sensitivity:
@@ -37,7 +40,8 @@ class Sensitivity:
 
 
 def sensitivity(drive, angles):
-    """:class:`Sensitivity` of a drive at pinion angles, by every real parameter of design and misalignment.
+    """:class:`Sensitivity` of a drive at pinion angles, by every real parameter of design, in whatever table, and of
+    misalignment.
 
     A parameter that the design leaves to a rule is taken as if it alone were given; what a given parameter changes by
     rules or design systems changes with it. A left-hand drive is the mirror image: its angles, transmission error and
@@ -64,7 +68,7 @@ def sensitivity(drive, angles):
 
 def _counts(parameter, k, design):
     """Whether a parameter is a real number in effect, and not the other name of one that is given."""
-    if parameter["table"] not in ("design", "misalignment") or not designs.is_real(parameter):
+    if parameter["table"] in _OUTSIDE_THE_FLANKS or not designs.is_real(parameter):
         return False
     if math.isnan(design.parameters[k]):
         return False

@@ -73,52 +73,56 @@ def _turn(axis, angle):
 def formate_cradle(
     flank="convex", *, hand="left", teeth=(11, 41), shaft_deg=90.0, offset=30.0, gear_radius=95.0, width=27.0,
     gear_pitch_deg=72.0, radius=76.2, spiral_deg=32.0, pressure_deg=20.0, dedendum=4.0, addendum=3.2, lengthwise=2.0,
+    taper_deg=0.0,
 ):  # fmt: skip
     """A Formate gear whose pinion rolls with the gear's own tool cone, or with a cone that touches it.
 
-    Conjugate for any offset; ``gear_radius`` is the gear's mean pitch radius.
+    Conjugate for any offset; ``gear_radius`` is the gear's mean pitch radius, ``taper_deg`` its dedendum angle.
     """
     (n1, n2), shaft = teeth, radians(shaft_deg)
     gear_cone, alpha, spiral = radians(gear_pitch_deg), radians(pressure_deg), radians(spiral_deg)
-    mean = gear_radius / sin(gear_cone)
+    mean, taper = gear_radius / sin(gear_cone), radians(taper_deg)
+    root, deep = gear_cone - taper, dedendum * cos(taper)
+    apex = deep - mean * sin(taper)  # of the pitch cone, above the root's plane
     s2 = -1 if flank == "convex" else 1
     s1 = -s2
-    centre = mean - radius * sin(spiral), radius * cos(spiral)
+    along = mean * cos(taper)
+    centre = along - radius * sin(spiral), radius * cos(spiral)
     gear = {
         "method": "formate",
-        "point_radius_mm": radius - s2 * dedendum * tan(alpha),
+        "point_radius_mm": radius - s2 * deep * tan(alpha),
         "blade_angle_deg": pressure_deg,
         "radial_setting_mm": hypot(*centre),
         "cradle_angle_deg": degrees(atan2(centre[1], centre[0])),
-        "root_angle_deg": gear_pitch_deg,
-        "sliding_base_mm": -dedendum,
+        "root_angle_deg": degrees(root),
+        "sliding_base_mm": -apex,
         **_blank(gear_cone, 0.0, gear_cone, addendum / sin(gear_cone), mean + width / 2, width),
     }
     # Gear machine to gear frame; the pinion's cutter lies on the same axis, its tip plane at the top of the gear tooth.
-    lay = _turn("y", gear_cone - pi / 2)
-    depth = dedendum + addendum + 0.8
-    point = np.array([mean, 0.0, -dedendum])  # the mean point, on the pitch plane, tip plane at z = 0
+    lay = _turn("y", root - pi / 2)
+    depth = deep + addendum + 0.8
+    point = np.array([along, 0.0, -deep])  # the mean point, tip plane at z = 0
     axis_point = np.array([*centre, -depth])
     outward = (point[:2] - centre) / radius
     normal = np.array([*(-s2 * cos(alpha) * outward), -sin(alpha)])
     away = np.array([*(np.array(centre) - point[:2]), 0.0])
     axis_point = axis_point + s1 * lengthwise * away / hypot(*away[:2])
-    x, y, z = lay @ (axis_point + np.array([0, 0, dedendum]))
+    x, y, z = lay @ (axis_point + np.array([0, 0, apex]))
     q = -atan2(-y, x)
     pinion = {
-        "point_radius_mm": radius + s1 * lengthwise + s2 * (depth - dedendum) * tan(alpha),
+        "point_radius_mm": radius + s1 * lengthwise + s2 * (depth - deep) * tan(alpha),
         "blade_angle_deg": pressure_deg,
         "radial_setting_mm": hypot(x, y),
         "cradle_angle_deg": degrees(q),
-        "tilt_deg": 90.0 - gear_pitch_deg,
+        "tilt_deg": 90.0 - degrees(root),
         "swivel_deg": -degrees(q),
         "root_angle_deg": shaft_deg - 90.0,
         "blank_offset_mm": offset,
         "sliding_base_mm": z,
         "ratio_of_roll": n2 / n1,
         **_pinion_blank(
-            lay @ np.array([mean, 0, 0]), lay @ np.array([0, 0, 1.0]), lay @ normal, shaft, offset, n1 / n2, width,
-            addendum,
+            lay @ (point + np.array([0, 0, apex])), _turn("y", gear_cone - pi / 2) @ np.array([0, 0, 1.0]),
+            lay @ normal, shaft, offset, n1 / n2, width, addendum,
         ),
     }
     return {

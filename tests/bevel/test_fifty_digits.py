@@ -5,6 +5,7 @@ import pytest
 from mpmath import mp
 
 from meshwright import Drive
+from meshwright.sensitivity import sensitivity
 from tests.bevel.exact import crown_pair, formate_cradle
 from tests.independent.bevel import Pair
 
@@ -39,6 +40,17 @@ def random_design(seed):
     return tables
 
 
+NAMES = ("u_pinion", "theta_pinion", "phi_cradle_pinion", "u_gear", "theta_gear", "phi_cradle_gear")
+
+
+def exact_contact(tables, found, k, angle):
+    """The pair in mpmath and its unknowns at an angle, from the k-th contact found."""
+    names = NAMES[:-1] if tables["gear"].get("method") == "formate" else NAMES
+    pair = Pair(tables)
+    start = [float(found.unknowns[name][k]) for name in names] + [float(found.wheel_angles[k])]
+    return pair, pair.solve(start, angle)
+
+
 def compared(seed):
     """Largest differences (error in arcsec, position in mm, normal) over three angles of one random design."""
     tables = random_design(seed)
@@ -46,13 +58,10 @@ def compared(seed):
     angles = drive.design.reference_angle + np.radians([-4.0, 0.0, 4.0])
     found = drive.tca(angles)
     assert set(found.status) == {"converged"}
-    names = ["u_pinion", "theta_pinion", "phi_cradle_pinion", "u_gear", "theta_gear"]
-    names += [] if tables["gear"].get("method") == "formate" else ["phi_cradle_gear"]
     with mp.workdps(50):
-        pair, worst = Pair(tables), np.zeros(3)
+        worst = np.zeros(3)
         for k, angle in enumerate(angles):
-            start = [float(found.unknowns[name][k]) for name in names] + [float(found.wheel_angles[k])]
-            x = pair.solve(start, angle)
+            pair, x = exact_contact(tables, found, k, angle)
             r, n, _ = pair.pinion.surface(*x[:3])
             r, n = pair.place_pinion(r, n, mp.mpf(angle))
             error = abs(pair.error(x, angle) - mp.mpf(found.error[k])) / mp.mpf(ARCSEC)
@@ -68,3 +77,33 @@ def test_a_random_misaligned_design_agrees_with_fifty_digits(seed):
     assert error < 2e-10
     assert place < 1e-12
     assert normal < 1e-12
+
+
+@pytest.mark.parametrize("seed", (1, 2))
+def test_sensitivities_agree_with_fifty_digits(seed):
+    """d(transmission error)/d(every setting, position of the blanks and error of assembly), by the implicit function
+    theorem on the machine's kinematics.
+    """
+    tables = random_design(seed)
+    drive = Drive.from_tables(tables)
+    angle = float(drive.design.reference_angle)
+    seen, found = sensitivity(drive, [angle]), drive.tca([angle])
+    factors = {f"{p['table']}.{p['key']}": p["factor"] for p in drive.design.description["parameters"]}
+    with mp.workdps(50):
+        pair, x = exact_contact(tables, found, 0, angle)
+        slopes = {key: exact_slope(tables, pair, x, angle, key) for key in seen.keys}
+    assert {"pinion.tilt_deg", "pinion.roll_720g", "misalignment.offset_mm", "gear.swivel_deg"} < slopes.keys()
+    exact = np.array([float(slopes[key] / factors[key]) for key in seen.keys])
+    np.testing.assert_allclose(seen.error[0], exact, rtol=1e-9, atol=1e-13)
+
+
+def exact_slope(tables, pair, x, angle, key):
+    """d(transmission error)/d(key), rad per unit of the key."""
+    table, name = key.split(".")
+    step, sides = mp.mpf(10) ** -15, []
+    for sign in (1, -1):
+        changed = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items()}
+        old = changed.get(table, {}).get(name, 90 if name == "shaft_angle_deg" and table == "design" else 0)
+        changed.setdefault(table, {})[name] = mp.mpf(old) + sign * step
+        sides.append(mp.matrix(Pair(changed).residual(x, mp.mpf(angle))))
+    return -mp.lu_solve(pair.jacobian(x, mp.mpf(angle)), (sides[0] - sides[1]) / (2 * step))[len(x) - 1]

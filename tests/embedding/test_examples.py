@@ -57,12 +57,14 @@ def installed(tmp_path_factory):
     return folder / "prefix"
 
 
+@pytest.mark.validate
 def test_an_installed_library_is_found_by_cmake(tmp_path, installed):
     c.run(c.tool("cmake"), "-S", EXAMPLES, "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={installed}")
     c.run(c.tool("cmake"), "--build", tmp_path)
     assert "11 of 11 points solved" in c.run(tmp_path / "trace")
 
 
+@pytest.mark.validate
 def test_an_installed_library_is_found_by_pkg_config(tmp_path, installed):
     if not c.tool("pkg-config"):
         pytest.skip("pkg-config is not installed")
@@ -73,6 +75,7 @@ def test_an_installed_library_is_found_by_pkg_config(tmp_path, installed):
     assert "11 of 11 points solved" in c.run(tmp_path / "trace")
 
 
+@pytest.mark.validate
 def test_a_library_with_chosen_drives_holds_no_other(tmp_path, installed):
     source = tmp_path / "count.c"
     main = 'int main(void) { return mw_model_count() * 10 + !mw_find("face_worm"); }'

@@ -136,20 +136,21 @@ class Pair:
         conditions = [f1, f2] if generated else [f1]
         return [*(r1 - r2), dot(n2, first), dot(n2, second), *conditions]
 
+    def jacobian(self, x, phi_1):
+        """∂(residual)/∂x by differences, exact to half the working precision."""
+        n, step = len(x), mpf(10) ** (-mp.dps // 2)
+        at, matrix = mp.matrix(self.residual(x, phi_1)), mp.matrix(n, n)
+        for j in range(n):
+            beside = list(x)
+            beside[j] += step
+            matrix[:, j] = (mp.matrix(self.residual(beside, phi_1)) - at) / step
+        return matrix
+
     def solve(self, x, phi_1):
         """Newton from start values x, to the working precision."""
         x, phi_1 = [mpf(v) for v in x], mpf(phi_1)
-        n, step = len(x), mpf(10) ** (-mp.dps // 2)
         for _ in range(30):
-            at = mp.matrix(self.residual(x, phi_1))
-            jacobian = mp.matrix(n, n)
-            for j in range(n):
-                beside = list(x)
-                beside[j] += step
-                change = (mp.matrix(self.residual(beside, phi_1)) - at) / step
-                for i in range(n):
-                    jacobian[i, j] = change[i]
-            move = mp.lu_solve(jacobian, at)
+            move = mp.lu_solve(self.jacobian(x, phi_1), mp.matrix(self.residual(x, phi_1)))
             x = [a - b for a, b in zip(x, move, strict=True)]
             if mp.norm(move) < mpf(10) ** (-mp.dps * 2 // 3):
                 return x

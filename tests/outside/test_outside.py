@@ -113,6 +113,7 @@ def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text,
     assert done.returncode == 2 and reason in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.validate
 def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is_damaged(tmp_path):
     """One line says so; a truncated object is compiled anew, not loaded."""
     pair = ["tca", "spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]

@@ -48,6 +48,7 @@ def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
             assert abs(offsets[nearest] @ normals[nearest]) < 0.1 * cell
 
 
+@pytest.mark.validate
 def test_a_left_hand_drive_is_drawn_as_the_mirror_image(analysed):
     right = scene(analysed("recess-action-full"))
     left = scene(analyse(Drive.load("recess-action-full").with_(design={"hand": "left"}), quiet))

@@ -24,7 +24,12 @@ def in_range(entry, number):
 
 @pytest.mark.parametrize("tables", PAIRS, ids=named)
 def test_a_written_file_is_valid(tables):
-    root = ElementTree.fromstring(file_text(tables))
+    assert_valid(file_text(tables))
+
+
+def assert_valid(text):
+    """Components, attributes, units, types, ranges and relations of a file are those of the schema."""
+    root = ElementTree.fromstring(text)
     assert root.tag == f"{TAG}model" and {"version", "applicationId", "applicationVersion"} <= set(root.keys())
     assert datetime.fromisoformat(root.get("date")).tzinfo is UTC
     kinds = {}
@@ -42,8 +47,11 @@ def test_a_written_file_is_valid(tables):
                     assert re.fullmatch(r"\d+", texts[0]) and in_range(entry, int(texts[0]))
                 case "floating_point":
                     assert in_range(entry, float(texts[0]))
+                case "integer_array":
+                    assert all(re.fullmatch(r"\d+", text) for text in texts)
                 case other:
-                    assert other == "floating_point_array" and [float(text) for text in texts]
+                    assert other in ("floating_point_array", "floating_point_matrix")
+                    assert all(in_range(entry, float(text)) for text in texts)
     relations = root.find(f"{TAG}relations")
     assert len({r.get("id") for r in relations}) == len(relations)
     for relation in relations:

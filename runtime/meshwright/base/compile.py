@@ -23,13 +23,14 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 CORE = "libmeshwright.so"
 
 #: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
 DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
-DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h")
+DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h")
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
 LIVE_SOURCES = ("complete.c", "complete.h")
 #: What programs include, and what generated headers repeat.
@@ -37,10 +38,13 @@ SOLVER = (
     "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",
     "choice",
 )  # fmt: skip
-PUBLIC_HEADERS = ("meshwright.h", "mw_model.h", "mw_status.h", *(f"solver/{part}.h" for part in SOLVER))
+PUBLIC_HEADERS = (
+    "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
+    *(f"solver/{part}.h" for part in SOLVER),
+)  # fmt: skip
 
 #: Generated headers of a drive.
-GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h")
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_certified.h")
 
 FLAGS = (
     "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",
@@ -63,6 +67,27 @@ def compiler():
     if probe.returncode == 0:
         return (sys.executable, "-m", "ziglang", "cc")
     raise CompileError("there is no C compiler: install gcc or clang, or `pip install ziglang`, or name one in CC")
+
+
+@dataclass(frozen=True)
+class Target:
+    """What compiles for a machine, and how its linker is told where a shared object finds the core library.
+
+    command:       the C compiler, as the words of a command
+    named:         link options that name the core library to those who use it
+    beside:        link options by which a drive's object finds the core library in its own folder
+    more:          compile options of this machine
+    """
+
+    command: tuple[str, ...]
+    named: tuple[str, ...] = (f"-Wl,-soname,{CORE}",)
+    beside: tuple[str, ...] = ("-Wl,-rpath,$ORIGIN",)
+    more: tuple[str, ...] = ()
+
+
+def native():
+    """This machine."""
+    return Target(compiler())
 
 
 def digest(*parts):
@@ -149,23 +174,25 @@ def sealed(target):
         return {}
 
 
-def core(source, folder, objects):
+def core(source, folder, objects, target=None):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
+    target = target or native()
     folder.mkdir(parents=True, exist_ok=True)
     for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS, *LIVE_SOURCES), "source")):
         for name in names:
             _copy(source / name, folder / place / name)
-    command = compiler()
+    command = (*target.command, *target.more)
     jobs = [(command, unit, objects / f"{unit.stem}.o", (source,), (), ()) for unit in sorted(source.glob("*.c"))]
-    return _linked(command, _compiled(jobs), folder / CORE, (f"-Wl,-soname,{CORE}",))
+    return _linked(target.command, _compiled(jobs), folder / CORE, target.named)
 
 
-def drives(names, folder, package, objects):
+def drives(names, folder, package, objects, target=None):
     """Compile the objects of drives whose generated headers are in ``folder``; ``package`` holds the core library.
 
     Each finds the core library where it is now, or beside itself.
     """
-    command, source = compiler(), package / "source"
+    target, source = target or native(), package / "source"
+    command = (*target.command, *target.more)
     folders = (folder / "include", source, package / "include")
     jobs = [
         (command, source / unit, objects / name / f"{Path(unit).stem}.o", folders, (f"-DMW_DRIVE={name}",),
@@ -173,12 +200,12 @@ def drives(names, folder, package, objects):
         for name in names for unit in DRIVE_UNITS
     ]  # fmt: skip
     compiled, each = _compiled(jobs), len(DRIVE_UNITS)
-    options = (f"-L{package}", "-lmeshwright", "-Wl,-rpath,$ORIGIN")
+    options = (str(package / CORE), *target.beside)
     if folder.resolve() != package.resolve():
         options += (f"-Wl,-rpath,{package.resolve()}",)
     for k, name in enumerate(names):
         units = compiled[k * each : (k + 1) * each]
-        _linked(command, units, folder / f"{name}.so", options, inputs(name, folder, package))
+        _linked(target.command, units, folder / f"{name}.so", options, inputs(name, folder, package))
 
 
 def inputs(name, folder, package):

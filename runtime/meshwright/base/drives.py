@@ -18,6 +18,7 @@ from functools import cache
 from pathlib import Path
 
 from meshwright.base import compile as build
+from meshwright.base import files
 from meshwright.base.errors import LibraryError, UsageError
 
 SHIPPED = Path(__file__).parent.parent / "_generated"
@@ -200,8 +201,6 @@ def _cache():
 @contextmanager
 def _locked(path):
     """Hold a lock among all processes; the one that dies lets go of it."""
-    import fcntl
-
-    with open(path, "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with open(path, "ab") as lock:
+        files.lock(lock, wait=True)
         yield

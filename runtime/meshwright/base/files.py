@@ -6,6 +6,7 @@ import io
 import json
 import os
 import sys
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -85,24 +86,30 @@ def locked(folder, what):
     """
     with open(folder / ".lock", "ab") as stream:
         try:
-            _lock(stream)
+            lock(stream)
         except OSError as error:
             remedy = "wait for it to end, or name another folder"
             raise UsageError(f"{folder}: another {what} is at work here; {remedy}") from error
         yield
 
 
-def _lock(stream):
-    """Lock an open file at once, or raise :class:`OSError`."""
+def lock(stream, wait=False):
+    """Lock an open file until it is closed; raises :class:`OSError` if it is locked elsewhere, unless told to wait."""
     if os.name == "nt":
         import msvcrt
 
         stream.seek(0)
-        msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+        while True:
+            try:
+                return msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+            except OSError:
+                if not wait:
+                    raise
+                time.sleep(0.1)
     else:
         import fcntl
 
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(stream, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def write_json(place, data):

@@ -23,13 +23,13 @@ _loading, _thread = threading.Lock(), threading.local()
 
 def _interface():
     """C declarations of the model table and of the runtime, as cffi wants them."""
-    names = ("mw_model.h", "mw_status.h", "meshwright.h")
-    model, status, runtime = ((SHIPPED / "include" / name).read_text(encoding="utf-8") for name in names)
+    names = ("mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h", "meshwright.h")
+    model, status, *parts = ((SHIPPED / "include" / name).read_text(encoding="utf-8") for name in names)
     codes = ", ".join(f"{code} = {value}" for code, value in re.findall(r"X\((MW_\w+), (-?\d+),", status))
     end = re.search(r"MW_STATUS_END = \d+", status).group()
     declared = re.sub(r"^#.*$", "", model, flags=re.MULTILINE)
     declared += f"typedef enum mw_status {{ {codes}, {end} }} mw_status;"
-    for text in (status, runtime):
+    for text in (status, *parts):
         declared += re.search(r"/\* BEGIN INTERFACE.*?\*/(.*)/\* END INTERFACE", text, re.DOTALL).group(1)
     return declared
 
@@ -51,6 +51,8 @@ def record(name):
 def _format(kind):
     if kind.kind == "array":
         return (_format(kind.item), kind.length)
+    if kind.kind == "struct":
+        return record(kind.cname)
     return {"double": "f8", "int": "i4", "unsigned int": "u4"}[kind.cname]
 
 

@@ -12,6 +12,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.contact.certificate import degrees_of
 from meshwright.contact.contact_line import contact_line
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
@@ -38,6 +39,10 @@ def add_arguments(parser):
     parser.add_argument(
         "--all-contacts", action="store_true",
         help="search for further contacts of the same tooth pair at each angle (CSV gives their number)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--certify", action="store_true",
+        help="prove each contact: that it exists, is the only one nearby, and how far its numbers can be off",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
@@ -67,6 +72,10 @@ def run(options):
         _add_contours(points, drive, result, options.contour)
     if options.all_contacts:
         _add_other_contacts(points, drive, result)
+    if options.certify:
+        certificates = drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
+        for point, certificate in zip(points, certificates.to_plain(), strict=True):
+            point["certificate"] = certificate
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -142,10 +151,11 @@ def _flat(point):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
-        elif key in ("flags", "limits"):
+        elif key in ("flags", "limits", "impossible") and isinstance(value, list):
             flat[key] = " ".join(value)
         elif isinstance(value, list):
-            flat |= {f"{key}_{axis}": v for axis, v in zip("xyz", value, strict=True)}
+            axes = "xyz" if len(value) == 3 else ("low", "high")
+            flat |= {f"{key}_{axis}": v for axis, v in zip(axes, value, strict=True)}
         else:
             flat[key] = value
     return flat
@@ -164,7 +174,7 @@ def _table(drive, points):
             f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
             f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
             f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags'], *_others(point), *_efficiency(point)])}"
+            f"{' '.join([point['status'], *point['flags'], *_others(point), *_efficiency(point), *_shown(point)])}"
         )
     return "\n".join(lines) + "\n"
 
@@ -181,6 +191,15 @@ def _others(point):
     """A remark on further contacts of the tooth pair, if any were sought and found."""
     others = point.get("other_contacts")
     return (f"(+{len(others)} contact{'s' * (len(others) > 1)})",) if others else ()
+
+
+def _shown(point):
+    """What is proved of a point, if that was asked for."""
+    if (certificate := point.get("certificate")) is None:
+        return ()
+    if certificate["outcome"] != "unique":
+        return (f"({certificate['outcome']}: {certificate['reason']})",)
+    return (f"(certified to {certificate['radius']:.0e} arcsec)",)
 
 
 def _cell(value, form):

@@ -11,6 +11,7 @@ FLAGS = {
     "off_face": "the point lies outside a face",
     "off_tool": "the point lies beyond the end of the cutting tool",
     "edge_contact": "an edge of a tooth touches, not its flank",
+    "not_first": "the bounded flanks touch elsewhere before this tangency, on an edge: bodies cannot make it",
 }
 
 #: What ends a contact window, or an edge of a flank.

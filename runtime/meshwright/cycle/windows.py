@@ -244,15 +244,20 @@ def _nearest_stretch(angles, valid, about):
 
 
 def _locate(path, limits, inside, outside):
-    """The first limit on the way from a valid node to an invalid neighbour."""
+    """The first limit on the way from a valid node to an invalid neighbour.
+
+    Where contact is along a line but for errors near round-off, its place on it differs from one solution to the next:
+    a limit may then be passed at the valid node already.
+    """
     angles = path.angles[[inside, outside]]
     values = path.observe(angles, path.unknowns[[inside, outside]])
     crossed = []
     for limit in limits:
         at_ends = values[:, limit.index]
         if at_ends[1] < 0.0:
-            function = partial(_value, path, limit)
-            crossed.append((bracketed(function, *angles, ANGLE_TOLERANCE, tuple(at_ends)), limit))
+            function, passed = partial(_value, path, limit), not at_ends[0] > 0.0
+            at = angles[0] if passed else bracketed(function, *angles, ANGLE_TOLERANCE, tuple(at_ends))
+            crossed.append((at, limit))
     angle, limit = min(crossed, key=lambda c: abs(c[0] - angles[0]))
     return Event(float(angle), limit.reason, limit.member)
 

@@ -13,7 +13,8 @@ from meshwright.sensitivity import sensitivity
 #: Derivatives of a position below this are round-off, mm per unit of a key.
 POSITION_ROUND_OFF = 1e-12
 
-_HEADINGS = {"design": "Design", "misalignment": "Misalignment", "blank": "Blank", "contact": "Contact"}
+#: Tables of numbers that no one gives.
+_UNLISTED = ("flank", "placement")
 
 
 @dataclass(frozen=True)
@@ -49,13 +50,13 @@ def groups(analysis):
 
 def _design(design):
     tables = []
-    for name, heading in _HEADINGS.items():
+    names = dict.fromkeys(("design", *(p["table"] for p in design.description["parameters"])))
+    for name in (table for table in names if table not in _UNLISTED):
         rows = [_parameter(design, p) for p in design.description["parameters"] if p["table"] == name]
         rows = [row for row in rows if row[1] != "–"]
-        if name == "design":
-            rows = [(title(key), str(word), "–", "given", key) for key, word in _words(design)] + rows
+        rows = [(title(key), str(word), "–", "given", key) for key, word in _words(design, name)] + rows
         if rows:
-            tables.append(_keys(heading, rows))
+            tables.append(_keys(name.capitalize(), rows))
     sizes = [
         (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"])
         for s in design.description["sizes"]
@@ -72,9 +73,12 @@ def _keys(heading, rows):
     return Table(heading, ("meaning", "value", "unit", "source", "key"), tuple(rows), frozenset({1}), "keys")
 
 
-def _words(design):
-    words = design.tables["design"]
-    return [(key, words[key]) for key in (*design.description["variant"], "hand") if words.get(key)]
+def _words(design, table):
+    """Keys of a table that are given by a word, with it."""
+    places = [key.rpartition(".") for key in (*design.description["variant"], "hand")]
+    keys = [key for where, _, key in places if (where or "design") == table]
+    words = design.tables[table]
+    return [(key, words[key]) for key in keys if words.get(key)]
 
 
 def _parameter(design, parameter):

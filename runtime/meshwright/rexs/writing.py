@@ -210,7 +210,7 @@ def _edit(document, component, text, checked):
     if element is None:
         if not any(_given(checked, key) for key in _held(spec)):
             return []
-        return [_insertion(document, component.element, [text.element()])]
+        return [insertion(document, component.element, [text.element()])]
     if _holds(document, component, text):
         return []
     if element.inner is None:
@@ -231,7 +231,7 @@ def _holds(document, component, text):
     return abs(here / values.FACTORS[spec["unit"]] - text.value) <= 1e-13 * max(1.0, abs(text.value))
 
 
-def _insertion(document, element, parts):
+def insertion(document, element, parts):
     """The edit that adds elements at the end of an element's content."""
     source = document.source
     line = source.rfind(b"\n", 0, element.start) + 1
@@ -261,8 +261,8 @@ def _additions(document, table, found, ids, checked, texts):
     last = max((int(r.id) for r in document.relations if r.id.isdecimal()), default=0)
     sections = {child.tag: child for child in document.root.children}
     return [
-        _insertion(document, sections["components"], [_component(c, ids, checked, texts, "    ").strip() for c in new]),
-        _insertion(document, sections["relations"],
+        insertion(document, sections["components"], [_component(c, ids, checked, texts, "    ").strip() for c in new]),
+        insertion(document, sections["relations"],
                    [_relation(r, last + k, ids, "    ").strip() for k, r in enumerate(relations, 1)]),
     ]  # fmt: skip
 

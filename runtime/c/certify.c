@@ -1,0 +1,389 @@
+/* Certified contact: see mw_certify.h.  SPDX-License-Identifier: MIT-0 */
+#include <string.h>
+#include "certify/krawczyk.h"
+#include "certify/tables.h"
+#include "complete.h"
+#include "kernels.h"
+#include "mw_certify.h"
+
+/* Boxes begin at this share of the natural sizes; steps that shape them; the share beyond which none is tried. */
+static const double FIRST_BOX = 5.9604644775390625e-8, WIDEST_BOX = 0.25;
+enum { SHAPING_STEPS = 30, REFINING_STEPS = 3, NARROWING_STEPS = 8 };
+
+static const mw_certified *tables_of(const mw_model *m)
+{
+    return m->kernels ? m->kernels->certified : NULL;
+}
+
+const char *mw_reason_word(int reason)
+{
+#define MW_WORD(code, value, word, text) if (reason == value) return word;
+    MW_REASON_LIST(MW_WORD)
+    return "";
+}
+
+const char *mw_reason_text(int reason)
+{
+#define MW_TEXT(code, value, word, text) if (reason == value) return text;
+    MW_REASON_LIST(MW_TEXT)
+    return "";
+}
+
+int mw_encloses(const mw_model *m)
+{
+    return tables_of(m) && mwc_arithmetic() && m->nx <= MW_MAX_UNKNOWNS;
+}
+
+int mw_enclosed_slots(const mw_model *m)
+{
+    return tables_of(m) ? tables_of(m)->slots : 0;
+}
+
+/* One system of n equations. known[count]: what its code reads before the unknowns, also as balls. */
+typedef struct problem {
+    const mw_code *equations;
+    int n, count;
+    const double *sizes;
+    mw_wide arguments[MWC_ARGUMENTS];
+    mw_ball balls[MWC_ARGUMENTS];
+} problem;
+
+/* x: the point about which everything is; within: the solution's distance; box: where it is the only one. */
+typedef struct solution {
+    mw_wide x[MW_MAX_UNKNOWNS];
+    double within[MW_MAX_UNKNOWNS], box[MW_MAX_UNKNOWNS];
+} solution;
+
+/* Residual at x as balls, from double-double. */
+static void residual_at(problem *p, const mw_wide *x, mw_ball *R)
+{
+    mw_wide registers[MWC_REGISTERS];
+    memcpy(p->arguments + p->count, x, sizeof(mw_wide) * (size_t)p->n);
+    mwc_run_wide(p->equations, p->equations->first, p->arguments, registers);
+    for (int i = 0; i < p->n; i++) R[i] = mwc_of_wide(registers[p->equations->output[i]]);
+}
+
+/* Residual, unless NULL, and Jacobian over the box x + [-d, d]; d = NULL: at x. */
+static void linearised(problem *p, const mw_wide *x, const double *d, mw_ball *R, mw_ball *J)
+{
+    mw_ball registers[MWC_REGISTERS];
+    for (int i = 0; i < p->n; i++) {
+        mw_wide side = x[i];
+        if (d) side.radius += d[i];
+        p->balls[p->count + i] = mwc_of_wide(side);
+    }
+    mwc_run_ball(p->equations, p->equations->instructions, p->balls, registers);
+    for (int i = 0; R && i < p->n; i++) R[i] = registers[p->equations->output[i]];
+    for (int i = 0; i < p->n * p->n; i++) J[i] = registers[p->equations->output[p->n + i]];
+}
+
+/* Newton steps with the inverse C, so that the residual is that of double-double. */
+static void refine(problem *p, const double *C, mw_wide *x)
+{
+    mw_ball R[MW_MAX_UNKNOWNS];
+    for (int step = 0; step < REFINING_STEPS; step++) {
+        residual_at(p, x, R);
+        for (int i = 0; i < p->n; i++) {
+            double change = 0.0;
+            for (int j = 0; j < p->n; j++) change += C[i * p->n + j] * R[j].mid;
+            x[i] = mwc_wide_add(x[i], mwc_wide_of(-change));
+            x[i].radius = 0.0; /* a point, whichever it is */
+        }
+    }
+}
+
+/* From K < d on, the bound on the solution's distance repeats itself smaller. */
+static void narrow(int n, const mw_ball *z, const double *M, const double *K, double *within)
+{
+    double image[MW_MAX_UNKNOWNS];
+    memcpy(within, K, sizeof(double) * (size_t)n);
+    for (int step = 0; step < NARROWING_STEPS; step++) {
+        mwc_image(n, z, M, within, image);
+        for (int i = 0; i < n; i++)
+            if (image[i] < within[i]) within[i] = image[i];
+    }
+}
+
+static int within_domain(const mw_model *m, const mw_wide *x, const double *d)
+{
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i].hi - d[i] >= m->unknowns[i].lower && x[i].hi + d[i] <= m->unknowns[i].upper)) return 0;
+    return 1;
+}
+
+/* One solution near s->x: in a box of equal shares of the natural sizes, else in one that takes the shape of the image,
+ * wide along what the equations hardly determine. Returns a reason. */
+static int enclose(problem *p, solution *s)
+{
+    const int n = p->n;
+    mw_ball J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS], z[MW_MAX_UNKNOWNS];
+    double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], K[MW_MAX_UNKNOWNS];
+    double *d = s->box;
+    linearised(p, s->x, NULL, NULL, J);
+    if (!mwc_inverse(n, J, C)) return MW_REASON_FOLD;
+    refine(p, C, s->x);
+    residual_at(p, s->x, R);
+    mwc_shift(n, C, R, z);
+    for (int i = 0; i < n; i++) d[i] = p->sizes[i] * FIRST_BOX;
+    for (int step = 0; step < SHAPING_STEPS; step++) {
+        linearised(p, s->x, d, NULL, J);
+        mwc_defect(n, C, J, M);
+        mwc_image(n, z, M, d, K);
+        if (mwc_inside(n, K, d)) {
+            narrow(n, z, M, K, s->within);
+            return MW_REASON_NONE;
+        }
+        for (int i = 0; i < n; i++) {
+            const double shift = mwc_abs(z[i].mid) + z[i].radius;
+            d[i] = 2.0 * shift + 1.1 * (K[i] - shift);
+            if (!(d[i] <= WIDEST_BOX * p->sizes[i])) return MW_REASON_FOLD;
+        }
+    }
+    return MW_REASON_WIDE;
+}
+
+static void known(problem *p, const mw_wide *from, int count)
+{
+    p->count = count;
+    memcpy(p->arguments, from, sizeof(mw_wide) * (size_t)count);
+    for (int i = 0; i < count; i++) p->balls[i] = mwc_of_wide(from[i]);
+}
+
+static int fits(const mw_code *code, int arguments)
+{
+    return code->registers <= MWC_REGISTERS && arguments <= MWC_ARGUMENTS;
+}
+
+/* -- design -------------------------------------------------------------------------------------------------------- */
+
+static void apply_rules(const mw_certified *t, mw_wide *p)
+{
+    mw_wide registers[MWC_REGISTERS];
+    for (const mw_certified_rule *rule = t->rules; rule->target >= 0; rule++) {
+        mw_wide *target = p + rule->target;
+        const mw_code *value = &rule->value;
+        if (target->hi == target->hi || value->registers > MWC_REGISTERS) continue;
+        mwc_run_wide(value, value->instructions, p, registers);
+        *target = registers[value->output[0]];
+        for (int i = 1; i < value->outputs; i++)
+            if (!(mwc_wide_least(registers[value->output[i]]) > 0.0)) target->hi = NAN;
+    }
+}
+
+static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
+{
+    const mw_system *system = &m->systems[k];
+    const mw_certified_system *t = &tables_of(m)->systems[k];
+    const int np = m->np, n = system->n;
+    double y[MW_MAX_UNKNOWNS] = { 0.0 }, sizes[MW_MAX_UNKNOWNS];
+    mw_wide arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
+    problem equations;
+    solution found;
+    mw_info info;
+    if (!fits(&t->equations, np + 1 + n) || !fits(&t->values, np + 1 + n)) return 0;
+    for (int i = 0; i < np; i++) q[i] = p[i].hi;
+    if (mw_solve_system(m, system, q, y, &info) < 0) return 0;
+    system->scale(q, sizes);
+    memcpy(arguments, p, sizeof(mw_wide) * (size_t)np);
+    arguments[np] = mwc_wide_of(1.0);
+    equations.equations = &t->equations;
+    equations.n = n;
+    equations.sizes = sizes;
+    known(&equations, arguments, np + 1);
+    for (int i = 0; i < n; i++) found.x[i] = mwc_wide_of(y[i]);
+    if (enclose(&equations, &found) != MW_REASON_NONE) return 0;
+    for (int i = 0; i < n; i++) {
+        arguments[np + 1 + i] = found.x[i];
+        arguments[np + 1 + i].radius = found.within[i];
+    }
+    mwc_run_wide(&t->values, t->values.instructions, arguments, registers);
+    for (int i = 0; t->fills[i] >= 0; i++)
+        if (p[t->fills[i]].hi != p[t->fills[i]].hi) p[t->fills[i]] = registers[t->values.output[i]];
+    return 1;
+}
+
+int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
+{
+    const mw_certified *t = tables_of(m);
+    double open[MW_MAX_PARAMETERS];
+    if (!mw_encloses(m) || m->np + 1 > MWC_ARGUMENTS || m->np > MW_MAX_PARAMETERS) return 1 + m->nsystems;
+    for (int i = 0; i < m->np; i++)
+        if (p[i].hi == p[i].hi) p[i] = mwc_wide_mul(p[i], t->factors[i]);
+    apply_rules(t, p);
+    for (int k = 0; k < m->nsystems; k++) {
+        for (int i = 0; i < m->np; i++) open[i] = p[i].hi;
+        if (m->systems[k].open(open) == 0) continue;
+        if (!system_solved(m, k, p, q)) return 1 + k;
+        apply_rules(t, p);
+    }
+    return 0;
+}
+
+void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s)
+{
+    const mw_certified *t = tables_of(m);
+    mw_wide registers[MWC_REGISTERS];
+    const int possible = mw_encloses(m) && fits(&t->setup, m->np) && fits(&t->observed, t->slots + m->nx)
+                         && fits(&t->equations, t->slots + m->nx) && fits(&t->instant, t->slots + 1);
+    if (possible) mwc_run_wide(&t->setup, t->setup.instructions, p, registers);
+    for (int i = 0; i < mw_enclosed_slots(m); i++)
+        s[i] = possible && i < t->design_slots ? registers[t->setup.output[i]] : mwc_wide(NAN, 0.0, 0.0);
+}
+
+/* -- contact ------------------------------------------------------------------------------------------------------- */
+
+static void set_instant(const mw_certified *t, mw_wide *s, mw_wide phi)
+{
+    mw_wide arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
+    memcpy(arguments, s, sizeof(mw_wide) * (size_t)t->slots);
+    arguments[t->slots] = phi;
+    mwc_run_wide(&t->instant, t->instant.instructions, arguments, registers);
+    for (int i = t->design_slots; i < t->slots; i++) s[i] = registers[t->instant.output[i - t->design_slots]];
+}
+
+/* Natural sizes of the unknowns, from the midpoints of the state. */
+static void sizes_of(const mw_model *m, const mw_wide *s, double *sizes)
+{
+    double state[MWC_ARGUMENTS];
+    for (int i = 0; i < MWC_ARGUMENTS; i++) state[i] = i < mw_enclosed_slots(m) ? s[i].hi : NAN;
+    m->scale(state, sizes);
+}
+
+/* Negative surely, or perhaps; a limit that the design does not set is neither. */
+static void judge(mw_ball margin, unsigned bit, mw_certificate *c)
+{
+    if (margin.mid != margin.mid) return;
+    if (margin.mid + mwc_reach(margin) < 0.0) c->flags |= bit;
+    else if (!(margin.mid - mwc_reach(margin) >= 0.0)) c->undecided |= bit;
+}
+
+/* The rest of a certificate: what the contact within the enclosure is like. */
+static void observe(const mw_model *m, problem *p, mw_certificate *c)
+{
+    const mw_code *code = &tables_of(m)->observed;
+    mw_ball registers[MWC_REGISTERS], o[MW_MAX_OBSERVATION];
+    for (int i = 0; i < m->nx; i++) p->balls[p->count + i] = mwc_of_wide(c->x[i]);
+    mwc_run_ball(code, code->instructions, p->balls, registers);
+    for (int i = 0; i < code->outputs; i++) {
+        o[i] = registers[code->output[i]];
+        o[i].radius = mwc_reach(o[i]);
+    }
+    memcpy(c->point, o, sizeof c->point);
+    memcpy(c->normal, o + 3, sizeof c->normal);
+    c->wheel_angle = o[12];
+    memcpy(c->curvature, o + 13, sizeof c->curvature);
+    c->flags = c->undecided = 0;
+    judge(o[13], 2u, c);
+    unsigned bit = 4;
+    const mw_ball *at = o + 15;
+    for (int b = 0; b < 2; b++) {
+        judge(*at++, 1u, c);
+        for (int i = 0; i < m->bodies[b].margins; i++, bit <<= 1) judge(*at++, bit, c);
+    }
+    c->undecided &= ~c->flags;
+}
+
+static int ended(mw_certificate *c, int outcome, int reason)
+{
+    c->outcome = outcome;
+    c->reason = reason;
+    return outcome;
+}
+
+static void nothing(mw_certificate *c)
+{
+    memset(c, 0, sizeof *c);
+    for (int i = 0; i < MW_MAX_UNKNOWNS; i++) c->x[i] = mwc_wide(NAN, NAN, NAN), c->box[i] = NAN;
+    for (int i = 0; i < 3; i++) c->point[i] = c->normal[i] = mwc_make(NAN, NAN);
+    c->wheel_angle = c->curvature[0] = c->curvature[1] = mwc_make(NAN, NAN);
+}
+
+static int posed(const mw_model *m, mw_wide *s, mw_wide phi, problem *p, double *sizes)
+{
+    const mw_certified *t = tables_of(m);
+    if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
+    set_instant(t, s, phi);
+    sizes_of(m, s, sizes);
+    p->equations = &t->equations;
+    p->n = m->nx;
+    p->sizes = sizes;
+    known(p, s, t->slots);
+    for (int i = 0; i < t->equations.inputs; i++) {
+        const int at = t->equations.input[i];
+        if (at < t->slots && !(p->balls[at].radius < HUGE_VAL && p->balls[at].mid == p->balls[at].mid)) return MW_REASON_DESIGN;
+    }
+    return MW_REASON_NONE;
+}
+
+/* The certificate of a solution that is the only one within box of x. */
+static int granted(const mw_model *m, problem *p, const solution *found, mw_certificate *c)
+{
+    if (!within_domain(m, found->x, found->box)) return ended(c, MW_UNKNOWN, MW_REASON_OUTSIDE);
+    for (int i = 0; i < m->nx; i++) {
+        c->x[i] = found->x[i];
+        c->x[i].radius = found->within[i];
+        c->box[i] = found->box[i];
+    }
+    observe(m, p, c);
+    return ended(c, MW_UNIQUE, MW_REASON_NONE);
+}
+
+int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c)
+{
+    double sizes[MW_MAX_UNKNOWNS];
+    problem p;
+    solution found;
+    nothing(c);
+    for (int i = 0; i < m->nx; i++)
+        if (x[i] != x[i]) return ended(c, MW_UNKNOWN, MW_REASON_CONTACT);
+    int reason = posed(m, s, phi, &p, sizes);
+    if (reason != MW_REASON_NONE) return ended(c, MW_UNKNOWN, reason);
+    for (int i = 0; i < m->nx; i++) found.x[i] = mwc_wide_of(x[i]);
+    reason = enclose(&p, &found);
+    if (reason == MW_REASON_NONE) return granted(m, &p, &found, c);
+    return ended(c, MW_UNKNOWN, line ? MW_REASON_LINE : reason);
+}
+
+int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c)
+{
+    const int n = m->nx;
+    mw_ball J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS], z[MW_MAX_UNKNOWNS];
+    double sizes[MW_MAX_UNKNOWNS], C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
+    double K[MW_MAX_UNKNOWNS];
+    problem p;
+    solution found;
+    nothing(c);
+    const int reason = posed(m, s, phi, &p, sizes);
+    if (reason != MW_REASON_NONE) return ended(c, MW_UNKNOWN, reason);
+    for (int i = 0; i < n; i++) found.x[i] = mwc_wide_of(x[i]), found.box[i] = d[i];
+    if (!within_domain(m, found.x, d)) return ended(c, MW_UNKNOWN, MW_REASON_OUTSIDE);
+    linearised(&p, found.x, d, R, J);
+    for (int i = 0; i < n; i++)
+        if (mwc_abs(R[i].mid) - mwc_reach(R[i]) > 0.0) return ended(c, MW_NONE, MW_REASON_NONE);
+    residual_at(&p, found.x, R);
+    if (!mwc_inverse(n, J, C)) return ended(c, MW_UNKNOWN, MW_REASON_BOX);
+    mwc_shift(n, C, R, z);
+    mwc_defect(n, C, J, M);
+    if (mwc_misses(n, z, M, d)) return ended(c, MW_NONE, MW_REASON_NONE);
+    mwc_image(n, z, M, d, K);
+    if (!mwc_inside(n, K, d)) return ended(c, MW_UNKNOWN, MW_REASON_BOX);
+    narrow(n, z, M, K, found.within);
+    return granted(m, &p, &found, c);
+}
+
+size_t mw_certify_points(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
+                         mw_certificate *c)
+{
+    size_t unique = 0;
+    for (size_t k = 0; k < n; k++) unique += mw_certify(m, s, phi[k], x + k * (size_t)m->nx, line[k], c + k) == MW_UNIQUE;
+    return unique;
+}
+
+size_t mw_certify_boxes(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
+                        mw_certificate *c)
+{
+    const size_t nx = (size_t)m->nx;
+    size_t unique = 0;
+    for (size_t k = 0; k < n; k++) unique += mw_certify_box(m, s, phi[k], x + k * nx, d + k * nx, c + k) == MW_UNIQUE;
+    return unique;
+}

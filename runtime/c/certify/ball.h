@@ -1,0 +1,167 @@
+/* Midpoint and radius: doubles rounded to nearest, no rounding mode touched.  SPDX-License-Identifier: MIT-0
+ *
+ * Rounding to nearest puts a result within MWC_U of its own size of the exact one, and, where it is subnormal, within half
+ * of the least double (Rump, "Fast and parallel interval arithmetic", BIT 39 (1999); Higham, "Accuracy and Stability of
+ * Numerical Algorithms", 2nd ed., 2.1). Each operation adds that to what the radii of its arguments make of it. Radii are
+ * sums and products of numbers not below zero: what their own rounding loses, a few thousand factors 1 + MWC_U at most
+ * (the printer counts them), MWC_READ makes good where a radius is read. An operation that is not defined everywhere
+ * within the radii has an infinite one. Needs IEEE arithmetic with subnormal numbers: see mwc_arithmetic. */
+#ifndef MWC_BALL_H
+#define MWC_BALL_H
+
+#include <math.h>
+#include "../mw_enclosures.h"
+
+/* 2^-53; 2^-1073: what underflow loses in one operation, three halves of the least double at most; 1 + 2^-40. */
+static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931e-324, MWC_READ = 1.0000000000009095;
+
+/* Largest error of sine and cosine for |a| < MWC_FAR. With r the reduced argument, |r| < 0.7854:
+ *   reduction   a - k P1 is exact (Sterbenz; k P1 and k P2 are exact, P1 and P2 have 33 bits, |k| < 2^20); the two other
+ *               differences round by a quarter of MWC_U each where |r| < 1/2, else by half of it;
+ *   series      Taylor's, its first omitted term below 1e-19;
+ *   evaluation  last sum half of MWC_U; the terms before it, below 0.08 in the sine and 0.016 in the cosine, four
+ *               roundings each; the square in 1 - r^2/2 a quarter of MWC_U.
+ * Sine 0.88 + 0.5 + 0.35, cosine 0.71 + 0.5 + 0.25 + 0.08: below two units of MWC_U. */
+static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = 1.6e6;
+
+static inline double mwc_abs(double a)
+{
+    return a < 0.0 ? -a : a;
+}
+
+/* The radius, with what its rounding lost. */
+static inline double mwc_reach(mw_ball a)
+{
+    return MWC_READ * a.radius;
+}
+
+static inline mw_ball mwc_make(double mid, double radius)
+{
+    mw_ball b;
+    b.mid = mid;
+    b.radius = radius;
+    return b;
+}
+
+/* Whatever the operation was, it is not defined everywhere here. */
+static inline mw_ball mwc_where(int defined, double mid, double radius)
+{
+    return mwc_make(mid, defined ? radius : HUGE_VAL);
+}
+
+static inline mw_ball mwc_add(mw_ball a, mw_ball b)
+{
+    const double m = a.mid + b.mid;
+    return mwc_make(m, (a.radius + b.radius) + MWC_U * mwc_abs(m));
+}
+
+static inline mw_ball mwc_sub(mw_ball a, mw_ball b)
+{
+    const double m = a.mid - b.mid;
+    return mwc_make(m, (a.radius + b.radius) + MWC_U * mwc_abs(m));
+}
+
+static inline mw_ball mwc_neg(mw_ball a)
+{
+    return mwc_make(-a.mid, a.radius);
+}
+
+static inline mw_ball mwc_mul(mw_ball a, mw_ball b)
+{
+    const double m = a.mid * b.mid;
+    const double spread = mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b));
+    return mwc_make(m, spread + (MWC_U * mwc_abs(m) + MWC_TINY));
+}
+
+static inline mw_ball mwc_sqr(mw_ball a)
+{
+    const double m = a.mid * a.mid;
+    return mwc_make(m, a.radius * (2.0 * mwc_abs(a.mid) + mwc_reach(a)) + (MWC_U * m + MWC_TINY));
+}
+
+/* a/b - ma/mb = ((a - ma) - (ma/mb)(b - mb))/b; the factors next to 1 round outwards. */
+static inline mw_ball mwc_div(mw_ball a, mw_ball b)
+{
+    const double q = a.mid / b.mid, least = mwc_abs(b.mid) - mwc_reach(b);
+    const double spread = (mwc_abs(q) * (1.0 + 4.0 * MWC_U) * b.radius + a.radius) / (least * (1.0 - 8.0 * MWC_U));
+    return mwc_where(least > 0.0, q, spread + (MWC_U * mwc_abs(q) + MWC_TINY));
+}
+
+/* |sqrt(a) - sqrt(m)| = |a - m|/(sqrt(a) + sqrt(m)) <= r/sqrt(m) */
+static inline mw_ball mwc_sqrt(mw_ball a)
+{
+    const double root = sqrt(a.mid);
+    if (a.mid == 0.0 && a.radius == 0.0) return a;
+    return mwc_where(a.mid - mwc_reach(a) > 0.0, root, a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root);
+}
+
+/* Sine and cosine of a double, each within MWC_SINE. */
+static inline void mwc_sine(double a, double *sine, double *cosine)
+{
+    const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it is rounded to a whole number */
+    const double k = (a * 0.6366197723675814 + magic) - magic;
+    const double r = ((a - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
+    const double z = r * r;
+    const double u = -0.16666666666666666 + z * (0.008333333333333333 + z * (-0.0001984126984126984 + z *
+        (2.7557319223985893e-06 + z * (-2.505210838544172e-08 + z * (1.6059043836821613e-10 + z *
+        (-7.647163731819816e-13 + z * (2.8114572543455206e-15)))))));
+    const double v = 0.041666666666666664 + z * (-0.001388888888888889 + z * (2.48015873015873e-05 + z *
+        (-2.755731922398589e-07 + z * (2.08767569878681e-09 + z * (-1.1470745597729725e-11 + z *
+        (4.779477332387385e-14 + z * (-1.5619206968586225e-16)))))));
+    const double s = r + (r * z) * u, w = 1.0 - 0.5 * z;
+    const double c = w + (((1.0 - w) - 0.5 * z) + (z * z) * v);
+    const int quadrant = (int)k, odd = quadrant & 1;
+    const double first = odd ? c : s, second = odd ? s : c;
+    *sine = (quadrant & 2) ? -first : first;
+    *cosine = ((quadrant + 1) & 2) ? -second : second;
+}
+
+/* |sin(m + d) - sin m| <= |cos m| |d| + d^2/2 */
+static inline void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
+{
+    double s, c;
+    const int near = mwc_abs(a.mid) < MWC_FAR;
+    mwc_sine(near ? a.mid : 0.0, &s, &c);
+    const double bend = 0.5 * a.radius * mwc_reach(a) + MWC_SINE;
+    *sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend);
+    *cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend);
+}
+
+/* Angle of the point (x, y): about any angle t near it, t + atan((y cos t - x sin t)/(x cos t + y sin t)), whose arc is
+ * within |d|^3/3 of its tangent d. Nothing is asked of atan2 but that t lies on the right side of the axis. */
+static inline mw_ball mwc_atan2(mw_ball y, mw_ball x)
+{
+    const double t = atan2(y.mid, x.mid);
+    const int uncut = x.mid - mwc_reach(x) > 0.0 || mwc_abs(y.mid) - mwc_reach(y) > 0.0;
+    mw_ball s, c;
+    mwc_sincos(mwc_make(t, 0.0), &s, &c);
+    const mw_ball along = mwc_add(mwc_mul(x, c), mwc_mul(y, s));
+    const mw_ball d = mwc_div(mwc_sub(mwc_mul(y, c), mwc_mul(x, s)), along);
+    const double m = t + d.mid, cube = mwc_abs(d.mid) * d.mid * d.mid;
+    const int right = along.mid > 0.0 && mwc_abs(t) < 3.15 && (t < 0.0) == (y.mid < 0.0);
+    return mwc_where(uncut && right, m, d.radius + (MWC_U * mwc_abs(m) + cube));
+}
+
+/* -1 below 0, else 1: known only where the radius leaves no choice. */
+static inline mw_ball mwc_sign(mw_ball a)
+{
+    const double reach = mwc_reach(a);
+    return mwc_where(a.mid - reach >= 0.0 || a.mid + reach < 0.0, a.mid < 0.0 ? -1.0 : 1.0, 0.0);
+}
+
+static inline mw_ball mwc_of_wide(mw_wide a)
+{
+    return mwc_make(a.hi, (mwc_abs(a.lo) + a.radius) * MWC_READ);
+}
+
+/* Whether the arithmetic is the one that the bounds are proved for: rounded to nearest, even in a tie, with subnormal
+ * numbers, in doubles without wider ones between, products not fused into sums. */
+static inline int mwc_arithmetic(void)
+{
+    volatile double one = 1.0, u = 1.1102230246251565e-16, least = 4.9406564584124654e-324, near = 1.0 + 2.0 * u;
+    volatile double down = one + u, up = near + u, half = 2.2250738585072014e-308 * 0.5, square = near * near;
+    volatile double below = -one - u, rest = near * near - square;
+    return down == 1.0 && up == 1.0 + 4.0 * u && below == -1.0 && least > 0.0 && half > 0.0 && half + half > half && rest == 0.0;
+}
+
+#endif

@@ -1,0 +1,34 @@
+/* Runs a function's table of operations in one arithmetic.  SPDX-License-Identifier: MIT-0
+ *
+ * The including file defines MWC_RUN, the name of the function; MWC_NUMBER, the type of its numbers; MWC_DO(operation), the
+ * name of an operation of that arithmetic; MWC_CONSTANT(c), a constant of the table in it. These are undefined again. */
+
+/* Runs `count` operations of code with its arguments in a row; results stay in their registers. */
+static void MWC_RUN(const mw_code *code, int count, const MWC_NUMBER *arguments, MWC_NUMBER *registers)
+{
+    MWC_NUMBER *constants = registers + code->inputs;
+    const unsigned short *i = code->operation, *const end = i + 4 * count;
+    for (int k = 0; k < code->inputs; k++) registers[k] = arguments[code->input[k]];
+    for (int k = 0; k < code->constants; k++) constants[k] = MWC_CONSTANT(code->constant[k]);
+    for (; i < end; i += 4) {
+        MWC_NUMBER *const result = registers + i[1];
+        const MWC_NUMBER *const a = registers + i[2], *const b = registers + i[3];
+        switch (i[0]) {
+        case MW_OP_ADD: *result = MWC_DO(add)(*a, *b); break;
+        case MW_OP_SUB: *result = MWC_DO(sub)(*a, *b); break;
+        case MW_OP_MUL: *result = MWC_DO(mul)(*a, *b); break;
+        case MW_OP_SQR: *result = MWC_DO(sqr)(*a); break;
+        case MW_OP_DIV: *result = MWC_DO(div)(*a, *b); break;
+        case MW_OP_NEG: *result = MWC_DO(neg)(*a); break;
+        case MW_OP_SQRT: *result = MWC_DO(sqrt)(*a); break;
+        case MW_OP_SINCOS: MWC_DO(sincos)(*a, result, registers + i[3]); break;
+        case MW_OP_ATAN2: *result = MWC_DO(atan2)(*a, *b); break;
+        default: *result = MWC_DO(sign)(*a); break;
+        }
+    }
+}
+
+#undef MWC_RUN
+#undef MWC_NUMBER
+#undef MWC_DO
+#undef MWC_CONSTANT

@@ -1,0 +1,23 @@
+/* Functions of a drive in both arithmetics.  SPDX-License-Identifier: MIT-0 */
+#ifndef MWC_TABLES_H
+#define MWC_TABLES_H
+
+#include "../mw_certified.h"
+#include "wide.h"
+
+/* Most registers of a function and most numbers that it reads. */
+enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
+
+#define MWC_RUN mwc_run_ball
+#define MWC_NUMBER mw_ball
+#define MWC_DO(operation) mwc_##operation
+#define MWC_CONSTANT(c) mwc_of_wide(c)
+#include "run.h"
+
+#define MWC_RUN mwc_run_wide
+#define MWC_NUMBER mw_wide
+#define MWC_DO(operation) mwc_wide_##operation
+#define MWC_CONSTANT(c) (c)
+#include "run.h"
+
+#endif

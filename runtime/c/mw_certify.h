@@ -1,0 +1,83 @@
+/* Certified contact: proofs by arithmetic that encloses.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_CERTIFY_H
+#define MW_CERTIFY_H
+
+#include "mw_enclosures.h"
+#include "mw_model.h"
+#include "mw_status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Why nothing is shown: value, word, what it means. */
+#define MW_REASON_LIST(X) \
+    X(MW_REASON_NONE, 0, "", "it is shown") \
+    X(MW_REASON_LINE, 1, "line_contact", "the flanks touch along a line, or nearly: no single point is singled out") \
+    X(MW_REASON_FOLD, 2, "fold", "the equations are singular or nearly so here: two contacts meet, or branches cross") \
+    X(MW_REASON_WIDE, 3, "wide", "the equations cannot be told to have one solution in any box about the point") \
+    X(MW_REASON_BOX, 4, "box", "neither a solution nor its absence can be shown in this box: divide it") \
+    X(MW_REASON_OUTSIDE, 5, "outside", "the box reaches beyond the domain of the equations") \
+    X(MW_REASON_DESIGN, 6, "design", "a size that follows from the design cannot be enclosed") \
+    X(MW_REASON_CONTACT, 7, "no_contact", "there is no solution to begin with") \
+    X(MW_REASON_ARITHMETIC, 8, "arithmetic", "this processor or compiler does not round as the bounds need")
+
+typedef enum mw_reason {
+#define MW_REASON_ENUM(code, value, word, text) code = value,
+    MW_REASON_LIST(MW_REASON_ENUM)
+#undef MW_REASON_ENUM
+    MW_REASON_END
+} mw_reason;
+
+/* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
+
+/* What is shown of the equations of contact: neither; one solution in the box, and the Jacobian regular in it; none. */
+enum { MW_UNKNOWN, MW_UNIQUE, MW_NONE };
+
+/* x[nx]: the solution lies within these; box[nx]: it is the only one within these of x[].hi + x[].lo. flags: those of
+ * mw_flag that surely hold; undecided: those that the enclosure cannot tell. point: of the pinion, fixed frame; curvature:
+ * principal, of the gap. Not numbers unless the outcome is MW_UNIQUE. */
+typedef struct mw_certificate {
+    int outcome, reason;
+    unsigned flags, undecided;
+    mw_wide x[8];
+    double box[8];
+    mw_ball point[3], normal[3], wheel_angle, curvature[2];
+} mw_certificate;
+
+const char *mw_reason_word(int reason);
+const char *mw_reason_text(int reason);
+
+/* Whether this library encloses the drive, and arithmetic here is what its bounds need. */
+int mw_encloses(const mw_model *m);
+
+/* Numbers of the enclosed state. */
+int mw_enclosed_slots(const mw_model *m);
+
+/* Complete an enclosed design: p[np], in the units of the keys where given, not a number where open; on return in inner
+ * units and complete as mw_complete leaves a design. q[np + 1] work. Returns 0, or 1 + index of the design system whose
+ * solution cannot be enclosed. */
+int mw_enclose_design(const mw_model *m, mw_wide *p, double *q);
+
+/* Design stage: p[np] of mw_enclose_design; s[mw_enclosed_slots]. */
+void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s);
+
+/* Certify the contact that x[nx], a solution in floating point at input angle phi, stands for: existence and uniqueness in
+ * the widest box that a few steps find. line: whether the flanks are known to touch along a line. Returns the outcome. */
+int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c);
+
+/* The same of a given box x +- d, d[nx] > 0: one solution, none, or unknown. */
+int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c);
+
+/* Both for n points: phi[n], x[n*nx], line[n], d[n*nx], c[n]. Return the number of those that are shown to be unique. */
+size_t mw_certify_points(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
+                         mw_certificate *c);
+size_t mw_certify_boxes(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
+                        mw_certificate *c);
+
+/* END INTERFACE */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

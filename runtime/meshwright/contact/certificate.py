@@ -1,0 +1,184 @@
+"""Certified contact: a proof, point by point, that the equations have a solution, that it is the only one nearby, and
+how far the transmission error and the contact point can be off.
+
+What is proved is of the equations, for the decimals of the design: see :class:`Certificates`.
+"""
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from meshwright.base.errors import UsageError
+from meshwright.base.library import library, pointer, record, text
+from meshwright.contact import exact
+from meshwright.contact.analysis import flag_names
+from meshwright.contact.results import impossible
+
+#: Outcomes by their number in the library.
+OUTCOMES = ("unknown", "unique", "none")
+
+
+@dataclass(frozen=True)
+class EnclosedDesign:
+    """What follows from the decimals of a design, enclosed: the state (slots,) of ``mw_wide``, without an angle.
+
+    ``failed``: name of the design system whose solution cannot be enclosed, None if all can.
+    """
+
+    model: object
+    state: np.ndarray
+    parameters: np.ndarray
+    failed: str | None
+
+    @classmethod
+    def of(cls, design, m):
+        """The design, completed by rules and design systems and set up, all in double-double with error bounds."""
+        p = exact.wides([*_given(design)])
+        parameters, slots = pointer(p, "mw_wide[]"), library().mw_enclosed_slots(m)
+        failed = library().mw_enclose_design(m, parameters, pointer(np.empty(m.np + 1)))
+        state = np.full(slots, np.nan, dtype=record("mw_wide"))
+        if not failed:
+            library().mw_enclose_setup(m, parameters, pointer(state, "mw_wide[]"))
+        name = text(m.systems[failed - 1].name) if 0 < failed <= m.nsystems else ("" if failed else None)
+        return cls(m, state, p, name)
+
+
+def _given(design):
+    """Bounds of every parameter that the design gives, in the unit of its key; None where it is open."""
+    for p in design.description["parameters"]:
+        word = design.tables["flank"] if p["table"] == "flank" else design.tables[p["table"]].get(p["key"])
+        if word is None:
+            yield None
+        else:
+            number = Fraction(p["choices"][word]) if p["choices"] else exact.decimal(word)
+            yield number, number
+
+
+@dataclass(frozen=True)
+class Certificates:
+    """What is shown at N pinion angles.
+
+    ``outcomes``: ``unique``: the equations of contact have exactly one solution within ``boxes`` (N, nx) of the one
+    found, and it lies in the enclosures; ``none``: they have none in the box asked for; ``unknown``: neither is shown,
+    for the reason in ``reasons``, which is evidence of nothing. ``records`` (N,) are the library's own. Each is for the
+    exact decimals of the design and for the exact angle; that floating point found the same is not assumed.
+    """
+
+    drive: object
+    records: np.ndarray
+
+    @property
+    def outcomes(self):
+        return tuple(OUTCOMES[k] for k in self.records["outcome"])
+
+    @property
+    def reasons(self):
+        """Why nothing is shown, a word each; empty where something is."""
+        return tuple(text(library().mw_reason_word(int(k))) for k in self.records["reason"])
+
+    @property
+    def messages(self):
+        """The same in a sentence."""
+        return tuple(text(library().mw_reason_text(int(k))) for k in self.records["reason"])
+
+    @property
+    def boxes(self):
+        """Half-widths (N, nx) of the boxes in which the solution is the only one."""
+        return self.records["box"][:, : self.drive.model.nx]
+
+    def error(self, k):
+        """Bounds of the transmission error at point k, rad, as fractions; None where it is not enclosed."""
+        entry = self.records["x"][k, self.drive.design.description["error"]]
+        if self.records["outcome"][k] != OUTCOMES.index("unique"):
+            return None
+        low, high = exact.bounds(entry)
+        return (low, high) if self.drive.design.mirror.sign > 0.0 else (-high, -low)
+
+    def error_arcsec(self):
+        """Bounds (N, 2) of the transmission error, arcseconds, rounded outwards; NaN where it is not enclosed."""
+        ends = [self.error(k) for k in range(len(self.records))]
+        return np.array([(np.nan, np.nan) if e is None else exact.arcseconds(*e) for e in ends]).reshape(-1, 2)
+
+    def flags(self, k):
+        """(name → "yes", "no" or "undecided") of every flag of the model at point k."""
+        yes, open_ = int(self.records["flags"][k]), int(self.records["undecided"][k])
+        found = {}
+        for bit, name in enumerate(flag_names(self.drive.model)):
+            word = "yes" if yes >> bit & 1 else "undecided" if open_ >> bit & 1 else "no"
+            found[name] = max(found.get(name, "no"), word, key=("no", "undecided", "yes").index)
+        return found
+
+    def impossible(self, k):
+        """Names of the flags by which bodies surely cannot make the contact at point k."""
+        return [name for name, word in self.flags(k).items() if word == "yes" and impossible(name)]
+
+    def to_plain(self):
+        """A certificate each, as plain data of the ``meshwright.tca/1`` schema."""
+        errors = self.error_arcsec()
+        return [self._plain(k, *errors[k]) for k in range(len(self.records))]
+
+    def _plain(self, k, low, high):
+        outcome, reason = self.outcomes[k], self.reasons[k]
+        shown = outcome == "unique"
+        names = [u["name"] for u in self.drive.design.description["unknowns"]]
+        entry = self.records[k]
+        return {
+            "outcome": outcome,
+            "reason": reason or None,
+            "message": self.messages[k],
+            "transmission_error_arcsec": [float(low), float(high)] if shown else None,
+            "radius": exact.upwards((Fraction(float(high)) - Fraction(float(low))) / 2) if shown else None,
+            "contact_point_mm": self._point(entry["point"]) if shown else None,
+            "contact_point_radius_mm": float(entry["point"]["radius"].max()) if shown else None,
+            "unique_within": dict(zip(names, map(float, self.boxes[k]), strict=True)) if shown else None,
+            "flags": self.flags(k) if shown else {},
+            "impossible": self.impossible(k) if shown else [],
+        }
+
+    def _point(self, balls):
+        return (balls["mid"] * self.drive.design.mirror.flip).tolist()
+
+
+def certify(drive, angles, solutions, lines, degrees=None):
+    """:class:`Certificates` of contacts found in floating point.
+
+    ``angles`` (N,) rad, of the design's hand, each the exact double that it is; ``solutions`` (N, nx) the unknowns
+    there, ``lines`` (N,) where the flanks touch along a line. ``degrees``: the angles as exact fractions of degrees, if
+    they were given so.
+    """
+    sign = int(drive.design.mirror.sign)
+    exactly = [(Fraction(float(a)),) * 2 for a in angles] if degrees is None else [*map(exact.radians, degrees)]
+    phi = exact.wides([tuple(sorted(sign * end for end in ends)) for ends in exactly])
+    solutions, lines = np.ascontiguousarray(solutions, dtype=float), np.ascontiguousarray(lines, dtype=np.int32)
+    return _all(drive, phi, library().mw_certify_points, pointer(solutions), pointer(lines, "int[]"))
+
+
+def certify_boxes(drive, angles, centres, half_widths):
+    """:class:`Certificates` of given boxes: unknowns ``centres`` ± ``half_widths`` (N, nx), of the right-hand model at
+    its own angles (N,), rad.
+    """
+    phi = exact.wides([(Fraction(float(a)),) * 2 for a in angles])
+    centres, half_widths = (np.ascontiguousarray(a, dtype=float) for a in (centres, half_widths))
+    if centres.shape != (len(phi), drive.model.nx) or half_widths.shape != centres.shape:
+        raise UsageError(f"boxes: centres and half-widths must be arrays ({len(phi)}, {drive.model.nx})")
+    return _all(drive, phi, library().mw_certify_boxes, pointer(centres), pointer(half_widths))
+
+
+def _all(drive, phi, each, first, second):
+    records, state = np.zeros(len(phi), record("mw_certificate")), drive.enclosed.state.copy()
+    each(
+        drive.enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), first, second, len(phi),
+        pointer(records, "mw_certificate[]"),
+    )  # fmt: skip
+    return Certificates(drive, records)
+
+
+def degrees_of(words):
+    """Exact degrees of ``A:B:STEP`` or ``v1,v2,…`` as they are written, fractions."""
+    if ":" in words:
+        begin, end, step = map(Fraction, words.split(":"))
+        count = int(np.floor(float((end - begin) / step) + 1e-9)) + 1
+        return [begin + k * step for k in range(count)]
+    return [Fraction(word) for word in re.split(",", words)]

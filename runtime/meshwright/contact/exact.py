@@ -1,0 +1,72 @@
+"""Exact numbers of a design and of an angle, and the enclosures that certified arithmetic reads and writes.
+
+A number of a design is the shortest decimal that reads back as its double: the one that was written, unless more than
+sixteen digits were. Angles in degrees are multiples of π, which is given by bounds.
+"""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from meshwright.base.library import record
+
+#: π lies between (Archimedes' bounds, to 60 decimals).
+PI = (
+    Fraction("3.141592653589793238462643383279502884197169399375105820974944"),
+    Fraction("3.141592653589793238462643383279502884197169399375105820974945"),
+)
+
+
+def decimal(number):
+    """The decimal that a double was written as, a fraction."""
+    return Fraction(repr(float(number)))
+
+
+def wide(low, high):
+    """(high, low, radius) of doubles: every number between two fractions is within ``radius`` of ``high + low``."""
+    middle = (low + high) / 2
+    first = float(middle)
+    second = float(middle - Fraction(first))
+    rest = (high - low) / 2 + abs(middle - Fraction(first) - Fraction(second))
+    return first, second, upwards(rest)
+
+
+def upwards(value):
+    """The least double not below a fraction."""
+    near = float(value)
+    return near if Fraction(near) >= value else math.nextafter(near, math.inf)
+
+
+def downwards(value):
+    """The largest double not above a fraction."""
+    return -upwards(-value)
+
+
+def wides(pairs):
+    """An array of ``mw_wide`` from bounds; NaN where there are none (None)."""
+    array = np.full(len(pairs), np.nan, dtype=record("mw_wide"))
+    for k, pair in enumerate(pairs):
+        if pair is not None:
+            array[k] = wide(*pair)
+    return array
+
+
+def radians(degrees):
+    """Bounds of an angle in rad, given in degrees as a fraction."""
+    ends = sorted(degrees * p / 180 for p in PI)
+    return ends[0], ends[1]
+
+
+def bounds(entry):
+    """The two fractions between which an ``mw_wide`` or ``mw_ball`` lies."""
+    middle = Fraction(float(entry["hi"])) + Fraction(float(entry["lo"])) if "hi" in entry.dtype.names else None
+    middle = Fraction(float(entry["mid"])) if middle is None else middle
+    radius = Fraction(float(entry["radius"]))
+    return middle - radius, middle + radius
+
+
+def arcseconds(low, high):
+    """Doubles around the same angles in arcseconds: (low, high), rounded outwards."""
+    ends = [Fraction(648000) * angle / p for angle in (low, high) for p in PI]
+    return downwards(min(ends)), upwards(max(ends))

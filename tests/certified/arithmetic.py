@@ -1,0 +1,83 @@
+"""The arithmetics of certified contact, compiled as they are and with changed error terms, for the tests.
+
+Every variant is a copy of the same header under other names, so that one compilation serves all.
+"""
+
+import ctypes
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from meshwright.base.compile import FLAGS, compiler
+
+C = Path(__file__).resolve().parent.parent.parent / "runtime" / "c"
+BINARY = ("add", "sub", "mul", "div", "atan2")
+UNARY = ("sqr", "neg", "sqrt", "sign")
+NUMBER = {"ball": ("mw_ball", "mwc_", 2), "wide": ("mw_wide", "mwc_wide_", 3)}
+
+_LOOPS = """
+void run_{v}_{kind}_{op}(int n, const {type} *a, const {type} *b, {type} *r, {type} *s)
+{{
+    (void)b, (void)s;
+    for (int k = 0; k < n; k++) {call};
+}}
+"""
+
+
+def _calls(kind, prefix):
+    type_, name, _ = NUMBER[kind]
+    name = prefix + name.removeprefix("mwc_")
+    for op in BINARY:
+        yield op, type_, f"r[k] = {name}{op}(a[k], b[k])"
+    for op in UNARY:
+        yield op, type_, f"r[k] = {name}{op}(a[k])"
+    yield "sincos", type_, f"{name}sincos(a[k], &r[k], &s[k])"
+
+
+def _text(name):
+    text = (C / "certify" / name).read_text(encoding="utf-8")
+    text = re.sub(r"^#include.*\n", "", text, flags=re.MULTILINE)
+    return re.sub(r"^#(ifndef|define|endif).*\n", "", text, flags=re.MULTILINE)
+
+
+def compiled(folder, changes=None):
+    """Variant → :class:`Arithmetic`: ``exact`` as it is and, for each name in ``changes`` (name → [(text, instead)]),
+    the same with these texts of the headers replaced. A text that is not there once is an error.
+    """
+    sources = ['#include <math.h>\n#include "mw_enclosures.h"\n']
+    variants = {"exact": [], **(changes or {})}
+    for number, (variant, replaced) in enumerate(variants.items()):
+        text, prefix = _text("ball.h") + _text("wide.h"), f"v{number}_"
+        for old, new in replaced:
+            assert text.count(old) == 1, (variant, old, text.count(old))
+            text = text.replace(old, new)
+        sources.append(text.replace("mwc_", prefix).replace("MWC_", prefix.upper()))
+        for kind in NUMBER:
+            for op, type_, call in _calls(kind, prefix):
+                sources.append(_LOOPS.format(v=f"v{number}", kind=kind, op=op, type=type_, call=call))
+    source, library = folder / "arithmetic.c", folder / "arithmetic.so"
+    source.write_text("".join(sources), encoding="utf-8")
+    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
+    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
+    subprocess.run([*map(str, command)], check=True)
+    loaded = ctypes.CDLL(str(library))
+    return {variant: Arithmetic(loaded, f"v{number}") for number, variant in enumerate(variants)}
+
+
+class Arithmetic:
+    """One variant. Numbers are arrays (N, 2): mid, radius, or (N, 3): hi, lo, radius."""
+
+    def __init__(self, loaded, name):
+        self._loaded, self._name = loaded, name
+
+    def __call__(self, kind, op, a, b=None):
+        """Results (N, 2 or 3) of one operation; of ``sincos`` both."""
+        width = NUMBER[kind][2]
+        a = np.ascontiguousarray(a, dtype=float).reshape(-1, width)
+        b = a if b is None else np.ascontiguousarray(b, dtype=float).reshape(-1, width)
+        r, s = np.empty_like(a), np.empty_like(a)
+        run = getattr(self._loaded, f"run_{self._name}_{kind}_{op}")
+        run(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in (a, b, r, s)))
+        return (r, s) if op == "sincos" else r

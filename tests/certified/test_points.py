@@ -1,0 +1,230 @@
+"""Certified points: what is shown of published and misaligned contacts is true to sixty digits; no more is shown."""
+
+import json
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.contact.branch import fold_angle
+from meshwright.contact.certificate import certify, certify_boxes
+from meshwright.contact.results import ARCSEC
+from meshwright.cycle.path import Path
+from tests.independent.spherical import Gear, Pair
+from tests.independent.worm import WormDrive
+from tests.published import published_rows
+from tests.worm.designs import packaged, plain
+
+DIGITS = 60
+
+
+def decimals(tables):
+    """A design with each of its numbers as the decimal that is written, in the precision of the moment."""
+    return {
+        name: {k: mpmath.mpf(repr(v)) if isinstance(v, float) else v for k, v in entries.items()}
+        if isinstance(entries, dict)
+        else entries
+        for name, entries in tables.items()
+    }
+
+
+def exact_error(tables, result, k, degrees):
+    """Transmission error of a worm drive at so many degrees, arcseconds, by other equations in sixty digits."""
+    paper, phi = WormDrive.of(decimals(tables)), mpmath.mpf(degrees.numerator) / degrees.denominator * mpmath.pi / 180
+    u = {name: values[k] for name, values in result.unknowns.items()}
+    start = [u["t_worm"], u["psi_worm"], u["t_hob"], u["psi_hob"], u["phi_hob"], result.wheel_angles[k]]
+    for _ in range(2):
+        start = _further(paper, start, phi)
+    assert max(map(abs, paper.residual(start, phi))) < mpmath.mpf(10) ** -35
+    return (start[5] - mpmath.mpf(paper.threads) / paper.teeth * phi) * 648000 / mpmath.pi
+
+
+def _further(paper, unknowns, phi):
+    """Chord steps in the precision of the moment."""
+    unknowns = [mpmath.mpf(u) for u in unknowns]
+    inverse = np.linalg.inv(paper._jacobian(unknowns, phi))
+    for _ in range(4):
+        residual = paper.residual(unknowns, phi)
+        size = max(map(abs, residual)) or mpmath.mpf(1)
+        change = inverse @ np.array([float(r / size) for r in residual])
+        unknowns = [u - size * mpmath.mpf(float(c)) for u, c in zip(unknowns, change, strict=True)]
+    return unknowns
+
+
+def contains(bounds, value):
+    """Whether sixty digits lie between two doubles, with what sixty digits themselves leave open."""
+    low, high = map(float, bounds)
+    slack = mpmath.mpf(10) ** -30
+    return mpmath.mpf(low) - slack <= value <= mpmath.mpf(high) + slack
+
+
+def test_every_published_contact_is_the_only_one_and_its_error_is_known_to_a_nanosecond_of_arc():
+    rows, _ = published_rows()
+    for kind in ("standard", "semi", "full"):
+        drive = Drive.load(f"recess-action-{kind}")
+        degrees = [Fraction(str(row["phi_worm_deg"])) for row in rows if row["type"] == kind]
+        result = drive.tca(np.radians([float(d) for d in degrees]))
+        found = drive.certify(result.angles, result, degrees)
+        assert set(found.outcomes) == {"unique"} and len(degrees) == 5
+        errors = found.error_arcsec()
+        assert np.all(errors[:, 1] - errors[:, 0] < 2e-9)
+        with mpmath.workdps(DIGITS):
+            for k in (0, 4):
+                assert contains(errors[k], exact_error(drive.design.given(), result, k, degrees[k]))
+
+
+@pytest.mark.parametrize("profiles", [("ZK", "ZN"), ("ZI", "ZI"), ("ZC", "ZC")])
+def test_enclosures_hold_the_solution_of_other_equations_in_sixty_digits(profiles):
+    errors = {"center_distance_mm": 0.03, "horizontal_deg": 0.03, "vertical_deg": -0.02, "axial_mm": 0.05}
+    tables = plain(*profiles, hob_pitch_radius_mm=21.5) | {"misalignment": errors}
+    drive, degrees = Drive.from_tables(tables), [Fraction("-25.1"), Fraction("10.3")]
+    result = drive.tca(np.radians([float(d) for d in degrees]))
+    found = drive.certify(result.angles, result, degrees)
+    assert found.outcomes == ("unique", "unique")
+    with mpmath.workdps(DIGITS):
+        for k, angle in enumerate(degrees):
+            assert contains(found.error_arcsec()[k], exact_error(tables, result, k, angle))
+
+
+def test_an_enclosed_spherical_contact_holds_every_unknown_to_sixty_digits():
+    tables = {
+        "drive": "spherical",
+        "flank": "left",
+        "design": {
+            "module_mm": 4.0, "pinion_teeth": 36, "wheel_teeth": 72, "pressure_angle_deg": 20.0, "face_width_mm": 15.0,
+            "pinion_form": "convex", "wheel_form": "concave",
+            "pinion_sphere_radius_mm": 72.0, "wheel_sphere_radius_mm": 144.0,
+        },
+        "misalignment": {"center_distance_mm": 0.1, "horizontal_deg": 0.03, "vertical_deg": -0.5},
+    }  # fmt: skip
+    drive = Drive.from_tables(tables)
+    found = drive.certify([0.0625])
+    assert found.outcomes == ("unique",)
+    with mpmath.workdps(DIGITS):
+        gears = [
+            Gear(4, teeth, mpmath.radians(20), form, radius, 1)
+            for teeth, form, radius in ((36, "convex", mpmath.mpf(72)), (72, "concave", mpmath.mpf(144)))
+        ]
+        pair = Pair(*gears, mpmath.mpf("0.1"), mpmath.radians(mpmath.mpf("0.03")), mpmath.radians(mpmath.mpf("-0.5")))
+        for entry, value in zip(found.records["x"][0], pair.solve(mpmath.mpf("0.0625")), strict=False):
+            middle = mpmath.mpf(float(entry["hi"])) + mpmath.mpf(float(entry["lo"]))
+            assert abs(value - middle) <= mpmath.mpf(float(entry["radius"])) + mpmath.mpf(10) ** -45
+            assert entry["radius"] < 1e-18
+
+
+def test_contact_along_a_line_is_never_called_a_single_point():
+    drive = Drive.load("recess-action-full")
+    radius = drive.design.as_solved()["design"]["worm_pitch_radius_mm"]
+    for share, outcomes in ((0.0, {"unknown"}), (1e-9, {"unknown", "unique"}), (1e-4, {"unique"})):
+        near = drive.with_(design={"hob_pitch_radius_mm": radius * (1.0 + share)})
+        found = near.certify(np.radians([0.0, 400.0]))
+        assert set(found.outcomes) <= outcomes
+    assert set(Drive.load("spherical-table-2-1").certify([0.0, 0.1]).reasons) == {"line_contact"}
+
+
+def test_at_a_pitchfork_nothing_is_claimed_and_beside_it_the_point_is_certain():
+    drive = Drive.load("zk-zn-90")
+    (point,) = drive.limits().branch_points
+    near = drive.tca(point.angle + np.radians([-0.01, 0.01]))
+    assert set(drive.certify(near.angles, near).outcomes) == {"unique"}
+    at = certify(drive, [point.angle], near.solutions[:1], [False])
+    assert at.outcomes == ("unknown",) and at.reasons[0] in ("fold", "wide")
+
+
+@pytest.fixture(scope="module")
+def folding():
+    """A drive, an angle 1e-3 rad before a fold, and its contacts there, two of which are about to meet."""
+    drive = Drive.load("zk-zn-90").with_(misalignment={"center_distance_mm": 0.02})
+    start = np.radians(-60.0)
+    for solution in drive.contacts(start).solutions:
+        path = Path.through(drive, start, solution).extended(start + drive.pitch())
+        if path.ended[1]:
+            fold = fold_angle(path, -1)
+    angle = fold - 1e-3
+    found = drive.contacts(angle)
+    return drive, angle, found.solutions
+
+
+def test_two_contacts_about_to_meet_are_two_and_a_box_around_both_is_never_said_to_hold_one(folding):
+    drive, angle, solutions = folding
+    rows = np.full(len(solutions), angle)
+    found = certify(drive, rows, solutions, np.zeros(len(rows)))
+    assert set(found.outcomes) == {"unique"}
+    pairs = [(a, b) for i, a in enumerate(solutions) for b in solutions[:i]]
+    middles, apart = np.array([(a + b) / 2 for a, b in pairs]), np.array([abs(a - b) / 2 for a, b in pairs])
+    for share in (1.0001, 1.5, 3.0):
+        around = certify_boxes(drive, rows[: len(pairs)], middles, share * apart + 1e-9)
+        assert "unique" not in around.outcomes and "none" not in around.outcomes
+
+
+def random_boxes(drive, rng, count):
+    """(angles, centres, half-widths, whether the solution lies inside): it is just inside or outside of one side."""
+    angles = np.sort(rng.uniform(-0.5, 0.5, count) * drive.pitch())
+    traced = certify(drive, angles, drive.trace(angles)[0], np.zeros(count))
+    assert set(traced.outcomes) == {"unique"}
+    solutions = traced.records["x"]["hi"][:, : drive.model.nx]
+    half = 10.0 ** rng.uniform(-8, -4, (count, 1)) * np.ones(drive.model.nx)
+    side, inside = rng.integers(0, drive.model.nx, count), rng.random(count) < 0.5
+    shift = rng.uniform(-0.5, 0.5, half.shape)
+    gap = 10.0 ** rng.uniform(-5, -1, count)
+    shift[np.arange(count), side] = np.where(inside, 1.0 - gap, 1.0 + gap) * rng.choice([-1.0, 1.0], count)
+    return angles, solutions + shift * half, half, inside
+
+
+def no_wrong_claim(count, seed):
+    """Seeded boxes about the solutions of several drives: how many are shown to hold one, and to hold none."""
+    rng, shown = np.random.default_rng(seed), {"unique": 0, "none": 0}
+    for name in ("recess-action-full", "plain-zi", "helical-crowned", "spherical-table-2-2-convex-14-5"):
+        drive = Drive.load(name)
+        angles, centres, half, inside = random_boxes(drive, rng, count // 4)
+        outcomes = np.array(certify_boxes(drive, angles, centres, half).outcomes)
+        assert not np.any((outcomes == "unique") & ~inside)
+        assert not np.any((outcomes == "none") & inside)
+        for word in shown:
+            shown[word] += int(np.sum(outcomes == word))
+    return shown
+
+
+def test_a_box_with_the_solution_just_outside_is_never_said_to_hold_it_nor_one_with_it_just_inside_to_be_empty():
+    shown = no_wrong_claim(1200, 1)
+    assert shown["unique"] > 200 and shown["none"] > 200
+
+
+@pytest.mark.validate
+def test_over_a_million_boxes_nothing_wrong_is_claimed():
+    shown = no_wrong_claim(1_000_000, 2)
+    assert shown["unique"] > 100_000 and shown["none"] > 100_000
+
+
+def test_a_contact_that_bodies_cannot_make_is_certain_as_a_solution_and_named():
+    drive = Drive.from_tables(packaged("zk-zn-90"))
+    found = drive.contacts(np.radians(60.0))
+    rows = [k for k, flags in enumerate(found.flags) if {"interference", "spurious_sheet"} & set(flags)]
+    for k in rows:
+        certified = certify(drive, found.angles[k : k + 1], found.solutions[k : k + 1], [False])
+        assert certified.outcomes == ("unique",) and certified.impossible(0)
+
+
+def test_the_command_writes_certificates_of_the_decimals_asked_for(capsys):
+    assert main(["tca", "recess-action-full", "--phi-deg", "100:300:100", "--certify", "--json", "-"]) == 0
+    points = json.loads(capsys.readouterr().out)["points"]
+    for point in points:
+        certificate = point["certificate"]
+        assert certificate["outcome"] == "unique" and certificate["reason"] is None
+        low, high = certificate["transmission_error_arcsec"]
+        assert low <= high and certificate["radius"] < 1e-9
+        assert abs(point["transmission_error_arcsec"] - low) < 1e-9
+        apart = np.subtract(certificate["contact_point_mm"], point["contact_point_mm"])
+        assert np.abs(apart).max() < 1e-11 + certificate["contact_point_radius_mm"]
+        assert certificate["flags"]["interference"] == "no"
+
+
+def test_the_mirror_image_is_certified_with_the_other_sign():
+    right = Drive.load("recess-action-full")
+    left = right.with_(design={"hand": "left"})
+    there, mirrored = right.certify([1.0]).error_arcsec()[0], left.certify([-1.0]).error_arcsec()[0]
+    assert tuple(mirrored) == (-there[1], -there[0])
+    assert left.tca([-1.0]).error[0] / ARCSEC == pytest.approx(mirrored.mean(), abs=1e-9)
