@@ -32,7 +32,7 @@ def test_the_explicit_wheel_satisfies_the_papers_system(profiles):
     residual, unknowns, definitions = _unreduced(*profiles)
     tape = Tape()
     inputs = {p.symbol: Stage.DESIGN for p in plan.drive.parameters} | {plan.drive.instant: Stage.INSTANT}
-    lower = Lowering(tape, inputs | {u: Stage.ITERATE for u in unknowns}, definitions)
+    lower = Lowering(tape, inputs | dict.fromkeys(unknowns, Stage.ITERATE), definitions)
     assert len(residual) == len(unknowns) == 6
     with mpmath.workdps(sample.DIGITS):
         solved = sample.solve(plan, sample.sample_parameters(plan.drive), 0.5)

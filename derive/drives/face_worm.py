@@ -27,6 +27,7 @@ from derive.language.drive import (
     Role,
     Source,
     System,
+    ToolUse,
     body_point,
 )
 from derive.language.envelope import envelope, nearest_turn
@@ -35,8 +36,8 @@ from derive.language.origin import Origin
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Quantity, Rule, Unknown, rotation_angle
-from derive.tools.conical_hob import conical_hob
-from derive.tools.head_cutter import HeadCutter
+from derive.tools.conical_hob import HobBody, conical_hob
+from derive.tools.head_cutter import HeadCutterBody, head_cutter
 
 s, N_1, N_2, m_ax = (q.symbol for q in (k.flank, k.threads, k.teeth, k.axial_module))
 E_m, L, cone, alpha = (q.symbol for q in (k.offset, k.worm_position, k.cone_angle, k.profile_angle))
@@ -92,10 +93,11 @@ def hob_cut(definitions):
     u = Quantity("u_hob", "mm", "along the hob's profile from the pitch cone", "hob")
     theta = rotation_angle("theta_hob", "screw angle of the hob flank", "hob")
     psi = rotation_angle("psi_hob", "angle of the hob in cutting", "gen")
-    hob = conical_hob(
-        definitions, along=u, sweep=theta, phase=k.hob_phase.symbol, pitch_radius=r_p, screw_parameter=p_1,
-        cone_angle=cone, profile_angle=alpha, flank=s,
+    body = HobBody(
+        along=u, sweep=theta, phase=k.hob_phase.symbol, pitch_radius=r_p, screw_parameter=p_1, cone_angle=cone,
+        profile_angle=alpha, flank=s,
     )  # fmt: skip
+    hob = conical_hob(body, definitions)
     cutting = Rz(-ratio * psi) @ translation(L, E_m, 0) @ crossing @ Rz(psi)
     return HobCut(envelope(hob, cutting, psi).on("face_worm/harmonic"), u, theta, psi)
 
@@ -229,7 +231,8 @@ def face_worm():
     """The drive of one flank."""
     definitions = Definitions()
     reference = hob_cut(definitions)
-    cutter = HeadCutter(definitions, R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
+    blades = HeadCutterBody(R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
+    cutter = head_cutter(blades, definitions)
     x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
     installed = placement(x_g, y_g, z_g, k.symbols(k.origin))
 
@@ -312,6 +315,7 @@ def face_worm():
         pinion_teeth=k.threads.key,
         together=tuple(tuple(f"{p.table}.{p.key}" for p in group) for group in k.TOGETHER),
         functions=(*_limit_functions(cutter, gear, worm, reference), *_solids(cutter)),
+        tools=(ToolUse("hob", "", conical_hob), ToolUse("wheel", "", head_cutter)),
         tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),
         sources=SOURCES,

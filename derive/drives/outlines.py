@@ -26,7 +26,7 @@ def _worm():
         "3 % larger than the worm: an oversize hob gives contact in a point, an equal one along a line", "r_h", 3,
     )  # fmt: skip
     distance = Suggestion("", (a, m * (q + z_2) / 2), name="A")
-    A = distance.symbol
+    A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
     backlash = m / 50
     throat = Suggestion(
         "blank.wheel_throat_radius_mm", (A - r_1 + m,), "one module above the worm's reference cylinder", "throat", 3

@@ -166,7 +166,8 @@ class Leaves:
 
 def header(plan: Schedule, description: dict, runtime):
     """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
-    ``runtime`` the folder of the C runtime."""
+    ``runtime`` the folder of the C runtime.
+    """
     drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
     leaves = Leaves.of(plan)
     design = Printer(tape, prefix, leaves.design, seldom=True)

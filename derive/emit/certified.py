@@ -133,7 +133,7 @@ def header(plan, generator):
     drive, tape, lower = plan.drive, plan.tape, plan.lower
     by_p = {lower(p.symbol): k for k, p in enumerate(drive.parameters)}
     slots, count = list(plan.state), len(plan.state)
-    by_state = {node: slot for node, slot in plan.state.items()}
+    by_state = dict(plan.state)
     before = {node: slot for node, slot in by_state.items() if slot < plan.design_slots}
     by_x = by_state | {lower(u): count + k for k, u in enumerate(plan.unknowns)}
     jacobian = [e for row in plan.jacobian for e in row]

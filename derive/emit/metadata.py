@@ -209,7 +209,7 @@ def _parameter(drive, p):
         "above": p.above,
         "integer": p.integer,
         "required": p.required,
-        "choices": {word: value for word, value in p.choices},
+        "choices": dict(p.choices),
         "tools": [use.word for use in drive.tools if p.key in use.keys],
     }
 

@@ -136,8 +136,6 @@ def _body(body):
         "margins": [_margin(m) for m in body.margins],
         "recovered": [quantity(q) for q in body.recovered],
         "lengthwise": body.lengthwise,
-        "sizes": _named(body.sizes),
-        "search": _ranges(body.search),
     }
 
 
@@ -149,14 +147,7 @@ def _region(region):
         "regular": prefix(region.regular),
         "margins": [_margin(m) for m in region.margins],
         "lengthwise": region.lengthwise,
-        "sizes": _named(region.sizes),
-        "search": _ranges(region.search),
     }
-
-
-def _ranges(ranges):
-    """Search ranges by parameter: [lower, upper], None where there is no end."""
-    return {q.name: [None if end is None else prefix(end) for end in ends] for q, ends in ranges.items()}
 
 
 def _unknown(unknown):

@@ -66,9 +66,7 @@ class Body:
     ``regular`` is an expression which has it everywhere, and no point is needed. ``recovered`` are
     parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
     tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
-    parameter runs across it, along the profile. ``sizes`` are natural sizes of the surface parameters (1 where none is
-    given), ``search`` the ranges (lower, upper) in which all that is of interest lies, None for no end: expressions of
-    the design.
+    parameter runs across it, along the profile.
     """
 
     name: str
@@ -80,8 +78,6 @@ class Body:
     margins: tuple[Margin, ...] = ()
     recovered: tuple = ()
     lengthwise: str = ""
-    sizes: dict = field(default_factory=dict)
-    search: dict = field(default_factory=dict)
 
     @property
     def placed(self):
@@ -143,7 +139,7 @@ class Region:
     """A surface of a member beside its flank: a fillet, or a surface from which the design was derived.
 
     It is regular where ``regular`` (a sign) times its singular function is positive. ``margins`` are of surface and
-    design parameters; ``lengthwise``, ``sizes`` and ``search`` as in :class:`Body`.
+    design parameters; ``lengthwise`` as in :class:`Body`.
     """
 
     member: str
@@ -152,8 +148,6 @@ class Region:
     regular: sp.Expr
     margins: tuple[Margin, ...] = ()
     lengthwise: str = ""
-    sizes: dict = field(default_factory=dict)
-    search: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ def lower_system(system: DesignSystem, parameters):
     tape = Tape()
     inputs = {p.symbol: Stage.DESIGN for p in parameters} | {PATH: Stage.INSTANT}
     inputs |= {u.symbol: Stage.ITERATE for u in system.unknowns}
-    inputs |= {symbol: Stage.ITERATE for symbol in system.fixed}
+    inputs |= dict.fromkeys(system.fixed, Stage.ITERATE)
     lower = Lowering(tape, inputs, system.definitions)
     fixed = {lower(symbol): lower(value) for symbol, value in system.fixed.items()}
     unknowns = [lower(u.symbol) for u in system.unknowns]

@@ -320,8 +320,7 @@ def _reached(tape, order, failing):
 
 
 def lost(evaluated, order, failing):
-    """For each condition the groups of results that its ``failing`` operations change and leave finite in every number.
-    """
+    """For each condition the groups of results that its ``failing`` operations change and leave finite."""
     changed, infinite = _reached(evaluated.tape, order, failing)
     unseen = [_any(changed, group) & ~_any(infinite, group) for group in evaluated.groups]
     return [

@@ -13,10 +13,11 @@ import sympy as sp
 
 from derive.language.definitions import Definitions
 from derive.language.surface import revolved
+from derive.language.tool import tool
 
 
 @dataclass(frozen=True)
-class HeadCutter:
+class HeadCutterBody:
     """A blade set. Angles in rad, lengths in mm.
 
     ``radius`` is that of the blade point u = 0 on the edge; ``blade_angle`` is measured from the tool axis, positive
@@ -24,26 +25,39 @@ class HeadCutter:
     ``depth`` is the distance of the blade's end below u = 0 along the axis.
     """
 
-    definitions: Definitions
     radius: sp.Expr
     blade_angle: sp.Expr
     flank: sp.Expr
     fillet_radius: sp.Expr
     depth: sp.Expr
 
+
+@tool()
+def head_cutter(body, definitions):
+    """Blades on a circle about the axis of a head-cutter."""
+    return HeadCutter(body, definitions)
+
+
+@dataclass(frozen=True)
+class HeadCutter:
+    """The working surfaces of a blade set."""
+
+    body: HeadCutterBody
+    definitions: Definitions
+
     @property
     def _across(self):
         """Direction in the axial section, normal to the edge and out of the gear tooth: (x, z)."""
-        return self.flank * sp.cos(self.blade_angle), -self.flank * sp.sin(self.blade_angle)
+        return self.body.flank * sp.cos(self.body.blade_angle), -self.body.flank * sp.sin(self.body.blade_angle)
 
     def edge(self, u, theta, parabola=0):
         """The working surface: a cone, or with ``parabola`` a blade that stands off it by parabola·u²."""
         x, z = self._across
         bulge = parabola * u**2
         profile = (
-            u * sp.sin(self.blade_angle) + bulge * x,
+            u * sp.sin(self.body.blade_angle) + bulge * x,
             sp.Integer(0),
-            u * sp.cos(self.blade_angle) + bulge * z,
+            u * sp.cos(self.body.blade_angle) + bulge * z,
         )
         proved = "face_worm/blade-normal" if parabola else "face_worm/cone-normal"
         return self._revolved(profile, u, theta).on(proved)
@@ -51,26 +65,26 @@ class HeadCutter:
     @property
     def junction(self):
         """u where the edge ends and the rounding begins."""
-        rise = 1 + self.flank * sp.sin(self.blade_angle)
-        return (self.fillet_radius * rise - self.depth) / sp.cos(self.blade_angle)
+        rise = 1 + self.body.flank * sp.sin(self.body.blade_angle)
+        return (self.body.fillet_radius * rise - self.body.depth) / sp.cos(self.body.blade_angle)
 
     @property
     def fillet_end(self):
         """λ where the rounding joins the edge; λ = 0 is the end of the blade."""
-        return sp.pi / 2 + self.flank * self.blade_angle
+        return sp.pi / 2 + self.body.flank * self.body.blade_angle
 
     def fillet(self, lam, theta):
         """The torus of the blade's rounding, λ from 0 (bottom of the tooth space) to ``fillet_end``."""
         x, _ = self._across
-        centre = self.junction * sp.sin(self.blade_angle) + self.fillet_radius * x
+        centre = self.junction * sp.sin(self.body.blade_angle) + self.body.fillet_radius * x
         profile = (
-            centre - self.flank * self.fillet_radius * sp.sin(lam),
+            centre - self.body.flank * self.body.fillet_radius * sp.sin(lam),
             sp.Integer(0),
-            self.fillet_radius * (1 - sp.cos(lam)) - self.depth,
+            self.body.fillet_radius * (1 - sp.cos(lam)) - self.body.depth,
         )
         return self._revolved(profile, lam, theta).on("face_worm/fillet-join", "face_worm/fillet-tangent")
 
     def _revolved(self, profile, along, theta):
         return revolved(
-            self.definitions, profile, along=along, turn=theta, outward=-self.flank, radius=self.radius
+            self.definitions, profile, along=along, turn=theta, outward=-self.body.flank, radius=self.body.radius
         )

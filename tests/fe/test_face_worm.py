@@ -167,6 +167,7 @@ def test_pictures_look_at_the_flank_in_contact(member):
     assert sight @ (tips if member == "pinion" else -tips) > 0.0
 
 
+@pytest.mark.validate
 @pytest.mark.parametrize(
     "name", ["face-worm-conical-convex", "face-worm-conical-concave", "face-worm-cylindrical-convex"]
 )

@@ -130,6 +130,7 @@ def test_command(capsys):
     assert none["pairs"] == [] and none["loaded_transmission_error_arcsec"] is None
 
 
+@pytest.mark.validate
 def test_tooth_compliance_is_that_of_finer_meshes(concave):
     """Extrapolated from the usual meshes and from half as fine again: 3 % of the largest entry at most between them."""
     usual, finer = (tooth_compliance(concave.pinion, 0, per_patch).own for per_patch in (1, 2))

@@ -173,6 +173,15 @@ def test_casadi_and_the_left_hand_agree_with_the_compiled_drive(run):
         assert ours["contact_point_mm"] == pytest.approx(np.multiply(mirrored["contact_point_mm"], (1, -1, 1)))
 
 
+def test_under_load_the_pairs_carry_the_torque_at_the_pressure_of_hertz(run):
+    """The lever arm of every normal force about the pinion's axis is that of the base helix."""
+    (point,) = run.json("loaded", "--torque-nm", 5, "--phi-deg", 0)["points"]
+    arm = R_B[0] * math.sqrt(1 - SIN_BASE[0] ** 2)
+    assert sum(pair["force_n"] for pair in point["pairs"]) * arm == pytest.approx(5000.0, rel=1e-3)
+    for pair in point["pairs"]:
+        assert pair["peak_pressure_mpa"] == pytest.approx(pair["hertz_pressure_mpa"], rel=0.01)
+
+
 def test_the_header_alone_solves(folder, drive, tmp_path):
     """``X_solve`` of one header that needs nothing else."""
     name, library = "crossed_helicoids", tmp_path / "solve.so"

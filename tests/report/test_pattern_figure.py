@@ -44,7 +44,7 @@ def test_the_picture_ends_where_the_worm_does(jumping):
 
 
 def test_points_that_bodies_cannot_make_have_no_patch(jumping):
-    flags = {angle: flags for angle, flags in zip(jumping.tca.angles, jumping.tca.flags, strict=True)}
+    flags = dict(zip(jumping.tca.angles, jumping.tca.flags, strict=True))
     assert jumping.pattern
     assert not any("interference" in flags[contour.angle] for contour in jumping.pattern)
 

@@ -119,6 +119,26 @@ def test_size_over_balls_of_involute_gears(design, member, gear):
     assert found.size == pytest.approx(size, abs=1e-9)
 
 
+def test_three_wires_of_the_single_threaded_worm_of_a_handbook():
+    """m_x 2, α_n 20°, one thread, d 31, wires 3.3: 80.2959° at the wire's centre, M = 35.3345 mm, all as printed.
+
+    Source: Stock Drive Products, Elements of Metric Gear Technology, section 10 (three-wire method of worms).
+    """
+    drive = Drive.from_tables({
+        "drive": "cylindrical-worm",
+        "design": {
+            "axial_module_mm": 2.0, "worm_threads": 1, "wheel_teeth": 30, "worm_pitch_radius_mm": 15.5,
+            "pressure_angle_deg": 20.0, "worm_profile": "ZI", "hob_pitch_radius_mm": 16.0,
+        },
+        "blank": {"worm_tip_radius_mm": 17.5, "worm_root_radius_mm": 13.0},
+    })  # fmt: skip
+    (found,) = sizes(drive, "pinion", [3.3])
+    lead = math.atan(2.0 / 31.0)
+    base = 15.5 * math.cos(math.atan(math.tan(math.radians(20.0)) / math.sin(lead)))
+    assert math.degrees(math.acos(base / found.centre_radius)) == pytest.approx(80.2959, abs=5e-5)
+    assert found.wires == pytest.approx(35.3345, abs=5e-5)
+
+
 def test_balls_of_a_single_thread_lie_half_an_axial_pitch_apart():
     """One thread, two balls: √(4R² + p_x²/4) + d."""
     drive = Drive.load("recess-action-full")

@@ -101,7 +101,8 @@ def lock(stream, wait=False):
         stream.seek(0)
         while True:
             try:
-                return msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+                msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+                break
             except OSError:
                 if not wait:
                     raise

@@ -3,20 +3,24 @@
 Elastic teeth are factorised once, which takes seconds for gears and about a minute for threads, then every angle takes
 a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
 loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
-pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force.
-Where the two bounded flanks of a pair touch first on an edge, before the tangency that the method builds on, there are
-no figures: status ``not_first``. Exit status 1 then, and if no tooth pair touches at one of the angles, its contact
-under load is not found, or the torque is too large for the method.
+pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
+--measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
+touches. Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method
+builds on, there are no figures: status ``not_first``.
+Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under load is not found, or the
+torque is too large for the method.
 """
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.edge import not_first
+from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"
 
@@ -24,6 +28,9 @@ SCHEMA = "meshwright.loaded/1"
 def add_arguments(parser):
     loading.add_arguments(parser)
     common.add_angles(parser)
+    parser.add_argument("--measured", metavar="FILE.csv", help="deviations of a flank: its as-measured contact")
+    parser.add_argument("--member", choices=("pinion", "wheel"), help="whose flank is measured")
+    parser.add_argument("--tooth", type=common.count, metavar="K", help="which tooth; default: the first measured")
     parser.add_argument("--json", metavar="FILE|-", help=f"write as JSON (schema {SCHEMA})")
 
 
@@ -31,14 +38,21 @@ def run(options):
     fe = loading.finite_elements()
     drive = loading.checked_drive(options)
     angles = common.angles_of(options, drive)
+    points = _measured(options)
     with progress(len(angles) + 4) as step:
         gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
-        late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+        late = [""] * len(angles)
+        if points is None:
+            late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+        else:
+            from meshwright.fe.as_measured import as_measured
+
+            gear = as_measured(gear, drive, options.member, points, options.tooth)
         compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
-        points = []
+        found = []
         for angle, why in zip(angles, late, strict=True):
             step(f"pinion at {np.degrees(angle):.4g} deg")
-            points.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
+            found.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
     document = {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -46,13 +60,24 @@ def run(options):
         "assumed_blank": gear.assumed,
         "gaps": loading.gap_note(gear),
         "contact_ratio": gear.contact_ratio if np.isfinite(gear.contact_ratio) else None,
-        "points": points,
+        "points": found,
     }
     if options.json:
         write_json(options.json, document)
     else:
         write_text("-", loading.blank_note(gear) + _table(document) + _gaps(document))
-    return 0 if all(point["pairs"] for point in points) else 1
+    return 0 if all(point["pairs"] for point in found) else 1
+
+
+def _measured(options):
+    """The measured points, None if none are given."""
+    if (options.measured is None) != (options.member is None):
+        raise UsageError("--measured and --member belong together: whose flank is it? give both or neither")
+    if options.measured is None:
+        if options.tooth is not None:
+            raise UsageError(f"--tooth {options.tooth}: of a measured member: give --measured and --member")
+        return None
+    return read_csv(options.measured)[0]
 
 
 def _not_first(fe, drive, gear, angle, pairs):
@@ -60,6 +85,8 @@ def _not_first(fe, drive, gear, angle, pairs):
     first; "" if every tangency is the first contact of its flanks.
     """
     numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
+    if not numbers:
+        return ""
     result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers]))
     first = drive.first_contact(result.angles, result)
     overlaps = 1000.0 * first.overlaps(result.error)

@@ -43,7 +43,7 @@ def add_arguments(parser):
 
 def run(options):
     plan = _plan(options)
-    with _progress(plan.slices) as advance:
+    with _Progress(plan.slices) as advance:
         summary = sweep.run(plan, options.out, options.format, options.threads, options.scheduler, advance)
     if options.json is None and sys.stdout.isatty():
         write_text("-", _table(summary, options.out))
@@ -92,7 +92,7 @@ def _variation(text):
     return sweep.Variation(key.strip(), kind, *numbers)
 
 
-class _progress:
+class _Progress:
     """A bar on a terminal, nothing in a pipe."""
 
     def __init__(self, total):

@@ -13,7 +13,8 @@ STEP, STEPS = 0.1, 150
 @dataclass(frozen=True)
 class Branch:
     """Consecutive points of a branch: ``angles`` (N,), ``unknowns`` (N, nx), ``slopes`` dφ/darclength, bordered
-    ``determinants``."""
+    ``determinants``.
+    """
 
     angles: np.ndarray
     unknowns: np.ndarray

@@ -15,6 +15,9 @@ from scipy.sparse.linalg import SuperLU, splu
 from meshwright.fe.hexahedra import GAUSS_POINTS, Floats, HexMesh, Ints, jacobians, shape_derivatives
 from meshwright.fe.material import Material
 
+# Elements whose matrices are made at once: few enough for a cache.
+_AT_ONCE = 128
+
 
 @dataclass(frozen=True)
 class ElasticBody:
@@ -52,6 +55,11 @@ def assemble(mesh: HexMesh, material: Material) -> csc_matrix:
 
 def element_stiffness(corners: Floats, elasticity: Floats) -> Floats:
     """Stiffness (M, 24, 24) of elements (M, 8, 3), the incompatible modes condensed out."""
+    parts = [corners[first : first + _AT_ONCE] for first in range(0, len(corners), _AT_ONCE)]
+    return np.concatenate([_stiffness(part, elasticity) for part in parts])
+
+
+def _stiffness(corners: Floats, elasticity: Floats) -> Floats:
     jacobian = jacobians(corners, GAUSS_POINTS)
     determinant = np.linalg.det(jacobian)
     centre = jacobians(corners, np.zeros((1, 3)))[:, 0]
@@ -61,7 +69,10 @@ def element_stiffness(corners: Floats, elasticity: Floats) -> Floats:
     mode_slopes = -2.0 * GAUSS_POINTS[:, :, None] * np.eye(3)
     modes = np.einsum("pnj,mji->mpni", mode_slopes, np.linalg.inv(centre)) * scale[..., None, None]
     strain = _strain_matrix(np.concatenate([gradients, modes], axis=2))
-    full = np.einsum("mpai,ab,mpbj,mp->mij", strain, elasticity, strain, determinant, optimize=True)
+    stress = (elasticity @ strain) * determinant[..., None, None]
+    elements, points, components, dofs = strain.shape
+    rows = (elements, points * components, dofs)
+    full = np.swapaxes(strain.reshape(rows), 1, 2) @ stress.reshape(rows)
     coupling = full[:, :24, 24:]
     return full[:, :24, :24] - coupling @ np.linalg.solve(full[:, 24:, 24:], np.swapaxes(coupling, 1, 2))
 

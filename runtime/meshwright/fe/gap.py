@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,8 +63,9 @@ def contact_grid(
     surfaces = {}
     for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1])):
         own_angle = angle - contact.pairs_later * member.pitch
-        surfaces[name] = _Footprint.of(member, own_angle, feet, plane)
+        surfaces[name] = _Footprint.of(member, own_angle, feet, plane, gear.deviations.get(name))
     gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ touch.normal
+    gap = gap + surfaces["wheel"].excess - surfaces["pinion"].excess
     inside = surfaces["pinion"].inside & surfaces["wheel"].inside
     beyond = {f"{edge} of the {name}": cells for name, f in surfaces.items() for edge, cells in f.beyond.items()}
     place = {name: footprint.place for name, footprint in surfaces.items()}
@@ -73,15 +75,25 @@ def contact_grid(
 
 @dataclass(frozen=True)
 class _Footprint:
-    """Where the normals of the tangent plane through N feet pierce a flank: fixed frame."""
+    """Where the normals of the tangent plane through N feet pierce a flank: fixed frame.
+
+    excess (N,): what a measured flank adds to its height along the normal, mm.
+    """
 
     points: Floats
     inside: Bools
     beyond: dict[str, Bools]
     place: Floats
+    excess: Floats
 
     @staticmethod
-    def of(member: Member, angle: float, feet: Floats, plane: Floats) -> _Footprint:
+    def of(
+        member: Member,
+        angle: float,
+        feet: Floats,
+        plane: Floats,
+        deviations: Callable[[Floats, Floats], tuple[Floats, Bools]] | None = None,
+    ) -> _Footprint:
         form, pose = member.tooth(angle), member.pose(angle)
         curves = form.side(member.working).flank
         rotation = pose[:3, :3]
@@ -101,10 +113,14 @@ class _Footprint:
             "tip": pierced & (fraction > 1.0),
             "end of the portion" if form.cut_ends else "face": pierced & ((section < low) | (section > high)),
         }
+        excess = np.zeros(len(points))
+        if deviations is not None:
+            excess, measured = deviations(points, plane_body[2])
+            beyond["measured grid"] = pierced & ~measured
         inside = pierced & ~np.any(list(beyond.values()), axis=0)
         # A cell off the flank has no pressure; its gap only has to be finite.
         place = np.stack([_arc_share(rail, fraction), (section - low) / (high - low)], axis=1)
-        return _Footprint(points @ rotation.T + pose[:3, 3], inside, beyond, place)
+        return _Footprint(points @ rotation.T + pose[:3, 3], inside, beyond, place, excess)
 
 
 def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> tuple[Floats, Floats]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
@@ -68,6 +69,8 @@ class GearPair:
     pinion angle to the pair (``pairs_later``) about which pairs are counted.  assumed: sizes of the blank
     in mm that the design leaves open, as the solids have them.  contact_ratio: that of the whole blank, NaN if unknown.
     ends: where the contact of a pair begins and ends, such as "face of the wheel".
+    deviations: by member, what a measured flank adds to its height: points (N, 3) of it and a direction (3,), body
+    frame, to heights (N,) along the direction in mm, and where anything is measured (N,).
     """
 
     pinion: Member
@@ -79,6 +82,7 @@ class GearPair:
     assumed: dict[str, float] = field(default_factory=dict)
     contact_ratio: float = math.nan
     ends: tuple[str, ...] = ()
+    deviations: dict[str, Callable[[Floats, Floats], tuple[Floats, NDArray[np.bool_]]]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

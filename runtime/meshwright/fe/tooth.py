@@ -1,4 +1,4 @@
-"""One tooth with its part of the rim as four structured blocks of hexahedra.
+r"""One tooth with its part of the rim as four structured blocks of hexahedra.
 
 Seen along a section, with the profile parameter running from the root land to the tip::
 

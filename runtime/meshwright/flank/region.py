@@ -332,8 +332,7 @@ def _start(flank, limits, places, sizes):
 
 
 def _inwards(flank, limits, q, sizes):
-    """Places (N, k) moved against the limits that they exceed, a little further than to first order, along the surface.
-    """
+    """Places (N, k) moved along the surface against the limits that they exceed, a little further than first order."""
     values, slopes = _slopes(flank, limits, q, sizes)
     short = np.where(values < 0.0, values, 0.0) * OVERSHOOT
     short[~np.isfinite(short)] = 0.0

@@ -48,7 +48,8 @@ class SurfaceLimit:
 @dataclass(frozen=True)
 class ContactPoint:
     """A contact in generation: ``point`` and ``normal`` (out of the pinion) (3,) fixed frame, ``wheel_point`` (3,)
-    wheel frame, ``angle`` of the tool; ``body``: what the drive calls the pinion."""
+    wheel frame, ``angle`` of the tool; ``body``: what the drive calls the pinion.
+    """
 
     point: np.ndarray
     normal: np.ndarray

@@ -46,7 +46,8 @@ def evenly(count, *_curvatures):
 
 def along_ellipse(count, smaller, larger):
     """``count`` directions from the major one that are spread evenly along the ellipse of relative curvatures
-    ``smaller`` and ``larger`` (1/mm), rad; equal angles where there is no ellipse."""
+    ``smaller`` and ``larger`` (1/mm), rad; equal angles where there is no ellipse.
+    """
     angle = evenly(count)
     if not smaller > 0.0:
         return angle

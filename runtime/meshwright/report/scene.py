@@ -17,7 +17,8 @@ LIGHTER = 0.22
 @dataclass(frozen=True)
 class _Touch:
     """Where the flanks touch at N positions: a ``points`` (N, 3) and its ``normals`` (N, 3), NaN where they do not, and
-    ``lines``: (M, 3) each or None; fixed frame, mm, with the design's hand. ``reach`` is the size of a mark, mm."""
+    ``lines``: (M, 3) each or None; fixed frame, mm, with the design's hand. ``reach`` is the size of a mark, mm.
+    """
 
     points: np.ndarray
     normals: np.ndarray

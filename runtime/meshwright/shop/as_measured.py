@@ -185,7 +185,8 @@ class MeasuredContact:
 
     ``errors``: transmission error of the tangency, ``nominal`` that of the design, rad; ``points`` and ``normals``
     (N, 3) fixed frame, normals out of the pinion. ``status``: converged, off_grid or diverged. ``first``: transmission
-    error at which the flanks touch first, ``kinds`` tangency or edge: of the grid or of the mate.
+    error at which the flanks touch first, ``kinds`` tangency or edge: of the grid or of the mate. ``solutions`` (N, k):
+    parameters of both flanks and transmission error of the right-hand drive.
     """
 
     angles: np.ndarray
@@ -196,6 +197,7 @@ class MeasuredContact:
     normals: np.ndarray
     first: np.ndarray
     kinds: tuple[str | None, ...]
+    solutions: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -257,7 +259,32 @@ class AsMeasured:
         return MeasuredContact(
             angles, tuple(status), mirror.sign * kept * found.errors, nominal.error,
             kept[:, None] * found.points * flip, kept[:, None] * found.normals * flip, mirror.sign * first, kinds,
+            kept[:, None] * found.solutions,
         )  # fmt: skip
+
+    def curvatures(self, angle, solution):
+        """Relative curvatures (2,), smaller first, 1/mm, and the direction (3,) of the smaller, fixed frame, at a
+        contact of the right-hand drive (pinion angle, rad, and its solution (k,)).
+        """
+        stand = placed(self.drive, [angle], [self.drive.ratio * angle + solution[-1]])
+        at, form, basis = 0, np.zeros((2, 2)), None
+        for body, surface in zip(self._bodies, self._surfaces(), strict=True):
+            count = len(surface.flank.parameters)
+            q = solution[at : at + count]
+            rotation = stand.matrices[body["name"]][0, :3, :3]
+            steps = DIFFERENCE * np.maximum(1.0, np.abs(q)) * 10.0
+            sides = [surface(q + sign * np.diag(steps)) for sign in (1.0, -1.0)]
+            slopes = [(a - b).T / (2.0 * steps) for a, b in zip(sides[0][:3], sides[1][:3], strict=True)]
+            points, normals = rotation @ slopes[0], rotation @ slopes[1]
+            if basis is None:
+                first = points[:, 0] / np.linalg.norm(points[:, 0])
+                basis = np.stack([first, np.cross(rotation @ surface(q[None])[1][0], first)])
+            matrix = np.concatenate([basis @ points, slopes[2]])
+            along = np.linalg.solve(matrix, np.eye(len(matrix))[:, :2])
+            form += basis @ normals @ along  # −II of either flank along its own outward normal
+            at += count
+        values, directions = np.linalg.eigh(0.5 * (form + form.T))
+        return values, directions[:, 0] @ basis
 
     def ease_off(self, low, high, separation):
         """:class:`EaseOff` over the positions of a pair between two pinion angles, rad, at a ``separation`` in mm."""
@@ -363,7 +390,7 @@ class AsMeasured:
         residual, points, normals, inside = self._residual(angles, x)
         with np.errstate(invalid="ignore"):
             good = (np.abs(residual) < SOLVED).all(axis=1)
-        return _Tangencies(good, inside, x[:, -1], points, normals)
+        return _Tangencies(good, inside, x[:, -1], points, normals, x)
 
     def _residual(self, angles, x):
         """Residual (N, k1 + k2 + 1): places apart, normals' tangential parts, conditions; and where that is."""
@@ -393,6 +420,7 @@ class _Tangencies:
     errors: np.ndarray
     points: np.ndarray
     normals: np.ndarray
+    solutions: np.ndarray
 
     def where(self, chosen, other):
         """The other ones where chosen (N,)."""
@@ -400,5 +428,5 @@ class _Tangencies:
         return _Tangencies(
             np.where(chosen, other.good, self.good), np.where(chosen, other.inside, self.inside),
             np.where(chosen, other.errors, self.errors), np.where(pick, other.points, self.points),
-            np.where(pick, other.normals, self.normals),
+            np.where(pick, other.normals, self.normals), np.where(pick, other.solutions, self.solutions),
         )  # fmt: skip

@@ -25,7 +25,8 @@ LARGEST_FILE = 2**28
 @dataclass(frozen=True)
 class Points:
     """M points: ``tooth``, ``i`` (across), ``j`` (along) (M,) of int, ``flank`` (M,) of words, ``points`` and outward
-    ``normals`` (M, 3), ``deviations`` (M,) in mm, NaN where nothing is measured."""
+    ``normals`` (M, 3), ``deviations`` (M,) in mm, NaN where nothing is measured.
+    """
 
     tooth: np.ndarray
     flank: tuple[str, ...]
