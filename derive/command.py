@@ -116,14 +116,10 @@ def _into(folder, words):
         if word.endswith(".py"):
             path = Path(word)
             for name, build in outside.catalogue_of(path).items():
-                with log("define", name):
-                    drive = outside.built(path, name, build)
-                outside.write(drive, record, folder, log, path)
+                outside.write(partial(outside.built, path, name, build), name, record, folder, log, path)
         else:
             (name,) = _known([word])
-            with log("define", name):
-                drive = drives.catalogue([name])[name]()
-            outside.write(drive, record, folder, log)
+            outside.write(drives.catalogue([name])[name], name, record, folder, log)
 
 
 def _replace(folder, files):
@@ -169,9 +165,7 @@ def _of_drives(names, record):
 
 
 def _of_drive(record, name):
-    with log("define", name):
-        drive = drives.catalogue([name])[name]()
-    return compiler.compile_drive(drive, record, log)
+    return compiler.compile_drive(drives.catalogue([name])[name], name, record, log)
 
 
 def _written(folder):

@@ -1,15 +1,16 @@
-"""The compiler: six stages from the definition of a drive to generated files.
+"""The compiler: six stages from a drive's page to generated files.
 
-define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources
-derive    ``derive.language`` → locus, normal, equation of meshing, placements
-reduce    ``derive.language`` → explicit surfaces, fewer unknowns
-prove     ``derive.prove``    → certificates for the identities behind them, and the record (``derive.audit``) of them
-schedule  ``derive.passes``   → one tape (``derive.program``) with derivatives, curvature, binding times, pivot order
+define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains, keys, limits, sources, checked
+derive    ``derive.passes``   → locus, normal, meshing and contact as equations on one tape (``derive.program``)
+reduce    ``derive.passes``   → the equations' linear system solved: one fused Newton step in a fixed order of pivots
+schedule  ``derive.passes``   → all that is read from them, with binding times, edges, curvature and guards
+prove     ``derive.audit``    → the statements of the record on which each function rests (``derive.prove``)
 emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data
 
-Definition, derivation and reduction happen as a drive's own page is executed: it reads like the model section of
-a paper; what comes out is checked before and after it is scheduled. The stages after that are common to all drives.
-Statements are proved once for all of them; which ones a drive rests on is looked up when its operations are known.
+A drive's page reads like the model section of a paper. Where the meshing equation is linear in a variable, the page's
+own language has solved it, so that a generated surface is explicit before its equations are derived. The stages after
+the first are common to all drives. Statements are proved once for all of them; which ones a drive rests on is looked
+up when its operations are known.
 """
 
 import hashlib
@@ -17,12 +18,12 @@ import json
 from pathlib import Path
 
 from derive.audit.provenance import provenance
-from derive.emit import c99, casadi, certified, lanes, metadata, sensitivity
+from derive.emit import bounded, c99, casadi, certified, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals
 from derive.passes import guards
 from derive.passes.sample import observation
-from derive.passes.schedule import schedule
+from derive.passes.schedule import bind, derive, reduce
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -40,30 +41,47 @@ if not RUNTIME.exists():
     RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
-def compile_drive(drive, record, log, open_=None):
-    """All generated files of one drive: relative path → text.
+def compile_drive(page, name, record, log, open_=None):
+    """All generated files of the drive ``name`` that the function ``page`` builds: relative path → text.
 
     ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
     does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. Raises
     :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
     """
-    with log("validate", drive.name):
-        validate(drive)
-    with log("schedule", drive.name):
-        plan = schedule(drive)
-        validate_normals(drive, observation(plan), plan.sample)
-    with log("prove", drive.name):
-        origin = provenance(record, plan, open_)
-    with log("emit", drive.name):
-        return _files(plan, origin)
+    with log("define", name):
+        drive = define(page)
+    with log("derive", name):
+        plan = derive(drive)
+    with log("reduce", name):
+        plan = reduce(plan)
+    with log("schedule", name):
+        plan = bind(plan)
+    with log("prove", name):
+        origin = prove(record, plan, open_)
+    with log("emit", name):
+        return emit(plan, origin)
 
 
-def _files(plan, origin):
+def define(page):
+    """The drive that a page builds, without contradictions."""
+    drive = page()
+    validate(drive)
+    return drive
+
+
+def prove(record, plan, open_=None):
+    """The provenance of a schedule; its normals point out of both bodies at the sample's contact."""
+    validate_normals(plan.drive, observation(plan), plan.sample)
+    return provenance(record, plan, open_)
+
+
+def emit(plan, origin):
     """What every printer makes of a schedule."""
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     files = {
         f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
         f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
+        f"c/{drive.name}_bounded.h": bounded.header(plan, metadata.GENERATOR),
         f"c/{drive.name}_certified.h": certified.header(plan, metadata.GENERATOR),
         f"descriptions/{drive.name}.json": description.text(drive),
     }
@@ -71,7 +89,7 @@ def _files(plan, origin):
     # last: it adds the changes of the inputs to the tape
     tangents = sensitivity.tangents(plan)
     files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-    evaluated = [*guards.functions(plan), guards.along(plan), *tangents.functions()]
+    evaluated = [*guards.functions(plan), guards.along(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
     files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
     return files

@@ -52,13 +52,15 @@ def built(path, name, build):
     return drive
 
 
-def write(drive, record, folder, log, source=None):
-    """Derive a drive into a folder and compile it; ``source`` is the file that defines it, if it is not of the tree."""
+def write(page, name, record, folder, log, source=None):
+    """Derive the drive ``name`` that ``page`` builds into a folder and compile it; ``source`` is the file that defines
+    it, if it is not of the tree.
+    """
     from meshwright.base import compile as build
 
     open_ = {}
-    files = compiler.compile_drive(drive, record, log, open_)
-    header, name = files[f"c/{drive.name}.h"], drive.name
+    files = compiler.compile_drive(page, name, record, log, open_)
+    header = files[f"c/{name}.h"]
     with log("audit", name):
         entry = audit_entry(json.loads(files[f"c/{name}.json"]), open_, header, source)
     for path, text in files.items():

@@ -19,7 +19,7 @@ def _typed():
             yield pytest.param(path, id=path.stem, marks=[pytest.mark.validate] if path.stem in LONG else [])
 
 
-@pytest.mark.parametrize("path", _typed())
+@pytest.mark.parametrize("path", [*_typed()])
 def test_a_page_does_what_it_says(path, tmp_path):
     (tmp_path / "generated").symlink_to(snippets.ROOT / "generated")
     snippets.run(path.read_text(encoding="utf-8"), tmp_path)

@@ -22,8 +22,8 @@ def _worm():
     radius = Suggestion("design.worm_pitch_radius_mm", (q * m / 2,), "diameter quotient times module", "r_1", 4)
     r_1 = radius.symbol
     hob = Suggestion(
-        "design.hob_pitch_radius_mm", (r_1 * sp.Rational(103, 100),),
-        "3 % larger than the worm: an oversize hob gives contact in a point, an equal one along a line", "r_h", 3,
+        "design.hob_pitch_radius_mm", (r_1 * sp.Rational(105, 100),),
+        "5 % larger than the worm: an oversize hob gives contact in a point, an equal one along a line", "r_h", 3,
     )  # fmt: skip
     distance = Suggestion("", (a, m * (q + z_2) / 2), name="A")
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter

@@ -177,8 +177,8 @@ def header(plan: Schedule, description: dict, runtime):
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)
-    residual, jacobian = _linearised(iterate, plan.residual, plan.jacobian)
-    start_residual, start_jacobian = _linearised(start, plan.start_residual, plan.start_jacobian)
+    residual, jacobian = linearised(iterate, plan.residual, plan.jacobian)
+    start_residual, start_jacobian = linearised(start, plan.start_residual, plan.start_jacobian)
     return render(
         "drive.h.jinja",
         plan=plan,
@@ -227,7 +227,7 @@ def _indices(description):
     yield from ((f"O_{o['name']}", o["offset"]) for o in description["outputs"])
 
 
-def _linearised(printer, residual, jacobian):
+def linearised(printer, residual, jacobian):
     """Bodies of one function: of the residual, and of the Jacobian that may follow it."""
     flat = [e for row in jacobian for e in row]
     body, known = printer.body(residual, later=flat)
@@ -267,7 +267,7 @@ def _system(plan, drive):
     leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
     printer = Printer(plan.tape, drive.name, leaves, seldom=True)
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    residual, jacobian = _linearised(printer, plan.residual, plan.jacobian)
+    residual, jacobian = linearised(printer, plan.residual, plan.jacobian)
     return {
         "name": plan.system.name,
         "unknowns": plan.unknowns,

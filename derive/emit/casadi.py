@@ -35,13 +35,7 @@ def function(plan):
     defaults and rules that complete a design, each from p alone, in the order in which they run.
     """
     drive, tape = plan.drive, plan.tape
-    p = casadi.SX.sym("p", len(drive.parameters))
-    phi = casadi.SX.sym("phi")
-    x = casadi.SX.sym("x", len(drive.unknowns))
-    inputs = {q.symbol: p[k] for k, q in enumerate(drive.parameters)}
-    inputs[drive.instant] = phi
-    inputs |= {u: x[k] for k, u in enumerate(plan.unknowns)}
-
+    p, phi, x, inputs = _symbols(plan)
     [wheel_angle] = tape.evaluate([plan.lower(drive.wheel_angle)], inputs, _Symbolic)
     inputs |= dict(zip(plan.placement.parameters, (phi, wheel_angle), strict=True))
 
@@ -60,6 +54,51 @@ def function(plan):
         "rules": casadi.vertcat(*_rules(drive, inputs)),
     }
     return casadi.Function(drive.name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))
+
+
+def edges(plan):
+    """CasADi function (p, phi, x) → residual of each system of edge contact, by its name."""
+    p, phi, x, inputs = _symbols(plan)
+    rows = plan.tape.evaluate(plan.edges.equations, inputs, _Symbolic)
+    results = {s.name: casadi.vertcat(*(rows[k] for k in s.equations)) for s in plan.edges.systems}
+    name = f"{plan.drive.name}_edges"
+    return casadi.Function(name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))
+
+
+def surfaces(plan):
+    """CasADi function of what a drive offers beside its contact: p and, of each surface and function, its own arguments
+    under ``q_`` and its name → the results under its name; of a surface also ``curvature_``. Named as in the C header:
+    ``flank_pinion``, ``fillet_wheel``, …; slopes of limits are left to CasADi, like all derivatives.
+    """
+    p, *_, inputs = _symbols(plan)
+    arguments, results = {"p": p}, {}
+
+    def put(name, parameters, groups):
+        q = arguments[f"q_{name}"] = casadi.SX.sym(f"q_{name}", len(parameters))
+        own = inputs | {symbol: q[k] for k, symbol in enumerate(parameters)}
+        for result, nodes in groups.items():
+            results[result] = casadi.vertcat(*plan.tape.evaluate(nodes, own, _Symbolic))
+
+    for surface in (*plan.flanks, *plan.regions):
+        name = f"{surface.region}_{surface.body}"
+        put(name, surface.parameters, {name: _nodes(surface.outputs), f"curvature_{name}": _nodes(surface.curvature)})
+    for f in plan.functions:
+        put(f.name, f.parameters, {f.name: _nodes(f.outputs)})
+    name = f"{plan.drive.name}_surfaces"
+    return casadi.Function(name, list(arguments.values()), list(results.values()), list(arguments), list(results))
+
+
+def _nodes(outputs):
+    return [i for o in outputs for i in o.nodes]
+
+
+def _symbols(plan):
+    """Symbols p, phi and x of a drive, and what they stand for: symbol of the drive → SX."""
+    p = casadi.SX.sym("p", len(plan.drive.parameters))
+    phi = casadi.SX.sym("phi")
+    x = casadi.SX.sym("x", len(plan.unknowns))
+    inputs = {q.symbol: p[k] for k, q in enumerate(plan.drive.parameters)} | {plan.drive.instant: phi}
+    return p, phi, x, inputs | {u: x[k] for k, u in enumerate(plan.unknowns)}
 
 
 def _rules(drive, inputs):
@@ -92,8 +131,11 @@ def system_function(drive, plan):
 
 
 def texts(plan):
-    """The drive's function and those of its design systems as ``casadi.Function.load`` reads them, by name."""
-    functions = [function(plan), *(system_function(plan.drive, system) for system in plan.systems)]
+    """The drive's function, those of its design systems, of its surfaces and of its edges as ``casadi.Function.load``
+    reads them, by name.
+    """
+    functions = [function(plan), *(system_function(plan.drive, system) for system in plan.systems), surfaces(plan)]
+    functions += [edges(plan)] if plan.edges.systems else []
     return {f.name(): _text(f) for f in functions}
 
 

@@ -59,6 +59,7 @@ def describe(plan, provenance):
         "geometry": offsets["tangent_basis"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
+        "edges": [{"name": s.name, "margins": list(s.margins)} for s in plan.edges.systems],
         "functions": [_function(function) for function in plan.functions],
         "least_teeth": {member: asdict(search) for member, search in drive.least_teeth.items()},
         "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
@@ -103,6 +104,8 @@ def specification_hash(plan):
     reads += [[f.body, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.flanks]
     reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.regions]
     reads += [[f.body, f.region, [[o.name, list(o.nodes)] for o in f.curvature]] for f in (*plan.flanks, *plan.regions)]
+    reads += [[e.slopes, e.second] for e in plan.expansions]
+    reads += [plan.edges.equations, plan.edges.jacobian, [[s.name, s.equations] for s in plan.edges.systems]]
     reads += [[plan.along.direction, plan.along.first, plan.along.second]]
     reads += [_system_content(system) for system in plan.systems]
     reads += [[f.name, [[o.name, list(o.nodes)] for o in f.outputs]] for f in plan.functions]

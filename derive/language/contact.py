@@ -14,12 +14,17 @@ def contact(first, second):
     normals. Positions are compared in the frame that carries ``second``: its mounting is undone on both sides, so
     that no constant rotation has to be applied to the many derivatives of a generated surface.
     """
-    mounting, second = _unmounted(second)
-    first = first.placed(mounting.inverse())
+    first, second = common_frame(first, second)
     normal = second.body_normal()
     position = v.sub(first.body_point(), second.body_point())
     tangency = tuple(v.dot(normal, tangent) for tangent in first.body_tangents())
     return (*position, *tangency, *first.conditions, *second.conditions)
+
+
+def common_frame(first, second):
+    """Both surfaces in the frame that carries ``second``."""
+    mounting, second = _unmounted(second)
+    return first.placed(mounting.inverse()), second
 
 
 def _unmounted(surface):

@@ -110,6 +110,22 @@ def along(plan):
     return Evaluated("along", plan.tape, plan.lower, (plan.along.first, plan.along.second), design, "tangent")
 
 
+def bounded(plan):
+    """The functions of bounded flanks; they read parameters and state."""
+    known = frozenset(plan.state) | {plan.lower(p.symbol) for p in plan.drive.parameters}
+
+    def on_tape(name, outputs, guard):
+        return Evaluated(name, plan.tape, plan.lower, (tuple(outputs),), known, guard)
+
+    if plan.edges.systems:
+        yield on_tape("edges", [*plan.edges.equations, *(e for row in plan.edges.jacobian for e in row)], "residual")
+    for expansion in plan.expansions:
+        name = f"{expansion.of.region}_{expansion.of.body}"
+        yield on_tape(f"slopes_{name}", expansion.slopes, "result")
+        if expansion.second:
+            yield on_tape(f"second_{name}", expansion.second, "result")
+
+
 def _on_parameters(name, program, guard, part=0):
     groups = tuple((i,) for i in program.nodes)
     return Evaluated(name, program.tape, program.lower, groups, frozenset(), guard, part)

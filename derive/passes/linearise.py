@@ -15,20 +15,21 @@ from derive.program.tape import Stage
 class Linear:
     """The tangent system: ``matrix`` · (changes of the unknowns, changes of the variables) = (−residual, 0).
 
-    The first rows belong to the residual; row k of the rest says what changes variable k, an angle or the solution of
-    an equation, which has −1 there.
+    The first rows, ``equations`` of them, belong to the residual; row k of the rest says what changes variable k, an
+    angle or the solution of an equation, which has −1 there.
     """
 
     matrix: list
     unknowns: int
+    equations: int
 
     @property
     def variables(self):
-        return len(self.matrix) - self.unknowns
+        return len(self.matrix) - self.equations
 
 
 def linearise(tape, residual, unknowns, solutions=()):
-    """The :class:`Linear` system of as many residual nodes as unknown (input) nodes.
+    """The :class:`Linear` system of residual nodes in unknown (input) nodes.
 
     ``solutions`` are nodes (solution, equation, slope): the equation is 0, its derivative by the solution the slope.
     What is held as a variable, and which way each row is differentiated, is what needs the fewest operations.
@@ -41,6 +42,17 @@ def linearise(tape, residual, unknowns, solutions=()):
     return best
 
 
+def forward(tape, residual, unknowns):
+    """The :class:`Linear` system by the forward chain rule alone: of equations solved too seldom to seek what needs the
+    fewest operations.
+    """
+    variables = _variables(tape, residual, unknowns, {})
+    columns, partial = [*unknowns, *variables], _Forward(tape, variables)
+    rows = [partial(row, columns) for row in residual]
+    rows += [_closed(tape, partial(v, columns), len(unknowns) + k, None, v) for k, v in enumerate(variables)]
+    return Linear(rows, len(unknowns), len(residual))
+
+
 def _assembled(tape, residual, unknowns, equations):
     variables = _variables(tape, residual, unknowns, equations)
     columns = [*unknowns, *variables]
@@ -50,7 +62,7 @@ def _assembled(tape, residual, unknowns, equations):
     for k, variable in enumerate(variables):
         for way, row in enumerate(sides[len(residual) + k]):
             sides[len(residual) + k][way] = _closed(tape, row, len(unknowns) + k, equations.get(variable), variable)
-    return Linear(_cheapest(tape, residual, sides), len(unknowns))
+    return Linear(_cheapest(tape, residual, sides), len(unknowns), len(residual))
 
 
 def _closed(tape, row, at, equation, variable):
@@ -98,9 +110,9 @@ def jacobian(tape, linear):
             values = [tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True)]
         return values
 
-    for row in linear.matrix[n:]:
+    for row in linear.matrix[linear.equations :]:
         turning.append(total(row))
-    return [total(row) for row in linear.matrix[:n]]
+    return [total(row) for row in linear.matrix[: linear.equations]]
 
 
 def _variables(tape, outputs, inputs, equations):

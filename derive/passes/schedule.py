@@ -8,6 +8,7 @@ A value is computed at the earliest stage that knows its inputs, and stored in t
 """
 
 from dataclasses import dataclass, field
+from itertools import combinations_with_replacement
 
 import sympy as sp
 
@@ -17,6 +18,7 @@ from derive.language.origin import STEP_SIZE, Origin
 from derive.passes import check, geometry, guards, linearise, pivot_order, sample
 from derive.passes.completion import ParameterTape, SystemTape, lower_system, on_parameters
 from derive.passes.directional import Derivatives
+from derive.passes.edges import Edges, edge_contact
 from derive.passes.guards import DesignGuard
 from derive.program.tape import Lowering, Stage, Tape
 
@@ -43,6 +45,28 @@ class Flank:
     outputs: tuple[Output, ...]
     curvature: tuple[Output, ...]
     region: str = "flank"
+
+    @property
+    def limits(self):
+        """Nodes of the regular function and of the margins: what must be positive on the surface."""
+        return [o.nodes[0] for o in self.outputs if o.name == "regular" or o.name.startswith("margin_")]
+
+    @property
+    def conditions(self):
+        """Nodes of the surface's own conditions."""
+        return [o.nodes[0] for o in self.outputs if o.name.startswith("condition_") and not o.name.endswith("_slopes")]
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """A surface beyond its tangents, nodes: ``slopes`` of each limit by each parameter; ``second`` derivatives of each
+    coordinate of the point, of each limit and of each condition, by the pairs (1, 1), (1, 2), … (2, 2), … of
+    parameters; none of a region, where nothing asks for them.
+    """
+
+    of: Flank
+    slopes: tuple[int, ...]
+    second: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -114,6 +138,8 @@ class Schedule:
     sizes: ParameterTape | None = None
     functions: list[FunctionOutputs] = field(default_factory=list)
     along: Along | None = None
+    edges: Edges | None = None
+    expansions: list[Expansion] = field(default_factory=list)
     state: dict[int, int] = field(default_factory=dict)
     design_slots: int = 0
 
@@ -136,13 +162,17 @@ class Schedule:
 
 
 def schedule(drive):
-    """All functions of a drive on one tape."""
+    """All functions of a drive on one tape: derived, reduced and bound."""
+    return bind(reduce(derive(drive)))
+
+
+def derive(drive):
+    """The equations of a drive on one tape: rules, design systems, residual and Jacobian of contact, start system."""
     inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
     inputs[drive.instant] = Stage.INSTANT
     inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
     inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
-    functions = (geometry.placement(drive), *drive.functions)
-    inputs |= {q: Stage.ITERATE for function in functions for q in function.arguments}
+    inputs |= {q: Stage.ITERATE for function in _functions(drive) for q in function.arguments}
     tape = Tape()
     for symbol, stage in inputs.items():
         tape.input(symbol, stage)
@@ -156,11 +186,23 @@ def schedule(drive):
     check.derives("linearise", tape, plan.residual, [plan.lower(u) for u in plan.unknowns], plan.jacobian)
     plan.scales = [plan.lower(u.scale) for u in drive.unknowns]
     _start(plan, drive.start)
+    return plan
+
+
+def reduce(plan):
+    """The equations with their linear system solved: Newton's step, in the order of pivots of the sample's contact."""
+    tape = plan.tape
     plan.sample = sample.sample_contact(plan)
     plan.step, plan.change = pivot_order.newton_step(plan)
     check.solves("pivot order", tape, plan.jacobian, plan.change, plan.residual)
     with tape.within(STEP_SIZE):
         plan.weight = [tape.div(tape.constant(1), s) for s in plan.scales]
+    return plan
+
+
+def bind(plan):
+    """The equations with all that is read from them, each value at the earliest stage that knows its inputs."""
+    drive, tape = plan.drive, plan.tape
     _observe(plan)
     for body in drive.bodies:
         limits = [Output(f"margin_{m.event}", (_margin(plan, body, m),)) for m in body.margins]
@@ -170,8 +212,11 @@ def schedule(drive):
         limits = [Output(f"margin_{m.event}", (plan.lower(m.positive),)) for m in region.margins]
         surface = _surface(plan, region.surface, region.member, regular, limits)
         plan.regions.append(Flank(region.member, *surface, region.name))
-    plan.functions = [_function(plan, function) for function in functions]
+    plan.functions = [_function(plan, function) for function in _functions(drive)]
     plan.along = _along(plan)
+    plan.edges = edge_contact(plan, lambda body, margin: _margin(plan, body, margin))
+    plan.expansions = [_expansion(plan, f, second=True) for f in plan.flanks]
+    plan.expansions += [_expansion(plan, f, second=False) for f in plan.regions]
     _assign_state(plan)
     plan.guards = guards.design_guards(plan)
     plan.tests = guards.tests(plan)
@@ -301,6 +346,20 @@ def _along(plan):
     return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))
 
 
+def _expansion(plan, flank, *, second):
+    """The :class:`Expansion` of a flank or region."""
+    tape, parameters = plan.tape, [plan.lower(p) for p in flank.parameters]
+    slopes = [tape.derivative(i, p) for i in flank.limits for p in parameters]
+    point = next(o.nodes for o in flank.outputs if o.name == "point")
+    bent = [
+        tape.derivative(tape.derivative(i, p), q)
+        for i in (*point, *flank.limits, *flank.conditions)
+        for p, q in combinations_with_replacement(parameters, 2)
+        if second
+    ]
+    return Expansion(flank, tuple(slopes), tuple(bent))
+
+
 def _count(outputs):
     return sum(len(o.nodes) for o in outputs)
 
@@ -352,6 +411,10 @@ def _surface(plan, surface, frame, regular, limits):
     return tuple(surface.parameters), tuple(outputs), curvature
 
 
+def _functions(drive):
+    return geometry.placement(drive), *drive.functions
+
+
 def _function(plan, function):
     outputs = (Output(r.name, tuple(map(plan.lower, r.values)), r.unit, r.frame) for r in function.results)
     return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs), function.rests_on)
@@ -380,6 +443,15 @@ def iterate_outputs(plan):
             yield from output.nodes
 
 
+def bounded_outputs(plan):
+    """All nodes that the functions of bounded flanks return: they form what they need of the design themselves."""
+    yield from plan.edges.equations
+    for row in plan.edges.jacobian:
+        yield from row
+    for expansion in plan.expansions:
+        yield from (*expansion.slopes, *expansion.second)
+
+
 def _assign_state(plan):
     """Number the values that one stage leaves for a later one."""
     tape = plan.tape
@@ -397,6 +469,10 @@ def _assign_state(plan):
             leave(a, Stage.ITERATE)
     for i in outputs:
         leave(i, Stage.ITERATE)
+    bounded = list(bounded_outputs(plan))
+    for i in (*bounded, *(a for k in tape.needed(bounded, early) for a in tape.nodes[k].args)):
+        if tape.stages[i] == Stage.INSTANT:
+            leave(i, Stage.ITERATE)
     design = {i for i, stage in enumerate(tape.stages) if stage <= Stage.DESIGN}
     for i in tape.needed(list(wanted[Stage.INSTANT]), design):
         for a in tape.nodes[i].args:

@@ -5,12 +5,14 @@
  * in the interior (a tangency), on a limit of either flank (an edge), or where two limits meet (a corner). */
 #include <math.h>
 #include <string.h>
+#include "kernels.h"
 #include "meshwright.h"
 
 enum {
     MAX_K = 3,                   /* parameters of a flank */
     MAX_OUTPUTS = 48,            /* of a flank: 7 + 4 parameters and conditions, margins */
     MAX_LIMITS = 18,             /* of both flanks, and four of a trust region */
+    MAX_SECOND = (3 + MAX_LIMITS + 1) * MAX_K * (MAX_K + 1) / 2,
     NEWTON_STEPS = 14,
     CLIMB_STEPS = 80,
     RESTORATIONS = 3,
@@ -21,8 +23,8 @@ enum {
     BUDGET = 20000               /* places that are looked at between the vertices */
 };
 
-/* Newton's method ends with a step below this, in natural sizes; differences of functions for their slopes. */
-static const double STEP_DONE = 1e-10, DIFFERENCE = 1e-4;
+/* Newton's method ends with a step below this, in natural sizes. */
+static const double STEP_DONE = 1e-10;
 /* Newton's method that moves more than so many times its first step and this, or than that, in natural sizes, or turns
  * the wheel by more, rad, may have left its sheet or come to the next tooth. */
 static const double JUMP = 3.0, JUMP_LEAST = 0.02, FARTHEST = 0.5, LARGEST_TURN = 0.1;
@@ -224,29 +226,122 @@ typedef struct model_ {
     double limit[MAX_LIMITS], along[MAX_LIMITS][2], curve[MAX_LIMITS][3];
 } model_;
 
+/* A flank at a place to second order. */
+typedef struct bent {
+    int k, limits, pairs;
+    double o[MAX_OUTPUTS], slopes[MAX_LIMITS * MAX_K], second[MAX_SECOND];
+} bent;
+
+static void to_second_order(const search *h, int member, const double *q, bent *f)
+{
+    const mw_body *body = &h->m->bodies[member];
+    const mw_expansion *expansion = &h->m->kernels->bounded->expansions[member];
+    f->k = body->parameters;
+    f->limits = 1 + body->margins;
+    f->pairs = f->k * (f->k + 1) / 2;
+    body->flank(h->s, q, f->o);
+    expansion->slopes(h->s, q, f->slopes);
+    expansion->second(h->s, q, f->second);
+}
+
+/* Second derivative of number i of (point, limits, condition) along directions a and b of the parameters. */
+static double bent_by(const bent *f, int i, const double *a, const double *b)
+{
+    const double *pair = f->second + i * f->pairs;
+    double sum = 0.0;
+    for (int j = 0; j < f->k; j++)
+        for (int l = j; l < f->k; l++) sum += *pair++ * (j == l ? a[j] * b[j] : a[j] * b[l] + a[l] * b[j]);
+    return sum;
+}
+
+static double along(int k, const double *slopes, const double *a)
+{
+    double sum = 0.0;
+    for (int j = 0; j < k; j++) sum += slopes[j] * a[j];
+    return sum;
+}
+
+/* Change of the point along a direction of the parameters. */
+static void displaced(const bent *f, const double *a, double *r)
+{
+    for (int i = 0; i < 3; i++) {
+        r[i] = 0.0;
+        for (int j = 0; j < f->k; j++) r[i] += f->o[6 + 3 * j + i] * a[j];
+    }
+}
+
+/* Implicit differentiation of the place by the wheel's free parameters: of its own condition, then of the equations by
+ * which the wheel's point meets the pinion's flank. */
 static int expand(const search *h, const place *P, model_ *q)
 {
-    static const int U[8] = {1, -1, 0, 0, 1, -1, 1, -1}, V[8] = {0, 0, 1, -1, 1, -1, -1, 1};
-    place at[8];
-    const double d = DIFFERENCE;
-    for (int k = 0; k < 8; k++)
-        if (!beside(h, P, U[k] * d, V[k] * d, &at[k])) return 0;
-    q->slope[0] = P->slope[0];
-    q->slope[1] = P->slope[1];
-    q->second[0] = (at[0].slope[0] - at[1].slope[0]) / (2.0 * d);
-    q->second[2] = (at[2].slope[1] - at[3].slope[1]) / (2.0 * d);
-    q->second[1] = (at[0].slope[1] - at[1].slope[1] + at[2].slope[0] - at[3].slope[0]) / (4.0 * d);
+    static const int A[3] = {0, 0, 1}, B[3] = {0, 1, 1};
+    const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
+    const int n = h->nk + 1;
+    bent p, w;
+    double Q[2][MAX_K] = {{0.0}}, follows[3] = {0.0}, z[2][MAX_K + 1], zz[3][MAX_K + 1];
+    double M[(MAX_K + 1) * (MAX_K + 1)], rate[3], along_wheel[2][3], turned[2][3], x[3];
+    to_second_order(h, 0, P->p, &p);
+    to_second_order(h, 1, P->q, &w);
+    const double *condition = w.o + conditions_at(wheel) + 1;
+    for (int a = 0; a < 2; a++) {
+        Q[a][h->free_[a]] = h->mesh->wheel_sizes[h->free_[a]];
+        if (h->bound >= 0) Q[a][h->bound] = -along(w.k, condition, Q[a]) / condition[h->bound];
+    }
+    for (int c = 0; c < 3 && h->bound >= 0; c++)
+        follows[c] = -bent_by(&w, 3 + w.limits, Q[A[c]], Q[B[c]]) / condition[h->bound];
+    carried(h, w.o, P->delta, x, rate);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < h->nk; j++) M[i * n + j] = p.o[6 + 3 * j + i];
+        M[i * n + h->nk] = -rate[i];
+    }
+    if (pinion->conditions) {
+        for (int j = 0; j < h->nk; j++) M[3 * n + j] = p.o[conditions_at(pinion) + 1 + j];
+        M[3 * n + h->nk] = 0.0;
+    }
+    for (int a = 0; a < 2; a++) {
+        double r[3], elimination[(MAX_K + 1) * (MAX_K + 1)];
+        displaced(&w, Q[a], r);
+        carried(h, r, P->delta, along_wheel[a], turned[a]);
+        memcpy(z[a], along_wheel[a], sizeof along_wheel[a]);
+        if (pinion->conditions) z[a][3] = 0.0;
+        memcpy(elimination, M, sizeof M);
+        if (!solve(elimination, z[a], n)) return 0;
+    }
+    const double flat[3] = {-w.o[0], -w.o[1], 0.0}; /* second derivative by the angle of a point turning about z */
+    double inwards[3];
+    carried(h, flat, P->delta, inwards, NULL);
+    for (int c = 0; c < 3; c++) {
+        const double *za = z[A[c]], *zb = z[B[c]];
+        double r[3], elimination[(MAX_K + 1) * (MAX_K + 1)];
+        for (int i = 0; i < 3; i++) {
+            r[i] = bent_by(&w, i, Q[A[c]], Q[B[c]]);
+            if (h->bound >= 0) r[i] += w.o[6 + 3 * h->bound + i] * follows[c];
+        }
+        carried(h, r, P->delta, zz[c], NULL);
+        for (int i = 0; i < 3; i++)
+            zz[c][i] += turned[A[c]][i] * zb[h->nk] + turned[B[c]][i] * za[h->nk] + inwards[i] * za[h->nk] * zb[h->nk]
+                        - bent_by(&p, i, za, zb);
+        if (pinion->conditions) zz[c][3] = -bent_by(&p, 3 + p.limits, za, zb);
+        memcpy(elimination, M, sizeof M);
+        if (!solve(elimination, zz[c], n)) return 0;
+        q->second[c] = h->sense * zz[c][h->nk];
+    }
+    for (int a = 0; a < 2; a++) q->slope[a] = h->sense * z[a][h->nk];
     for (int i = 0; i < limit_count(h); i++) {
-        const double v = P->limits[i];
-        q->limit[i] = v;
+        const int of_wheel = i < w.limits, number = of_wheel ? i : i - w.limits;
+        const bent *f = of_wheel ? &w : &p;
+        const double *slopes = f->slopes + number * f->k;
+        q->limit[i] = P->limits[i];
         memset(q->along[i], 0, sizeof q->along[i]);
         memset(q->curve[i], 0, sizeof q->curve[i]);
-        if (!(v < HUGE_VAL)) continue;
-        q->along[i][0] = (at[0].limits[i] - at[1].limits[i]) / (2.0 * d);
-        q->along[i][1] = (at[2].limits[i] - at[3].limits[i]) / (2.0 * d);
-        q->curve[i][0] = (at[0].limits[i] - 2.0 * v + at[1].limits[i]) / (d * d);
-        q->curve[i][2] = (at[2].limits[i] - 2.0 * v + at[3].limits[i]) / (d * d);
-        q->curve[i][1] = (at[4].limits[i] + at[5].limits[i] - at[6].limits[i] - at[7].limits[i]) / (4.0 * d * d);
+        if (!(P->limits[i] < HUGE_VAL)) continue;
+        for (int a = 0; a < 2; a++) q->along[i][a] = along(f->k, slopes, of_wheel ? Q[a] : z[a]);
+        for (int c = 0; c < 3; c++) {
+            const double *da = of_wheel ? Q[A[c]] : z[A[c]], *db = of_wheel ? Q[B[c]] : z[B[c]];
+            q->curve[i][c] = bent_by(f, 3 + number, da, db);
+            if (!of_wheel) q->curve[i][c] += along(f->k, slopes, zz[c]);
+            if (of_wheel && h->bound >= 0) q->curve[i][c] += slopes[h->bound] * follows[c];
+        }
     }
     return 1;
 }
@@ -721,6 +816,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     best.lever = 1.0;
     best.budget = BUDGET;
     if (mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
+    if (!m->kernels || !m->kernels->bounded) return found->status = MW_BAD_INPUT;
     if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return found->status = MW_BAD_INPUT;
     memcpy(known.q, start, (size_t)m->bodies[1].parameters * sizeof *start);
     memcpy(known.p, start + m->bodies[1].parameters, (size_t)m->bodies[0].parameters * sizeof *start);

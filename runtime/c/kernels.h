@@ -1,4 +1,5 @@
-/* What a drive's object holds beside its model table: lane kernels, tangents, tables.  SPDX-License-Identifier: MIT-0 */
+/* What a drive's object holds beside its model table: lane kernels, tangents, bounded flanks, tables.
+ * SPDX-License-Identifier: MIT-0 */
 #ifndef MW_KERNELS_H
 #define MW_KERNELS_H
 
@@ -20,6 +21,26 @@ typedef struct mw_tangents {
     void (*flanks[2])(const double *p, const double *dp, const double *q, double *dr);
 } mw_tangents;
 
+/* Contact with an edge: equations in the unknowns of contact. margin: which margin of pinion and wheel is zero, -1 where
+ * the flank itself touches. */
+typedef struct mw_edge_system {
+    int margin[2];
+    void (*eval)(const double *s, const double *x, double *R, double *J);
+} mw_edge_system;
+
+/* A surface beyond its tangents: slopes of its limits (regular, then the margins); second derivatives of its point, limits
+ * and conditions, NULL where there are none. See the generated headers of bounded flanks. */
+typedef struct mw_expansion {
+    mw_surface slopes, second;
+} mw_expansion;
+
+/* What bounded flanks need; expansions: of pinion, wheel, and of the model's regions in their order. */
+typedef struct mw_bounded {
+    int nedges;
+    const mw_edge_system *edges;
+    const mw_expansion *expansions;
+} mw_bounded;
+
 /* A drive's kernels for one instruction set; number k of lane l is at [k * lanes + l]. See the generated lane headers. */
 typedef struct mw_lane_model {
     void (*setup)(const double *p, double *s, double *valid);
@@ -37,6 +58,7 @@ typedef enum mw_instruction_set { MW_NATIVE, MW_AVX2, MW_AVX512, MW_INSTRUCTION_
 /* lanes: NULL for an instruction set that was not compiled. */
 typedef struct mw_kernels {
     const mw_tangents *tangents;
+    const mw_bounded *bounded;
     const mw_certified *certified;
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;

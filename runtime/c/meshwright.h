@@ -143,6 +143,27 @@ int mw_contact_at(const mw_model *m, const double *s, const double *x, double *o
  * (normals parallel: both bodies on the same side) or MW_DIVERGED. */
 int mw_touch(const mw_model *m, const double *x, const double *o);
 
+/* Contact of an edge. A margin of a body whose role is tip, throat or face ends its flank in an edge. The number of the
+ * system in which that edge, by the numbers of the margins, touches the mating flank (-1) or the mating edge; -1: the drive
+ * has no such edge. */
+int mw_edge(const mw_model *m, int pinion_margin, int wheel_margin);
+
+/* The equations of a system at x[nx], as of the model's eval(): R[nx], J[nx*nx] or NULL; solved from x[nx]. s is set up.
+ * Return MW_CONVERGED or another success, or why there is no solution: MW_BAD_INPUT also where there is no such system.
+ * A margin that the design leaves open has no edge: MW_LEFT_FLANK. */
+int mw_edge_eval(const mw_model *m, int edge, const double *s, const double *x, double *R, double *J);
+int mw_edge_solve(const mw_model *m, int edge, const double *s, double *x, mw_info *info);
+
+/* Follow the contact of an edge from x0[nx] at phi0, close to a solution, along phi[n]: as mw_follow. */
+size_t mw_edge_follow(const mw_model *m, int edge, double *s, double phi0, const double *x0, const double *phi, size_t n,
+                      double *x, mw_info *info);
+
+/* Limits of a surface, 0 pinion, 1 wheel, 2 + number of a region, at q[n*parameters]; limits are regular and the margins.
+ * order 1: o[n*limits*parameters] slopes of each limit. order 2, of flanks: o[n*(3 + limits + conditions)*pairs] second
+ * derivatives of the point, of each limit and of each condition by the pairs (1, 1), (1, 2), ... of parameters. s is set
+ * up. Returns MW_CONVERGED, or MW_BAD_INPUT where the model has no such function. */
+int mw_bounds(const mw_model *m, int surface, int order, const double *s, const double *q, size_t n, double *o);
+
 /* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
  * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. bound: the
  * parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */

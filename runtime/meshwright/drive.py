@@ -89,6 +89,10 @@ class Drive:
         """Pinion angle from one tooth pair to the next, rad."""
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])
 
+    def about_the_middle(self, pitches):
+        """Pinion angles, rad, so many pitches from the one to which relative errors refer."""
+        return self.design.mirror.sign * self.design.reference_angle + np.asarray(pitches) * self.pitch()
+
     @cached_property
     def past_the_tips(self):
         """Whether the teeth do not reach each other at any angle."""

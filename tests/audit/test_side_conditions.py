@@ -48,7 +48,7 @@ def listed(drive):
 @pytest.mark.parametrize("drive", DRIVES)
 def test_no_division_root_or_arc_of_a_header_lacks_its_side_condition(drive):
     wanted = listed(drive)
-    for suffix in ("", "_lanes", "_sensitivity"):
+    for suffix in ("", "_lanes", "_bounded", "_sensitivity"):
         header = (GENERATED / "c" / f"{drive}{suffix}.h").read_text(encoding="utf-8")
         for name, body in functions_in(header, drive).items():
             if name not in ELEMENTARY:

@@ -22,6 +22,13 @@ WRONG = [
     ("formate-cradle", "axis_of_work", ("-cos(Sigma)", "cos(Sigma)")),
     ("assembly-axis", "half", ("[-1, 0, 0]", "[1, 0, 0]")),
     ("fillet-join", "joint", ("1 - sin", "1 + sin")),
+    ("cone-normal", "n0", ("0, -sin(alpha)", "0, sin(alpha)")),
+    ("stand-off", "swung", ("secant)*t0 - (", "secant)*t0 + (")),
+    ("rounding", "m_round", ("0, -sin(alpha + lam)", "0, sin(alpha + lam)")),
+    ("tangent-cones", "wider", ("- change*radial", "+ change*radial")),
+    ("scale", "base_larger", ("c*XB + c*H", "c*XB + H")),
+    ("crown", "axis", ("0, sin(gamma)", "0, -sin(gamma)")),
+    ("offset", "hypoid", ("vec(0, E, 0)", "vec(0, -E, 0)")),
 ]
 
 

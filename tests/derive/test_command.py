@@ -14,7 +14,7 @@ def test_one_drive_replaces_its_own_files_alone(tmp_path):
     assert command.main([DRIVE, "--output", str(tmp_path)]) == 0
     assert other.read_text() == "a year's work"
     assert {path.name for path in (tmp_path / "c").glob("*.h")} == {
-        f"{DRIVE}.h", f"{DRIVE}_lanes.h", f"{DRIVE}_sensitivity.h", f"{DRIVE}_certified.h"
+        f"{DRIVE}{part}.h" for part in ("", "_bounded", "_certified", "_lanes", "_sensitivity")
     }  # fmt: skip
 
 
@@ -62,3 +62,10 @@ def test_what_a_killed_run_left_is_removed(tmp_path):
     (tmp_path / "c" / ".drive.h.1234.part").write_text("half")
     command._remove_superseded(tmp_path, {})
     assert not list((tmp_path / "c").iterdir())
+
+
+def test_the_six_stages_are_told_in_their_order(tmp_path, capsys):
+    assert command.main([DRIVE, "--output", str(tmp_path)]) == 0
+    lines = [line.split() for line in capsys.readouterr().err.splitlines()]
+    stages = ["define", "derive", "reduce", "schedule", "prove", "emit"]
+    assert [stage for stage, name, *_ in lines if name == DRIVE] == stages

@@ -122,7 +122,8 @@ def test_the_command(capsys, tmp_path):
     "words",
     [["helical-crowned"], ["plain-za", "--life-mm", "0"], ["plain-za", "--error", "design.hob_threads=1"],
      ["plain-za", "--error", "misalignment.axial_mm=-1"], ["plain-za", "--toml", "-"],
-     ["plain-za", "--oversize-percent", "-1"], ["plain-za", "--set", "design.hob_pitch_radius_mm=20.0"]],
+     ["plain-za", "--oversize-percent", "-1"], ["plain-za", "--life-mm", "30"],
+     ["plain-za", "--set", "design.hob_pitch_radius_mm=20.0"]],
 )  # fmt: skip
 def test_what_cannot_be_is_refused(words, capsys):
     try:

@@ -62,8 +62,15 @@ joint = rho*(1 - sin(alpha))/cos(alpha)
 centre = joint*t0 + rho*n0
 m_round = vec(-s*cos(alpha + lam), 0, -sin(alpha + lam))
 rounding = centre - rho*m_round
+at_rounding = vec(v1, v2, v3) + cross(omega, rounding)
+at_centre = vec(v1, v2, v3) + cross(omega, centre)
+turn_theta = mat([cos(theta), -h*sin(theta), 0], [h*sin(theta), cos(theta), 0], [0, 0, 1])
+cone = turn_theta@(vec(rp, 0, 0) + u*t0)
+n_cone = turn_theta@n0
+radial = turn_theta@vec(1, 0, 0)
+wider = vec(c1, c2, 0) - change*radial + turn_theta@(vec(rp + change, 0, 0) + u*t0)
 """,
-    signs=["s"],
+    signs=["h", "s"],
 )
 
 MACHINE = scope(
@@ -99,6 +106,12 @@ r_rolled = mat([cos(w), h*sin(w), 0], [-h*sin(w), cos(w), 0], [0, 0, 1])@plain
 r_shifted = mat([cos(w - e), h*sin(w - e), 0], [-h*sin(w - e), cos(w - e), 0], [0, 0, 1])@plain
 turn_shift = mat([cos(e), -h*sin(e), 0], [h*sin(e), cos(e), 0], [0, 0, 1])
 head = vec(p1, p2, p3)
+gen_larger = turn_cradle@(vec(c*Sr, 0, 0) + turn_swivel@(Ry(i)@(turn_theta@(c*edge))))
+base_larger = vec(0, h*c*Em, c*XB + c*H*phi)
+r_larger = turn_work@(lay@(gen_larger - base_larger) - vec(0, 0, c*XD))
+f_larger = dot(n_body, d(r_larger, phi) + rate*d(r_larger, work))
+r_any = vec(x, y, z)
+n_any = vec(n1, n2, n3)
 """,
     jets={"ex": ("u",), "ez": ("u",), "nx": ("u",), "nz": ("u",)},
     signs=["h", "s"],
@@ -111,6 +124,8 @@ half = mat([-1, 0, 0], [0, -1, 0], [0, 0, 1])
 flip = mat([1, 0, 0], [0, -1, 0], [0, 0, -1])
 k = vec(0, 0, 1)
 axis_of_work = vec(sin(Sigma), 0, -cos(Sigma))
+hypoid = vec(0, E, 0) + Ry(Sigma)@(half@(Rz(-phi1)@r1 + vec(0, 0, dP)))
+bevel = Ry(Sigma)@(half@(Rz(-phi1)@r1 + vec(0, 0, dP)))
 r1 = vec(x, y, z)
 """,
 )
@@ -168,6 +183,42 @@ CLAIMS = (
         conditions=["cos α ≠ 0"],
     ),
     identity(
+        "cone-normal",
+        "blade",
+        "The turning straight blade sweeps a cone: its normal is a unit vector, normal to blade and circle, and the "
+        "same along the whole blade.",
+        [
+            "dot(n_cone, n_cone) = 1",
+            "dot(n_cone, d(cone, u)) = 0",
+            "dot(n_cone, d(cone, theta)) = 0",
+            "d(n_cone, u) = vec(0, 0, 0)",
+        ],
+        BLADE,
+    ),
+    identity(
+        "stand-off",
+        "blade",
+        "The arc leaves its line along its own normal, from the pole on; the straight blade, κb = 0, not at all.",
+        "secant*(secant + 1)*(swung - pole) = -kappa*X**2*n_swung",
+        BLADE,
+    ),
+    identity(
+        "rounding",
+        "fillet",
+        "Normals of the rounding pass through its centre: in any motion the equation of meshing is a cosine and a sine "
+        "of their inclination α + λ, with the velocity of the centre.",
+        "dot(m_round, at_rounding) = -s*at_centre.x*cos(alpha + lam) - at_centre.z*sin(alpha + lam)",
+        BLADE,
+    ),
+    identity(
+        "tangent-cones",
+        "conjugate pairs",
+        "A wider cone whose axis is moved back by the change of radius shares point and normal along one whole "
+        "generatrix: crowning along the tooth.",
+        "wider = vec(c1, c2, 0) + cone",
+        BLADE,
+    ),
+    identity(
         "frames",
         "machine",
         "Every frame of the machine is orthogonal with determinant +1, for either hand.",
@@ -200,6 +251,13 @@ CLAIMS = (
         MACHINE,
     ),
     identity(
+        "scale",
+        "machine",
+        "All lengths times c, helical motion among them: the flank times c at equal angles, f times c.",
+        ["r_larger = c*r_body", "f_larger = c*f"],
+        MACHINE,
+    ),
+    identity(
         "apex",
         "machine",
         "Centre to back and sliding base together shift the cutter along the machine plane.",
@@ -213,7 +271,11 @@ CLAIMS = (
         "conjugate pairs",
         "A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch "
         "line, the same line for both members.",
-        "h*k - h*axis/sin(gamma) = -h*cos(gamma)/sin(gamma)*vec(1, 0, 0)",
+        [
+            "h*k - h*axis/sin(gamma) = -h*cos(gamma)/sin(gamma)*vec(1, 0, 0)",
+            "dot(n_any, cross(h*k - h*axis/sin(gamma), r_any))"
+            " = -h*cos(gamma)/sin(gamma)*dot(n_any, cross(vec(1, 0, 0), r_any))",
+        ],
         MACHINE,
         conditions=["sin δ ≠ 0"],
     ),
@@ -224,6 +286,14 @@ CLAIMS = (
         "as the pair in mesh does: what it cuts is conjugate to the gear, for any offset.",
         "flip@(cross(axis_of_work, flip@r1 - vec(0, -E, 0))/m - cross(k, flip@r1))"
         " = (m*cross(k, r1) + cross(vec(sin(Sigma), 0, cos(Sigma)), r1 - vec(0, E, 0)))/m",
+        PAIR,
+    ),
+    identity(
+        "offset",
+        "assembly",
+        "The offset shifts the pinion along the common perpendicular and does nothing else: without it the hypoid pair "
+        "is a bevel pair.",
+        "hypoid - vec(0, E, 0) = bevel",
         PAIR,
     ),
     identity(

@@ -11,6 +11,7 @@ static const mw_kernels kernels;
 
 #include MW_GENERATED()
 #include MW_GENERATED(_sensitivity)
+#include MW_GENERATED(_bounded)
 #include MW_GENERATED(_certified)
 
 #define MW_SYSTEM_TANGENTS(system) { system##_tangent, system##_fill_tangent },
@@ -27,7 +28,8 @@ extern const mw_lane_model MW_OF(_lanes_avx2), MW_OF(_lanes_avx512);
 #define MW_WIDE(name) NULL
 #endif
 static const mw_kernels kernels = {
-    &tangents, &MW_OF(_certified), { &MW_OF(_lanes_native), MW_WIDE(_lanes_avx2), MW_WIDE(_lanes_avx512) }
+    &tangents, &MW_OF(_bounded), &MW_OF(_certified),
+    { &MW_OF(_lanes_native), MW_WIDE(_lanes_avx2), MW_WIDE(_lanes_avx512) }
 };
 
 const mw_model *MW_PASTE(mw_drive_, MW_DRIVE)(void);

@@ -44,7 +44,7 @@ PUBLIC_HEADERS = (
 )  # fmt: skip
 
 #: Generated headers of a drive.
-GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_certified.h")
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certified.h")
 
 FLAGS = (
     "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",
@@ -239,8 +239,9 @@ def take(names, generated, folder):
         for header in _headers(name, folder):
             _copy(generated / "c" / header.name, header)
         _copy(generated / "c" / f"{name}.json", folder / f"{name}.json")
-        systems = json.loads((generated / "c" / f"{name}.json").read_text(encoding="utf-8"))["systems"]
-        for function in (name, *(f"{name}_{system['name']}" for system in systems)):
+        description = json.loads((generated / "c" / f"{name}.json").read_text(encoding="utf-8"))
+        functions = [*(system["name"] for system in description["systems"]), "surfaces"]
+        for function in (name, *(f"{name}_{part}" for part in functions + ["edges"] * bool(description["edges"]))):
             _copy(generated / "casadi" / f"{function}.casadi", folder / f"{function}.casadi")
 
 

@@ -101,6 +101,7 @@ def object_of(name, places=None):
     path = folder / f"{name}.so"
     if folder == SHIPPED and path.exists():
         return path
+    _check_headers(name, folder)
     inputs = build.inputs(name, folder, SHIPPED)
     if build.sealed(path).get("inputs") == inputs:
         return path
@@ -114,11 +115,24 @@ def object_of(name, places=None):
     return _kept(f"{name}-{inputs[:16]}", f"compiling {name}", compiled) / f"{name}.so"
 
 
+def _check_headers(name, folder):
+    """A folder of drives has every generated header of a drive that this package compiles."""
+    if not all((folder / "include" / pattern.format(name)).exists() for pattern in build.GENERATED):
+        raise _OtherVersion(name, folder)
+
+
 def _check_layout(name, folder):
     """A header repeats the model table's declaration: it must be that of this package."""
     declared = (SHIPPED / "include" / "mw_model.h").read_text(encoding="utf-8")
     if declared not in (folder / "include" / f"{name}.h").read_text(encoding="utf-8"):
-        raise LibraryError(
+        raise _OtherVersion(name, folder)
+
+
+class _OtherVersion(LibraryError):
+    """A drive was derived for a package that expects other files of it."""
+
+    def __init__(self, name, folder):
+        super().__init__(
             f"{folder}: {name} was derived for another version of meshwright; `python -m derive` it again into that "
             "folder"
         )

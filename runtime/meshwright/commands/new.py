@@ -9,11 +9,16 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
+
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import options as common
+from meshwright.contact.results import TOUCHING, impossible
+from meshwright.cycle.edge import not_first
 from meshwright.design import description, outline
 from meshwright.design import design as designs
+from meshwright.drive import Drive
 
 
 def add_arguments(parser):
@@ -50,8 +55,21 @@ def run(options):
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
     write_text(place, first.text)
     if place != "-":
-        write_text("-", _next_steps(place, first))
+        write_text("-", _next_steps(place, first, _first_look(Drive.from_tables(designs.parsed(first.text, name)))))
     return 0
+
+
+def _first_look(drive):
+    """What the flanks do over the pitch about the middle, in a line."""
+    result = drive.tca(np.linspace(-0.5, 0.5, 5) * drive.pitch() + drive.design.reference_angle)
+    result = not_first(result, drive.first_contact(result.angles, result))
+    for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):
+        word = next((flag for flag in flags if impossible(flag)), None if status in TOUCHING else status)
+        if word:
+            angle = np.degrees(result.angles[k])
+            return f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"
+    along = " along a line" if "line_contact" in result.status else ""
+    return f"looked at over one pitch: the flanks touch{along}, and nothing else before them"
 
 
 def _family(name):
@@ -83,8 +101,8 @@ def _words(family, text):
     return words
 
 
-def _next_steps(place, first):
+def _next_steps(place, first, seen):
     lines = [f"{place} written; assumed:"]
     lines += [f"  {key} = {value}: {why}" for key, value, why in first.assumed if why]
-    lines += ["go on with", f"  meshwright tca {place}", f"  meshwright report {place} --html report.html"]
+    lines += [seen, "go on with", f"  meshwright tca {place}", f"  meshwright report {place} --html report.html"]
     return "\n".join(lines) + "\n"

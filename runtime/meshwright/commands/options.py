@@ -106,15 +106,16 @@ def count(text):
 def add_angles(parser):
     """--phi-deg."""
     parser.add_argument(
-        "--phi-deg", metavar="A:B:STEP|v1,v2,…", help="pinion angles, degrees; default: one pitch about 0 in 12 steps"
-    )
+        "--phi-deg", metavar="A:B:STEP|v1,v2,…",
+        help="pinion angles, degrees; default: one pitch in 12 steps about the angle to which relative errors refer",
+    )  # fmt: skip
 
 
 def angles_of(options, drive):
     """The angles asked for, rad."""
     if options.phi_deg is not None:
         return angles(options.phi_deg)
-    return np.linspace(-0.5, 0.5, 13) * drive.pitch()
+    return drive.about_the_middle(np.linspace(-0.5, 0.5, 13))
 
 
 def add_friction(parser):

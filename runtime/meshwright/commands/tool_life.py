@@ -61,6 +61,8 @@ def run(options):
     if options.grinds > MOST_GRINDS:
         raise UsageError(f"--grinds {options.grinds}: {MOST_GRINDS} at most; choose fewer")
     amounts = [whole * k / options.grinds for k in range(options.grinds + 1)]
+    for amount in reversed(amounts):
+        life.at(amount)  # what cannot be is said before anything takes long
     with progress(len(amounts) + (TRIALS if bounds else 0)) as step:
         states = [_computed(life.state(amount), step) for amount in amounts]
         found = life.range(amounts, bounds, step) if bounds else None

@@ -111,21 +111,20 @@ def _to_limit(region, limit, coordinates, start):
     """
     chart, sizes = region.chart, region.chart.sizes[list(region.chart.free)]
     q = chart.complete(coordinates, start)
-    h, values, points = 1e-6, [], []
-    for step in ((0.0, 0.0), (h, 0.0), (-h, 0.0), (0.0, h), (0.0, -h)):
-        found = chart.flank(chart.complete(coordinates + step * sizes, q))
-        values.append(region.limits.values(found)[:, limit])
-        points.append(found.points)
+    found = chart.flank(q)
+    value = region.limits.values(found)[:, limit]
+    slopes, tangents = (
+        chart.by_coordinates(found, by_parameters) * sizes
+        for by_parameters in (region.limits.slopes(found)[:, limit : limit + 1], np.swapaxes(found.tangents, 1, 2))
+    )
     with np.errstate(invalid="ignore"):
-        slopes = np.stack([values[1] - values[2], values[3] - values[4]], axis=1) / (2.0 * h)
-        tangents = np.stack([points[1] - points[2], points[3] - points[4]], axis=1) / (2.0 * h)
-        back = values[0][:, None] * slopes / np.maximum(np.sum(slopes**2, axis=1), 1e-300)[:, None]
+        back = value[:, None] * slopes[:, 0] / np.maximum(np.sum(slopes[:, 0] ** 2, axis=1), 1e-300)[:, None]
     if not np.isfinite(back).all():
         raise UsageError(
             f"the {region.flank.region} of the {region.flank.body['name']} ends at its {region.limits.names[limit]} "
             "where the surface itself does; a trimmed surface needs more: write --vtu or --stl"
         )
-    return q, back * sizes, np.linalg.norm(np.einsum("ni,nij->nj", back, tangents), axis=1)
+    return q, back * sizes, np.linalg.norm(np.einsum("ni,nji->nj", back, tangents), axis=1)
 
 
 def _deviation(region, limit, coordinates, share, known):

@@ -125,11 +125,21 @@ class Chart:
         q[~(largest < 1e-9)] = np.nan
         return q
 
+    def by_coordinates(self, found, slopes):
+        """Slopes (N, L, 2) by the coordinates, conditions kept, of what has the slopes (N, L, k) by the parameters."""
+        free, bound = list(self.free), [i for i in range(slopes.shape[2]) if i not in self.free]
+        if not bound:
+            return slopes[:, :, free]
+        conditions = found.conditions[:, :, 1:]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            follow = np.stack([solved(conditions[:, :, bound], conditions[:, :, i]) for i in free], axis=2)
+        return slopes[:, :, free] - slopes[:, :, bound] @ follow
+
 
 @dataclass(frozen=True)
 class Limits:
     """Everything that bounds a surface: the names of its own limits, and added ones, ``extra``: (name, function of
-    flank points to (N,)).
+    flank points to values (N,) and slopes by the parameters (N, k)).
     """
 
     flank: Flank
@@ -142,11 +152,16 @@ class Limits:
 
     def values(self, found):
         """The limit functions (N, L) of flank points: +inf where a limit is left open, -inf where there is no point."""
-        columns = [found.regular, *found.margins.values(), *(function(found) for _, function in self.extra)]
+        columns = [found.regular, *found.margins.values(), *(function(found)[0] for _, function in self.extra)]
         values = np.stack(columns, axis=1)
         values[np.isnan(values)] = np.inf
         values[~(np.isfinite(found.points).all(axis=1) & np.isfinite(found.normals).all(axis=1))] = -np.inf
         return values
+
+    def slopes(self, found):
+        """Slopes of the limit functions by the parameters (N, L, k) at flank points; not a number where one is open."""
+        added = [function(found)[1][:, None] for _, function in self.extra]
+        return np.concatenate([self.flank.limit_slopes(found.parameters), *added], axis=1)
 
     def least(self, found):
         """The smallest limit function (N,)."""
@@ -282,9 +297,15 @@ def _limits(drive, flank, uses):
         inner = mesh(whole, (CELLS, CELLS))
         along, _ = lengthwise(whole.flank, whole.flank(inner.parameters))
         low, high, name = along.min(), along.max(), "face"
-    return limits.with_(name, lambda at: lengthwise(flank, at)[0] - low).with_(
-        name, lambda at: high - lengthwise(flank, at)[0]
+    return limits.with_(name, lambda at: _beyond(flank, at, 1.0, low)).with_(
+        name, lambda at: _beyond(flank, at, -1.0, high)
     )
+
+
+def _beyond(flank, found, sign, end):
+    """How far beyond an end of the tooth points are, positive inside, and the slopes of that."""
+    along, slopes = lengthwise(flank, found)
+    return sign * (along - end), sign * slopes
 
 
 def _lengthwise_size(flank, found, sizes):
@@ -333,22 +354,14 @@ def _start(flank, limits, places, sizes):
 
 def _inwards(flank, limits, q, sizes):
     """Places (N, k) moved along the surface against the limits that they exceed, a little further than first order."""
-    values, slopes = _slopes(flank, limits, q, sizes)
+    found = flank(q)
+    values, slopes = limits.values(found), limits.slopes(found) * sizes
     short = np.where(values < 0.0, values, 0.0) * OVERSHOOT
     short[~np.isfinite(short)] = 0.0
     slopes = np.nan_to_num(np.where(short[:, :, None] < 0.0, slopes, 0.0), posinf=0.0, neginf=0.0)
     step = (np.linalg.pinv(slopes, rcond=1e-6) @ -short[:, :, None])[:, :, 0]
     step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
     return _on_surface(flank, q + step * sizes, sizes)
-
-
-def _slopes(flank, limits, q, sizes):
-    """Limit functions (N, L) and their slopes (N, L, k) by the parameters in natural sizes, by differences."""
-    h = 1e-6
-    values = limits.values(flank(q))
-    moved = [limits.values(flank(q + h * sizes * np.eye(q.shape[1])[i])) for i in range(q.shape[1])]
-    with np.errstate(invalid="ignore"):
-        return values, np.stack([(m - values) / h for m in moved], axis=2)
 
 
 def _deeper(chart, limits, start):
@@ -409,8 +422,15 @@ def _closed(chart, limits, start, places, beyond):
         if closed if axis == 0 else along:
             continue
         end = max((sign * used[:, number]).max(), sign * start[number]) + beyond * chart.sizes[number]
-        limits = limits.with_(OPEN, lambda at, sign=sign, end=end, i=number: end - sign * at.parameters[:, i])
+        limits = limits.with_(OPEN, lambda at, sign=sign, end=end, i=number: _parameter(at, i, sign, end))
     return limits
+
+
+def _parameter(found, number, sign, end):
+    """How far a parameter is from an end, positive inside, and the slopes of that."""
+    slopes = np.zeros(found.parameters.shape)
+    slopes[:, number] = -sign
+    return end - sign * found.parameters[:, number], slopes
 
 
 def _ends(chart, limits, start, sign):

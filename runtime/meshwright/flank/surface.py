@@ -47,6 +47,7 @@ class Flank:
     drive: object
     body: dict
     pointer: object
+    number: int
 
     @classmethod
     def of(cls, drive, member, region="flank"):
@@ -54,10 +55,10 @@ class Flank:
         description, model = drive.design.description, drive.model
         for k, body in enumerate(description["bodies"]):
             if (body["name"], "flank") == (member, region):
-                return cls(drive, body, model.bodies[k])
+                return cls(drive, body, model.bodies[k], k)
         for k, other in enumerate(description["regions"]):
             if (other["name"], other["region"]) == (member, region):
-                return cls(drive, other, model.regions[k])
+                return cls(drive, other, model.regions[k], len(description["bodies"]) + k)
         known = [f"flank of {b['name']}" for b in description["bodies"]]
         known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
         raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
@@ -97,6 +98,14 @@ class Flank:
             second_form=form[:, [0, 1, 1, 2]].reshape(-1, 2, 2),
             principal=rows[:, outputs["curvature"]],
         )
+
+    def limit_slopes(self, parameters):
+        """Slopes (N, 1 + margins, k) by the parameters, at ``parameters`` (N, k), of ``regular`` and of each margin."""
+        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        slopes = np.empty((len(q), 1 + len(self.body["margins"]), q.shape[1]))
+        compiled = self.drive.design.model
+        library().mw_bounds(compiled, self.number, 1, pointer(self.state), pointer(q), len(q), pointer(slopes))
+        return slopes
 
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""

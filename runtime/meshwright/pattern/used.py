@@ -18,22 +18,23 @@ def uses(drive):
 
 
 def _solutions(mesh):
-    """Solutions that contact visits (P, nx), right hand: the window of a pair, or what there is about angle 0."""
+    """Solutions that contact visits (P, nx), right hand: the window of a pair, or what there is about its middle."""
     window, pitch = mesh.window, mesh.drive.pitch()
     if window.path is None:
-        unknowns = _around_0(mesh.drive)
+        unknowns = _about_the_middle(mesh.drive)
         if not len(unknowns):  # what a flank is does not depend on how the members stand
             errors = mesh.drive.design.given().get("misalignment", {})
-            unknowns = _around_0(mesh.drive.with_(misalignment=dict.fromkeys(errors, 0.0)))
+            unknowns = _about_the_middle(mesh.drive.with_(misalignment=dict.fromkeys(errors, 0.0)))
         if not len(unknowns):
             raise UsageError("the flanks do not touch: no part of them is in use; change the design or misalignment")
         return unknowns
-    low, high = window.bounds if window.complete else (-pitch, pitch)
+    middle = mesh.drive.design.reference_angle
+    low, high = window.bounds if window.complete else (middle - pitch, middle + pitch)
     return window.path.unknowns[(window.path.angles >= low) & (window.path.angles <= high)]
 
 
-def _around_0(drive):
-    unknowns, _ = drive.trace(np.array([-0.25, 0.0, 0.25]) * drive.pitch())
+def _about_the_middle(drive):
+    unknowns, _ = drive.trace(drive.about_the_middle([-0.25, 0.0, 0.25]))
     return unknowns[np.isfinite(unknowns).all(axis=1)]
 
 

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
+from meshwright.base.errors import DesignError, UsageError
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.first_contact import first_contacts
 from meshwright.cycle.pairs import Mesh
@@ -191,13 +191,23 @@ class ToolLife:
         return self._value(self.drive, "mate")
 
     def at(self, ground_off, radius=None):
-        """The drive when ``ground_off`` (mm) is gone of a new tool of ``radius`` (mm), by default the design's."""
+        """The drive when ``ground_off`` (mm) is gone of a new tool of ``radius`` (mm), by default the design's.
+
+        Raises :class:`~meshwright.base.errors.UsageError` where that leaves no tool.
+        """
         given = self.drive.design.given()
         changes = dict(self.regrind["words"]) | {self.regrind["amount"]: float(ground_off)}
         if radius is not None:
             changes[self.regrind["radius"]] = float(radius)
-        moved = self._settings(given, changes)
-        return self._drive(given, changes | moved)
+        if not ground_off > 0.0:
+            return self._drive(given, changes | self._settings(given, changes))
+        try:
+            return self._drive(given, changes | self._settings(given, changes))
+        except DesignError as error:
+            raise UsageError(
+                f"{self.regrind['amount']} = {ground_off:g}: with so much ground off there is no design ({error}); "
+                "grind off less: --life-mm"
+            ) from error
 
     def state(self, ground_off, radius=None):
         """The :class:`State` there."""

@@ -1,0 +1,40 @@
+"""Print what bounded flanks need: the systems of edge contact, and limits and surfaces beyond first order.
+
+Functions of the state alone, the parameters at its end included: what they need of the design they form themselves.
+"""
+
+from derive.emit.c99 import Leaves, Printer, linearised
+from derive.emit.render import render
+
+
+def header(plan, generator):
+    """The text of the drive's header of bounded flanks."""
+    drive = plan.drive
+    before = len(plan.state)
+    known = Leaves.of(plan).state | {
+        plan.lower(p.symbol): f"s[{before + k}]" for k, p in enumerate(drive.parameters)
+    }
+    unknowns = {plan.lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
+    edges = Printer(plan.tape, drive.name, known | unknowns, seldom=True)
+    equations, jacobian = linearised(edges, plan.edges.equations, plan.edges.jacobian)
+    return render(
+        "bounded.h.jinja",
+        drive=drive,
+        X=drive.name,
+        generator=generator,
+        equations=equations,
+        jacobian=jacobian,
+        systems=plan.edges.systems,
+        expansions=[_expansion(plan, known, e) for e in plan.expansions],
+    )
+
+
+def _expansion(plan, known, expansion):
+    """Bodies of the slopes and of the second derivatives of one surface, functions of its parameters q."""
+    own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(expansion.of.parameters)}
+    printer = Printer(plan.tape, plan.drive.name, known | own, seldom=True)
+    return {
+        "name": f"{expansion.of.region}_{expansion.of.body}",
+        "slopes": printer.body(expansion.slopes)[0],
+        "second": printer.body(expansion.second)[0] if expansion.second else None,
+    }
