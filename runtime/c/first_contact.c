@@ -3,10 +3,12 @@
  * A point of the wheel's flank, turned about the wheel's axis, meets the pinion's flank at one wheel angle. Bodies touch
  * first where that angle is extreme over all points of the wheel's flank that meet the pinion's flank inside its limits:
  * in the interior (a tangency), on a limit of either flank (an edge), or where two limits meet (a corner). */
+#include "exact.h"
 #include <math.h>
 #include <string.h>
 #include "kernels.h"
 #include "meshwright.h"
+#include "solver/basics.h"
 
 enum {
     MAX_K = 3,                   /* parameters of a flank */
@@ -15,6 +17,7 @@ enum {
     MAX_SECOND = (3 + MAX_LIMITS + 1) * MAX_K * (MAX_K + 1) / 2,
     NEWTON_STEPS = 14,
     CLIMB_STEPS = 80,
+    CLIMB_COST = 100,            /* places that a climb counts as, about those of a dozen steps */
     RESTORATIONS = 3,
     STARTS = 12,                 /* local extremes of the mesh that are refined */
     FINEST_WALK = 64,            /* steps at most from a place to one that is further away */
@@ -695,8 +698,10 @@ static void look(const search *h, const place *corners, best_ *best)
             continue;
         }
         halfway(h, &T[edge], &T[(edge + 1) % 3], &middle);
-        if (middle.good && middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && middle.value > best->floor + 1e-13)
+        if (middle.good && middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && middle.value > best->floor + 1e-13) {
             refine(h, &middle, best);
+            best->budget -= CLIMB_COST; /* where climbs end nowhere, each place would begin another one */
+        }
         memcpy(stack[n], T, sizeof T);
         depth[n] = deep + 1;
         stack[n++][(edge + 1) % 3] = middle;
@@ -815,7 +820,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     best.floor = best.highest = -HUGE_VAL;
     best.lever = 1.0;
     best.budget = BUDGET;
-    if (mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
+    if (!mwi_usable(m) || mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
     if (!m->kernels || !m->kernels->bounded) return found->status = MW_BAD_INPUT;
     if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return found->status = MW_BAD_INPUT;
     memcpy(known.q, start, (size_t)m->bodies[1].parameters * sizeof *start);

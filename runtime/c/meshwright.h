@@ -24,7 +24,7 @@ const mw_model *mw_model_at(int index);
 const mw_model *mw_find(const char *drive);
 
 /* Complete the parameters p[np] of a design (NaN: open) by rules, defaults and the model's design systems;
- * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution. */
+ * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution, or -1 for a foreign table. */
 int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
 
 /* Which contact. The equations may hold in several places of a tooth pair at once, and also in places where bodies cannot
