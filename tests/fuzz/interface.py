@@ -130,15 +130,14 @@ def _search(drive):
 
 
 def _first(own, search, table, pinion, wheel, start):
-    (q, corner, order, parent, open_, wheel_sizes, pinion_sizes), _ = search.kept
+    (q, corner, open_, wheel_sizes, pinion_sizes), _ = search.kept
     return [
-        _array(f"{own}_q", q), _array(f"{own}_corner", corner, "int"), _array(f"{own}_order", order, "int"),
-        _array(f"{own}_parent", parent, "int"), _array(f"{own}_open", open_, "unsigned char"),
+        _array(f"{own}_q", q), _array(f"{own}_corner", corner, "int"), _array(f"{own}_open", open_, "unsigned char"),
         _array(f"{own}_wheel_sizes", wheel_sizes), _array(f"{own}_pinion_sizes", pinion_sizes),
         _array(f"{own}_pinion", pinion), _array(f"{own}_wheel", wheel), _array(f"{own}_start", start),
         f"static const first_seed {own}_first = {{ {{ {table.vertices}, {table.triangles}, {own}_q, {own}_corner, "
-        f"{own}_order, {own}_parent, {own}_open, {table.bound}, {own}_wheel_sizes, {own}_pinion_sizes }}, "
-        f"{own}_pinion, {own}_wheel, {len(pinion)}, {_number(search.turn)}, {_number(search.sense)}, {own}_start }};",
+        f"{own}_open, {table.bound}, {own}_wheel_sizes, {own}_pinion_sizes }}, {own}_pinion, {own}_wheel, "
+        f"{len(pinion)}, {_number(search.turn)}, {_number(search.sense)}, {own}_start }};",
     ]  # fmt: skip
 
 
