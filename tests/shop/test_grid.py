@@ -120,9 +120,10 @@ def test_size_over_balls_of_involute_gears(design, member, gear):
 
 
 def test_three_wires_of_the_single_threaded_worm_of_a_handbook():
-    """m_x 2, α_n 20°, one thread, d 31, wires 3.3: 80.2959° at the wire's centre, M = 35.3345 mm, all as printed.
+    """m_x 2, α_n 20°, one thread, d 31, wires 3.3: 80.2959° at the wire's centre, M = 35.3345 mm.
 
-    Source: Stock Drive Products, Elements of Metric Gear Technology, section 10 (three-wire method of worms).
+    The figures are those of Stock Drive Products, Elements of Metric Gear Technology, section 10 (three-wire method of
+    worms), quoted from memory: the page itself was not at hand when this was written.
     """
     drive = Drive.from_tables({
         "drive": "cylindrical-worm",
