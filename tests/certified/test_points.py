@@ -10,11 +10,12 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.branch import fold_angle
-from meshwright.contact.certificate import certify, certify_boxes
+from meshwright.contact.certificate import certify, certify_boxes, certify_many
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.path import Path
 from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
+from tests.lanes import available
 from tests.published import published_rows
 from tests.worm.designs import packaged, plain
 
@@ -228,3 +229,18 @@ def test_the_mirror_image_is_certified_with_the_other_sign():
     there, mirrored = right.certify([1.0]).error_arcsec()[0], left.certify([-1.0]).error_arcsec()[0]
     assert tuple(mirrored) == (-there[1], -there[0])
     assert left.tca([-1.0]).error[0] / ARCSEC == pytest.approx(mirrored.mean(), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "helical-crowned"])
+def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
+    drive = Drive.load(name)
+    angles = np.linspace(-0.4, 0.4, 50) * drive.pitch()
+    solutions = drive.trace(angles)[0]
+    narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
+    for width in available():
+        unique, bounds = certify_many(drive, angles, solutions, width)
+        assert unique.all()
+        assert np.all((bounds[:, 1] - bounds[:, 0]) / ARCSEC < 2e-7)
+        for k in range(len(angles)):
+            low, high = narrow.error(k)
+            assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])

@@ -26,7 +26,7 @@ static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = 1.6e6;
 
 static inline double mwc_abs(double a)
 {
-    return a < 0.0 ? -a : a;
+    return fabs(a);
 }
 
 /* The radius, with what its rounding lost. */

@@ -11,7 +11,9 @@ from meshwright.contact.placement import placements
 from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
+from meshwright.cycle.edge import not_first
 from meshwright.cycle.edge_contact import edge_paths
+from meshwright.cycle.first_contact import FirstContacts
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import (
     ROUND_OFF,
@@ -87,8 +89,9 @@ class Analysis:
     exist only where the flanks touch along lines. They, the ``matrices`` (N, 4, 4) that place the members' frames in
     the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
     flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch,
-    ``moving`` and ``efficiency`` the velocities and what friction makes of them. ``whole`` are the flanks between their
-    limits, ``marking`` the thickness of the marking compound of the composite pattern, mm.
+    ``moving`` and ``efficiency`` the velocities and what friction makes of them, ``first`` where the bounded flanks
+    of the pair touch first. ``whole`` are the flanks between their limits, ``marking`` the thickness of the marking
+    compound of the composite pattern, mm.
     """
 
     drive: Drive
@@ -103,6 +106,7 @@ class Analysis:
     breaks: np.ndarray
     moving: Velocities
     efficiency: Efficiency
+    first: FirstContacts
     whole: dict[str, WholeFlank]
     marking: float
 
@@ -142,6 +146,8 @@ def analyse(drive, step, friction=None, marking=None):
     angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
+    first = drive.first_contact(angles, tca)
+    tca = not_first(tca, first)
     step("all pairs together")
     running = None if mesh.window.path is None else _running(mesh, angles)
     step("contact pattern")
@@ -159,7 +165,7 @@ def analyse(drive, step, friction=None, marking=None):
     moving = velocities(drive, tca)
     return Analysis(
         drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),
-        moving, efficiency(drive, tca, friction, moving), whole,
+        moving, efficiency(drive, tca, friction, moving), first, whole,
         drive.design.value("separation_mm", "contact") if marking is None else marking,
     )  # fmt: skip
 
