@@ -13,6 +13,7 @@ from meshwright.contact.branch import fold_angle
 from meshwright.contact.certificate import certify, certify_boxes, certify_many
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.path import Path
+from meshwright.design.design import packaged_names
 from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
 from tests.lanes import available
@@ -114,6 +115,17 @@ def test_an_enclosed_spherical_contact_holds_every_unknown_to_sixty_digits():
             middle = mpmath.mpf(float(entry["hi"])) + mpmath.mpf(float(entry["lo"]))
             assert abs(value - middle) <= mpmath.mpf(float(entry["radius"])) + mpmath.mpf(10) ** -45
             assert entry["radius"] < 1e-18
+
+
+@pytest.mark.parametrize("name", packaged_names())
+def test_every_packaged_design_is_enclosed_and_its_contact_certain_or_a_line(name):
+    drive = Drive.load(name)
+    assert drive.enclosed.failed is None
+    result = drive.tca([drive.design.mirror.sign * drive.design.reference_angle])
+    found = drive.certify(result.angles, result)
+    assert found.outcomes == ("unique",) or (found.reasons == result.status == ("line_contact",))
+    for given, complete in zip(drive.enclosed.parameters, drive.design.parameters, strict=True):
+        assert np.isnan(complete) or abs(float(given["hi"]) - complete) <= 1e-9 * (1.0 + abs(complete))
 
 
 def test_contact_along_a_line_is_never_called_a_single_point():
