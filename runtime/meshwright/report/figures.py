@@ -23,16 +23,12 @@ MOST_SPECIFIC = 20.0
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure of the report: file ``name``, ``title``, ``caption`` in words, and how it is drawn from an analysis.
-
-    A ``wide`` figure takes the whole width of the page.
-    """
+    """A figure of the report: file ``name``, ``title``, ``caption`` in words, and how it is drawn from an analysis."""
 
     name: str
     title: str
     caption: str
     draw: Callable[..., Figure]
-    wide: bool = False
 
     def figure(self, analysis):
         """The drawn figure."""
@@ -269,7 +265,6 @@ _SENSITIVITY_ERROR = Picture(
     "Relative transmission error of one pair with one misalignment, less that of the design as given. The constant "
     "offset is in the table below. A misalignment under which no contact is found has no panel.",
     sensitivity_figures.error,
-    wide=True,
 )
 _SENSITIVITY_PATH = Picture(
     "sensitivity-path",
@@ -277,5 +272,4 @@ _SENSITIVITY_PATH = Picture(
     "With each misalignment alone, either way, on top of the design as given. One under which no point touches "
     "has no panel.",
     sensitivity_figures.path,
-    wide=True,
 )
