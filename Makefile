@@ -8,6 +8,7 @@ SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
 
 .PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
+.PHONY: fuzz benchmark coverage compilers sanitizers
 
 setup: $(READY)
 
@@ -51,7 +52,7 @@ build: setup
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
-	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site $$folder generated && rm -r $$folder
+	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site -x benchmark $$folder generated && rm -r $$folder
 
 # Set up, regenerate, prove, compile, and solve a published drive beside the paper's table.
 run: setup
@@ -66,9 +67,32 @@ lint: setup
 test: build check solver cmake
 	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadfile
 
+# Certified contacts that other programs can be tested against: generated/benchmark.
+benchmark: build
+	$(VENV)/bin/meshwright benchmark generated/benchmark
+
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems.
 validate: build solver cmake
 	$(PY) -m pytest -m validate --numprocesses auto --dist loadfile
+
+# clang with its sanitizers, where it can be had without asking; `make fuzz` says what is not run without it.
+sanitizers:
+	@ls /usr/bin/clang* >/dev/null 2>&1 || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
+		&& apt-get update -qq && apt-get install -y -qq --no-install-recommends clang-14 libclang-rt-14-dev; } \
+		>/dev/null 2>&1 || true
+
+# Mutated designs, the C interface under sanitizers and in threads, changed records: seeded and bounded, about two minutes
+# of a processor; with SIZE=full hours of it. Fails at the first traceback, hang, sanitizer's report or false contact.
+fuzz: build sanitizers
+	$(PY) -m tests.fuzz --size $(or $(SIZE),short) --seed $(or $(SEED),0)
+
+# Lines and branches that tests reach, of runtime/c and of the Python runtime, beside what is required of each.
+coverage: build
+	$(PY) -m tests.coverage
+
+# The bits of a trace from every compiler, level of optimisation and instruction set that can be had here.
+compilers: build
+	$(PY) -m pytest -m validate tests/embedding/test_compilers.py
 
 # The longer finite-element validation.
 test-fe: build solver

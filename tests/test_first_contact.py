@@ -8,6 +8,10 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.first_contact import pair_errors
+from meshwright.cycle.pairs import Mesh
+from meshwright.report.analysis import analyse
+from meshwright.report.findings import findings
 from tests.independent.first_touch import FirstTouch
 from tests.worm.designs import plain
 
@@ -64,6 +68,8 @@ DESIGNS = {
     "spur wheel": packaged("spherical-table-5-2-spur", 12.0, misalignment={"center_distance_mm": 0.2}),
     "convex face gear": packaged("face-worm-conical-convex", 60.0, misalignment={"offset_mm": 0.05}),
     "concave face gear": packaged("face-worm-cylindrical-concave", -120.0, misalignment={"shaft_angle_deg": 0.05}),
+    "beyond the window, along a curved tip": packaged("plain-zi", -294.5),
+    "beyond the window at 90°": packaged("zk-zn-90", -191.2),
     "short face gear": packaged("face-worm-conical-concave", 200.0, misalignment={"axial_mm": 0.05},
                                 blank={"gear_addendum_mm": 0.4}),
 }  # fmt: skip
@@ -127,6 +133,38 @@ def test_a_tangency_that_the_edge_of_the_face_precedes_is_not_first(tmp_path, ca
     assert point["flags"] == ["not_first"] and (first["kind"], first["member"]) == ("edge", "wheel")
     assert first["transmission_error_arcsec"] == pytest.approx(-16.83688, abs=1e-5)
     assert first["overlap_mm"] == pytest.approx(6.03e-3, abs=5e-6)
+
+
+def test_nothing_is_loaded_on_a_tangency_that_lies_inside_the_other_flank(tmp_path, capsys):
+    design = tmp_path / "edge.toml"
+    design.write_text(_toml(EDGE_FIRST), encoding="utf-8")
+    command = ["loaded", str(design), "--torque-nm", "20", "--pairs", "1", "--phi-deg=-40", "--json", "-"]
+    assert main(command) == 1
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert (point["status"], point["loaded_transmission_error_arcsec"], point["pairs"]) == ("not_first", None, [])
+    assert "6.032 um inside" in point["message"] and "edge of the wheel (face) at -16.8" in point["message"]
+
+
+@pytest.mark.validate
+def test_the_report_says_what_touches_before_a_tangency():
+    analysis = analyse(Drive.from_tables(EDGE_FIRST), lambda text: None)
+    said = [f.text for f in findings(analysis) if "first contact is" in f.text]
+    assert len(said) == 1 and "edge of the wheel (face)" in said[0] and "µm inside the other flank" in said[0]
+
+
+@pytest.mark.parametrize("name", ["face-worm-conical-convex", "plain-zc", "bevel-formate"])
+def test_first_contact_of_a_pair_is_continuous(name):
+    """Over a pair's window and a quarter of a pitch past its end, nothing jumps to another tooth or is lost.
+
+    Errors of neighbours a thousandth of a pitch apart differ by less than a tooth could turn the wheel by then.
+    """
+    mesh = Mesh.of(Drive.load(name))
+    first, pitch = pair_errors(mesh), mesh.drive.pitch()
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    places = np.linspace(low + 0.05 * pitch, high + 0.25 * pitch, 21)
+    here, there = first(places), first(places + 1e-3 * pitch)
+    assert np.isfinite(here).all() and np.isfinite(there).all()
+    assert np.abs(there - here).max() < 1e-3 * mesh.drive.ratio * pitch
 
 
 def _toml(tables):

@@ -1,10 +1,15 @@
 """Every generated model fits the runtime's fixed sizes and carries what the runtime needs."""
 
 import re
+import subprocess
 
 import numpy as np
 import pytest
 
+from derive.emit.metadata import ABI as GENERATED_FOR
+from meshwright.base import library as loading
+from meshwright.base.compile import compiler
+from meshwright.base.errors import LibraryError
 from meshwright.base.library import SHIPPED, library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.design import description as metadata
@@ -49,3 +54,36 @@ def test_newton_comes_from_the_start_of_a_self_test_to_its_solution(name):
     sizes = [m.step(pointer(s), pointer(x)) for _ in range(8)]
     assert sizes[0] > 0.01
     assert np.abs(x - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())
+
+
+def test_the_version_of_the_table_is_one_everywhere():
+    assert library().mw_abi() == loading.ABI == GENERATED_FOR
+    assert {metadata.described(name)["abi"] for name in BUILT} == {loading.ABI}
+
+
+OLD = """
+#include <stddef.h>
+static const struct {{ int abi; const char *drive; double rest[200]; }} table = {{ {abi}, "old_drive", {{ 0.0 }} }};
+const void *mw_drive_old_drive(void);
+const void *mw_drive_old_drive(void) {{ return &table; }}
+"""
+
+
+@pytest.mark.parametrize("abi", [1, loading.ABI + 1])
+def test_an_object_of_another_version_is_refused_with_a_message(tmp_path, monkeypatch, abi):
+    """As an object that was compiled before the table changed: its first number is all that may be read of it."""
+    (tmp_path / "old.c").write_text(OLD.format(abi=abi), encoding="utf-8")
+    subprocess.run([*compiler(), "-shared", "-fPIC", tmp_path / "old.c", "-o", tmp_path / "old_drive.so"], check=True)
+    monkeypatch.setattr(loading, "object_of", lambda name, places: tmp_path / f"{name}.so")
+    refused = f"old_drive.so has ABI {abi}, this package needs ABI {loading.ABI}: build it again"
+    with pytest.raises(LibraryError, match=refused):
+        model("old_drive")
+
+
+def test_headers_of_two_versions_do_not_compile_together(tmp_path):
+    """Both hold the table's declaration under one guard: the second would be read as the first says."""
+    (tmp_path / "two.c").write_text(
+        f'#define MW_MODEL_ABI 1\n#include "{SHIPPED / "include" / BUILT[0]}.h"\n', encoding="utf-8"
+    )
+    done = subprocess.run([*compiler(), "-fsyntax-only", tmp_path / "two.c"], capture_output=True, text=True)
+    assert done.returncode and "different versions of meshwright" in done.stderr

@@ -84,7 +84,10 @@ def test_there_is_no_flag_before_the_first():
     assert library().mw_flag(m, 10_000) == ffi.NULL
 
 
-@pytest.mark.parametrize(("field", "value"), [("abi", 2), ("nx", 9), ("np", 4000), ("no", 4000), ("nstart", 9)])
+OTHERS = [("abi", 1), ("abi", 3), ("nx", 9), ("np", 4000), ("no", 4000), ("nstart", 9)]
+
+
+@pytest.mark.parametrize(("field", "value"), OTHERS)
 def test_a_table_of_another_version_or_too_large_is_refused(field, value):
     drive = Drive.load("recess-action-full")
     s, x, _ = _solution(drive, 0.1)

@@ -14,6 +14,9 @@ from derive.program.tape import Stage
 
 GENERATOR = "0.1.0"
 
+#: Version of the model table in runtime/c/mw_model.h, for which headers are generated.
+ABI = 2
+
 
 def describe(plan, provenance):
     """Names, units, shapes, operations per stage, hashes and a self-test of one drive.
@@ -26,7 +29,7 @@ def describe(plan, provenance):
         "schema": "meshwright.drive/1",
         "generator": GENERATOR,
         **identity(drive),
-        "abi": 1,
+        "abi": ABI,
         "specification_hash": specification_hash(plan),
         **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},

@@ -1,4 +1,5 @@
 /* Folds and crossings of branches of contact as solutions of extended systems.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include <math.h>
 #include <string.h>
 #include "solver/linear.h"
@@ -136,7 +137,7 @@ int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, dou
 {
     singular e = { m, s, m->nx, crossing ? m->nx + 1 : m->nx, { 0.0 }, { 0.0 } };
     double z[NZ] = { 0.0 }, start[NY], there[NX], R[NX], A[NX][NY], step = HUGE_VAL, away = 0.0;
-    if (m->nx > MW_MAX_UNKNOWNS) return MW_BAD_INPUT;
+    if (!mwi_usable(m) || !mwi_angle_in_range(*phi)) return MW_BAD_INPUT;
     m->set_phi(s, *phi);
     m->scale(s, e.scale);
     e.scale[e.n] = 1.0;

@@ -1,4 +1,5 @@
 /* Complete a design: rules and defaults, then the systems that place its tools.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include <string.h>
 #include "complete.h"
 #include "solver/newton.h"
@@ -35,7 +36,9 @@ int mw_solve_system(const mw_model *m, const mw_system *system, double *q, doubl
 
 int mw_complete(const mw_model *m, double *p, double *q, mw_info *info)
 {
-    memset(info, 0, sizeof *info);
+    *info = mwi_ended(MW_BAD_INPUT, 0);
+    if (!mwi_usable(m)) return -1;
+    info->status = MW_CONVERGED;
     m->derive(p);
     for (int k = 0; k < m->nsystems; k++) {
         double y[MW_MAX_UNKNOWNS] = { 0.0 };

@@ -3,10 +3,12 @@
  * A point of the wheel's flank, turned about the wheel's axis, meets the pinion's flank at one wheel angle. Bodies touch
  * first where that angle is extreme over all points of the wheel's flank that meet the pinion's flank inside its limits:
  * in the interior (a tangency), on a limit of either flank (an edge), or where two limits meet (a corner). */
+#include "exact.h"
 #include <math.h>
 #include <string.h>
 #include "kernels.h"
 #include "meshwright.h"
+#include "solver/basics.h"
 
 enum {
     MAX_K = 3,                   /* parameters of a flank */
@@ -15,13 +17,22 @@ enum {
     MAX_SECOND = (3 + MAX_LIMITS + 1) * MAX_K * (MAX_K + 1) / 2,
     NEWTON_STEPS = 14,
     CLIMB_STEPS = 80,
+    CLIMB_COST = 100,            /* places that a climb counts as, about those of a dozen steps */
+    RESTORATIONS = 3,
     STARTS = 12,                 /* local extremes of the mesh that are refined */
-    WALK = 16,                   /* steps from a known place to the first vertex */
-    STACK = 96                   /* triangles that wait to be looked at */
+    FINEST_WALK = 64,            /* steps at most from a place to one that is further away */
+    DEEPEST = 46,                /* how often a triangle is halved, and how often where a part of it never meets */
+    DEEPEST_EDGE = 20,
+    BUDGET = 20000               /* places that are looked at between the vertices */
 };
 
 /* Newton's method ends with a step below this, in natural sizes. */
 static const double STEP_DONE = 1e-10;
+/* Newton's method that moves more than so many times its first step and this, or than that, in natural sizes, or turns
+ * the wheel by more, rad, may have left its sheet or come to the next tooth. */
+static const double JUMP = 3.0, JUMP_LEAST = 0.02, FARTHEST = 0.5, LARGEST_TURN = 0.1;
+/* A place so near to a limit, mm or natural sizes, lies on it. */
+static const double ON_LIMIT = 1e-7;
 /* No extreme that stands out by more is missed, mm along the normal. */
 static const double RESOLUTION = 1e-4;
 
@@ -122,7 +133,8 @@ static void carried(const search *h, const double *r, double delta, double *x, d
     }
 }
 
-/* Where the wheel's point at P->q meets the pinion's flank, from P->p and P->delta on. */
+/* Where the wheel's point at P->q meets the pinion's flank, from P->p and P->delta on; 0 where that does not lead to a
+ * place on the same sheet. */
 static int meet(const search *h, place *P)
 {
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
@@ -131,8 +143,10 @@ static int meet(const search *h, place *P)
     P->good = 0;
     P->inner = -HUGE_VAL;
     if (!on_wheel(h, P->q, ow, tangents)) return 0;
-    double before = HUGE_VAL;
+    double before = HUGE_VAL, first = 0.0, moved = 0.0, from[MAX_K];
     int done = 0;
+    memcpy(from, P->p, sizeof from);
+    const double delta = P->delta;
     for (int k = 0; k < NEWTON_STEPS && !done; k++) {
         pinion->flank(h->s, P->p, op);
         carried(h, ow, P->delta, x, rate);
@@ -150,13 +164,18 @@ static int meet(const search *h, place *P)
         if (!solve(M, r, n)) return 0;
         double largest = fabs(r[h->nk]);
         for (int j = 0; j < h->nk; j++) largest = fmax(largest, fabs(r[j]) / h->mesh->pinion_sizes[j]);
+        if (k > 2 && largest > before) return 0;
+        if (k == 0) first = fmin(largest, 0.5);
         const double share = largest > 0.5 ? 0.5 / largest : 1.0;
         for (int j = 0; j < h->nk; j++) P->p[j] -= share * r[j];
         P->delta -= share * r[h->nk];
         done = largest < STEP_DONE || (largest < 1e-8 && largest > 0.5 * before);
         before = largest;
     }
-    if (!done) return 0;
+    if (!done || fabs(P->delta - delta) > LARGEST_TURN) return 0;
+    moved = fabs(P->delta - delta);
+    for (int j = 0; j < h->nk; j++) moved = fmax(moved, fabs(P->p[j] - from[j]) / h->mesh->pinion_sizes[j]);
+    if (moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST)) return 0;
     pinion->flank(h->s, P->p, op);
     carried(h, ow, P->delta, x, rate);
     P->lever = dot(op + 3, rate);
@@ -414,6 +433,35 @@ static double violation(const search *h, const place *P)
     return fmax(0.0, -worst(h, P));
 }
 
+/* A place brought back onto the limits that hold it, which bend away from their tangents: the second-order correction
+ * without which steps along a curved limit shrink to nothing (Maratos, "Exact penalty function algorithms for finite
+ * dimensional and control optimization problems", thesis, Imperial College, 1978). */
+static void restore(const search *h, const model_ *q, const int *active, place *P)
+{
+    int held[2], n = 0;
+    for (int a = 0; a < 2; a++)
+        if (active[a] >= 0 && active[a] < MAX_LIMITS) held[n++] = active[a];
+    for (int k = 0; k < RESTORATIONS && n > 0; k++) {
+        const double *a = q->along[held[0]], *b = q->along[held[n - 1]];
+        const double c[2] = {P->limits[held[0]], P->limits[held[n - 1]]};
+        const double det = a[0] * b[1] - a[1] * b[0], size = a[0] * a[0] + a[1] * a[1];
+        double d[2] = {-c[0] * a[0] / size, -c[0] * a[1] / size};
+        if (n == 2) {
+            d[0] = -(c[0] * b[1] - a[1] * c[1]) / det;
+            d[1] = -(a[0] * c[1] - b[0] * c[0]) / det;
+        }
+        place to;
+        if (!(fabs(d[0]) + fabs(d[1]) < 0.1) || !beside(h, P, d[0], d[1], &to)) return;
+        double before = 0.0, after = 0.0;
+        for (int i = 0; i < n; i++) {
+            before = fmax(before, fabs(P->limits[held[i]]));
+            after = fmax(after, fabs(to.limits[held[i]]));
+        }
+        if (!(after < before)) return;
+        *P = to;
+    }
+}
+
 /* Climb from a place to the local extreme of the bounded flanks; active receives the limits that hold it. */
 static int climb(const search *h, place *P, int *active)
 {
@@ -443,6 +491,7 @@ static int climb(const search *h, place *P, int *active)
             active[1] = step.active[1];
             return violation(h, P) < 1e-8;
         }
+        if (moved) restore(h, &q, step.active, &to);
         const double now = P->value - weight * violation(h, P);
         if (!moved || !(to.value - weight * violation(h, &to) > now - 1e-15) ) {
             if (length > 1e-6) {
@@ -461,19 +510,44 @@ static int climb(const search *h, place *P, int *active)
     return 0;
 }
 
-typedef struct best_ { place at; int active[2], found; } best_;
+/* The best place so far, with the limits that hold it; floor: the highest place inside all limits that was looked at,
+ * lever: its; highest: what a part that could not be looked at might hold; budget: places that may still be looked at. */
+typedef struct best_ {
+    place at;
+    int active[2], found;
+    double floor, lever, highest;
+    long budget;
+} best_;
 
-/* Refine from a place and keep what is higher than the best. */
+/* Refine from a place inside all limits and keep what is higher than the best. */
 static void refine(const search *h, const place *from, best_ *best)
 {
     place P = *from;
     int active[2];
-    if (!climb(h, &P, active)) return;
-    if (best->found && !(P.value > best->at.value)) return;
+    const int done = climb(h, &P, active);
+    const place *top = done && P.value > from->value ? &P : from;
+    if (top->value > best->floor) {
+        best->floor = top->value;
+        best->lever = fabs(top->lever);
+    }
+    if (!done || (best->found && !(P.value > best->at.value))) return;
     best->at = P;
     best->active[0] = active[0];
     best->active[1] = active[1];
     best->found = 1;
+}
+
+/* Limits on which the best place lies without leaning against them, as at the cusp in which a flank ends: they end it. */
+static void name_limits(const search *h, best_ *best)
+{
+    for (int a = 0; a < 2; a++) {
+        if (best->active[a] >= 0 && best->active[a] < MAX_LIMITS) continue;
+        for (int i = 0; i < limit_count(h); i++)
+            if (best->at.limits[i] < ON_LIMIT && i != best->active[1 - a]) {
+                best->active[a] = i;
+                break;
+            }
+    }
 }
 
 /* An upper bound of the wheel angle over the part of a triangle in which the pinion's limits hold, from the linear models
@@ -527,42 +601,114 @@ static double bound(const search *h, const place *T, int *edge)
     return least + fmax(growth, 0.1 * bend);
 }
 
-/* A place halfway between two others. */
-static int halfway(const search *h, const place *a, const place *b, place *P)
+/* Where the wheel's point at q meets the pinion's flank, from a place that meets it, in as many steps as it takes but
+ * none shorter than a share of the way; 0 where it does not lead there. */
+static int reach(const search *h, const place *from, const double *q, double shortest, place *P)
 {
-    *P = *a;
-    for (int i = 0; i < h->nw; i++) P->q[i] = 0.5 * (a->q[i] + b->q[i]);
-    for (int i = 0; i < h->nk; i++) P->p[i] = 0.5 * (a->p[i] + b->p[i]);
-    P->delta = 0.5 * (a->delta + b->delta);
-    return meet(h, P);
+    double done = 0.0, step = 1.0;
+    *P = *from;
+    while (done < 1.0) {
+        place next = *P;
+        const double share = fmin(1.0, done + step);
+        for (int i = 0; i < h->nw; i++) next.q[i] = share < 1.0 ? from->q[i] + share * (q[i] - from->q[i]) : q[i];
+        if (meet(h, &next)) {
+            *P = next;
+            done = share;
+            step *= 2.0;
+        } else {
+            step *= 0.5;
+            if (step < shortest) return P->good = 0;
+        }
+    }
+    return 1;
 }
 
-/* Look at a triangle and at its parts, until none can hold an extreme that stands out by more than the resolution.
- * Returns by how much one could at most, mm; budget counts the places that may still be looked at. */
-static double look(const search *h, const place *corners, best_ *best, long *budget)
+/* A place halfway between two others, of which one at least meets the pinion's flank. */
+static int halfway(const search *h, const place *a, const place *b, place *P)
 {
-    place stack[STACK][3];
-    int n = 1, edge;
-    double left = 0.0;
+    double q[MAX_K];
+    for (int i = 0; i < h->nw; i++) q[i] = 0.5 * (a->q[i] + b->q[i]);
+    if (a->good && b->good) {
+        *P = *a;
+        memcpy(P->q, q, sizeof q);
+        for (int i = 0; i < h->nk; i++) P->p[i] = 0.5 * (a->p[i] + b->p[i]);
+        P->delta = 0.5 * (a->delta + b->delta);
+        if (meet(h, P)) return 1;
+    }
+    if ((a->good && reach(h, a, q, 0.25, P)) || (b->good && reach(h, b, q, 0.25, P))) return 1;
+    memcpy(P->q, q, sizeof q);
+    return 0;
+}
+
+/* The longest edge of a triangle, in natural sizes. */
+static int longest(const search *h, const place *T)
+{
+    double most = -1.0;
+    int edge = 0;
+    for (int a = 0; a < 3; a++) {
+        double length = 0.0;
+        for (int i = 0; i < 2; i++) {
+            const int j = h->free_[i];
+            const double d = (T[a].q[j] - T[(a + 1) % 3].q[j]) / h->mesh->wheel_sizes[j];
+            length += d * d;
+        }
+        if (length > most) {
+            most = length;
+            edge = a;
+        }
+    }
+    return edge;
+}
+
+/* An upper bound over a triangle of which not every corner meets the pinion's flank, which ends there: from the corners
+ * that do and are inside its limits, with slopes twice theirs; -HUGE_VAL if none is. */
+static double bound_at_end(const search *h, const place *T)
+{
+    double highest = -HUGE_VAL;
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3 && T[a].good && T[a].inner >= 0.0; b++) {
+            double rise = 0.0;
+            for (int i = 0; i < 2; i++) {
+                const int j = h->free_[i];
+                rise += T[a].slope[i] * (T[b].q[j] - T[a].q[j]) / h->mesh->wheel_sizes[j];
+            }
+            highest = fmax(highest, T[a].value + 2.0 * fabs(rise));
+        }
+    return highest;
+}
+
+/* Look at a triangle and at its parts, until none can hold an extreme that stands out by more than the resolution. */
+static void look(const search *h, const place *corners, best_ *best)
+{
+    place stack[DEEPEST + 2][3];
+    int depth[DEEPEST + 2], n = 1;
     memcpy(stack[0], corners, sizeof stack[0]);
+    depth[0] = 0;
     while (n > 0) {
         place T[3], middle;
+        int edge = 0;
         memcpy(T, stack[--n], sizeof T);
-        const double high = bound(h, T, &edge);
-        const double excess = best->found ? (high - best->at.value) * fabs(best->at.lever) : (high > -HUGE_VAL ? 1.0 : 0.0);
-        if (!(excess > RESOLUTION)) continue;
-        if (--*budget < 0 || n + 2 > STACK || !halfway(h, &T[edge], &T[(edge + 1) % 3], &middle)) {
-            left = fmax(left, excess);
+        const int deep = depth[n], whole = T[0].good && T[1].good && T[2].good;
+        const double high = whole ? bound(h, T, &edge) : bound_at_end(h, T);
+        if (!(high > -HUGE_VAL)) continue;
+        if (!((high - best->floor) * best->lever > RESOLUTION)) continue;
+        if (!whole || deep % 2) edge = longest(h, T);
+        if (--best->budget < 0 || deep >= (whole ? DEEPEST : DEEPEST_EDGE)) {
+            best->highest = fmax(best->highest, high);
             continue;
         }
-        if (middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && (!best->found || middle.value > best->at.value + 1e-13))
+        halfway(h, &T[edge], &T[(edge + 1) % 3], &middle);
+        if (middle.good && middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && middle.value > best->floor + 1e-13) {
             refine(h, &middle, best);
+            best->budget -= CLIMB_COST; /* where climbs end nowhere, each place would begin another one */
+        }
         memcpy(stack[n], T, sizeof T);
+        depth[n] = deep + 1;
         stack[n++][(edge + 1) % 3] = middle;
         memcpy(stack[n], T, sizeof T);
+        depth[n] = deep + 1;
         stack[n++][edge] = middle;
     }
-    return left;
 }
 
 static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
@@ -590,9 +736,9 @@ static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_
     return 1;
 }
 
-/* Carry a place from where it was solved, along placements of the bodies, and then to parameters q of the wheel. */
+/* Carry a place from where it was solved along placements of the bodies. */
 static int carry(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
-                 const double *wheel, size_t steps, double turn, const double *q, place *P, place *met)
+                 const double *wheel, size_t steps, double turn, place *P)
 {
     const double sense = h->sense;
     for (size_t k = 0; k < steps; k++) {
@@ -600,17 +746,63 @@ static int carry(search *h, const mw_model *m, const double *s, const mw_flank_m
         h->sense = sense;
         if (!meet(h, P)) return MW_DIVERGED;
     }
-    *met = *P;
-    double from[MAX_K];
-    memcpy(from, P->q, sizeof from);
-    for (int k = 1; k <= WALK; k++) {
-        const double share = (double)k / (double)WALK;
-        place next = *P;
-        for (int i = 0; i < h->nw; i++) next.q[i] = from[i] + share * (q[i] - from[i]);
-        if (meet(h, &next)) *P = next;
-        else if (k == WALK) return MW_DIVERGED;
-    }
     return MW_CONVERGED;
+}
+
+/* Distance of vertex v from parameters q, squared, in natural sizes. */
+static double away(const search *h, size_t v, const double *q)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const int j = h->free_[i];
+        const double d = (h->mesh->q[(int)v * h->nw + j] - q[j]) / h->mesh->wheel_sizes[j];
+        sum += d * d;
+    }
+    return sum;
+}
+
+/* Try to reach a vertex from a place that meets the pinion's flank. */
+static int lead(const search *h, const place *from, size_t v, double shortest, place *at)
+{
+    const double *q = h->mesh->q + v * (size_t)h->nw;
+    if (reach(h, from, q, shortest, &at[v])) return 1;
+    memcpy(at[v].q, q, (size_t)h->nw * sizeof *q);
+    at[v].inner = -HUGE_VAL;
+    return 0;
+}
+
+/* Where every vertex of the mesh meets the pinion's flank: each piece of the mesh from its vertex nearest to a known
+ * place, and from there along its edges. tried[vertices] is work. */
+static void flood(const search *h, const place *known, place *at, unsigned char *tried)
+{
+    const mw_flank_mesh *mesh = h->mesh;
+    enum { AT_MOST = 3 };
+    memset(tried, 0, mesh->vertices);
+    for (size_t v = 0; v < mesh->vertices; v++) at[v].good = 0;
+    for (;;) {
+        size_t seed = mesh->vertices;
+        double least = HUGE_VAL;
+        for (size_t v = 0; v < mesh->vertices; v++)
+            if (!tried[v] && away(h, v, known->q) < least) {
+                least = away(h, v, known->q);
+                seed = v;
+            }
+        if (seed == mesh->vertices) return;
+        tried[seed] = AT_MOST;
+        if (!lead(h, known, seed, 1.0 / FINEST_WALK, at)) continue;
+        for (int grown = 1; grown;) {
+            grown = 0;
+            for (size_t t = 0; t < 3 * mesh->triangles; t++) {
+                const size_t a = (size_t)mesh->corner[t], b = (size_t)mesh->corner[t % 3 == 2 ? t - 2 : t + 1];
+                if (at[a].good == at[b].good) continue;
+                const size_t from = at[a].good ? a : b, to = at[a].good ? b : a;
+                if (tried[to] >= AT_MOST) continue;
+                tried[to]++;
+                grown |= 1;
+                lead(h, &at[from], to, at[from].inner >= 0.0 ? 0.25 : 1.0, at);
+            }
+        }
+    }
 }
 
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
@@ -619,38 +811,36 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
 {
     search h;
     best_ best;
-    place first, known;
+    place known;
     memset(found, 0, sizeof *found);
     memset(&best, 0, sizeof best);
-    memset(&first, 0, sizeof first);
+    memset(&known, 0, sizeof known);
     memset(&h, 0, sizeof h);
     h.sense = sense;
-    if (mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
+    best.floor = best.highest = -HUGE_VAL;
+    best.lever = 1.0;
+    best.budget = BUDGET;
+    if (!mwi_usable(m) || mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
     if (!m->kernels || !m->kernels->bounded) return found->status = MW_BAD_INPUT;
     if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return found->status = MW_BAD_INPUT;
-    memcpy(first.q, start, (size_t)m->bodies[1].parameters * sizeof *start);
-    memcpy(first.p, start + m->bodies[1].parameters, (size_t)m->bodies[0].parameters * sizeof *start);
-    first.delta = start[m->bodies[1].parameters + m->bodies[0].parameters];
-    const double *root = mesh->q + (size_t)(mesh->order[0] * m->bodies[1].parameters);
-    found->status = carry(&h, m, s, mesh, pinion, wheel, steps, turn, root, &first, &known);
+    memcpy(known.q, start, (size_t)m->bodies[1].parameters * sizeof *start);
+    memcpy(known.p, start + m->bodies[1].parameters, (size_t)m->bodies[0].parameters * sizeof *start);
+    known.delta = start[m->bodies[1].parameters + m->bodies[0].parameters];
+    found->status = carry(&h, m, s, mesh, pinion, wheel, steps, turn, &known);
     if (found->status < 0) return found->status;
     pinion += 12 * (steps - 1);
     place *at = (place *)(void *)work;
-    for (size_t n = 0; n < mesh->vertices; n++) {
-        const int v = mesh->order[n], from = mesh->parent[v];
-        place *P = &at[v];
-        *P = from >= 0 && at[from].good ? at[from] : first;
-        memcpy(P->q, mesh->q + (size_t)(v * h.nw), (size_t)h.nw * sizeof *P->q);
-        meet(&h, P);
-        if (P->good && P->inner >= 0.0) {
+    unsigned char *marks = (unsigned char *)(void *)(at + mesh->vertices);
+    flood(&h, &known, at, marks);
+    for (size_t v = 0; v < mesh->vertices; v++)
+        if (at[v].good && at[v].inner >= 0.0) {
             found->met++;
             if (mesh->open[v]) found->open++;
         }
-    }
     if (found->open) return found->status = MW_NO_CONTACT;
     if (worst(&h, &known) >= 0.0) refine(&h, &known, &best);
     /* the highest vertices that stand above their neighbours */
-    unsigned char *below = (unsigned char *)(void *)(at + mesh->vertices);
+    unsigned char *below = marks;
     memset(below, 0, mesh->vertices);
     for (size_t t = 0; t < mesh->triangles; t++)
         for (int a = 0; a < 3; a++) {
@@ -666,13 +856,15 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
         below[top] = 1;
         refine(&h, &at[top], &best);
     }
-    long budget = 20000;
     for (size_t t = 0; t < mesh->triangles; t++) {
         place T[3];
         for (int a = 0; a < 3; a++) T[a] = at[mesh->corner[3 * t + (size_t)a]];
-        if (T[0].good && T[1].good && T[2].good) found->unresolved = fmax(found->unresolved, look(&h, T, &best, &budget));
+        if (T[0].good || T[1].good || T[2].good) look(&h, T, &best);
     }
-    if (!best.found) return found->status = MW_NO_CONTACT;
+    if (best.found) name_limits(&h, &best);
+    const double left = fmax(best.highest, best.floor);
+    if (!best.found) return found->status = left > -HUGE_VAL ? MW_DIVERGED : MW_NO_CONTACT;
+    found->unresolved = fmax(0.0, (left - best.at.value) * fabs(best.at.lever));
     found->wheel_turn = best.at.delta;
     found->lever = best.at.lever;
     for (int i = 0; i < 2; i++) {

@@ -1,4 +1,5 @@
 /* Many designs, or many angles of one design, in lanes.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include <stdint.h>
 #include <string.h>
 #include "lanes.h"
@@ -44,7 +45,7 @@ const char *mw_lanes_name(const mw_lane_set *set)
 /* A drive's kernels for an instruction set; NULL if it has none: a header alone, or a table of other functions. */
 static const mw_lane_model *kernels_of(const mw_model *m, const mw_lane_set *set)
 {
-    return m->kernels ? m->kernels->lanes[set->set] : NULL;
+    return mwi_usable(m) && m->kernels ? m->kernels->lanes[set->set] : NULL;
 }
 
 /* Work of both traces: state, parameters, start, angles, points in lanes; then the scalar state and work. */

@@ -1,4 +1,5 @@
 /* Contact geometry of many solved points.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include "meshwright.h"
 #include "solver/choice.h"
 

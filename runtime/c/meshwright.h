@@ -24,7 +24,7 @@ const mw_model *mw_model_at(int index);
 const mw_model *mw_find(const char *drive);
 
 /* Complete the parameters p[np] of a design (NaN: open) by rules, defaults and the model's design systems;
- * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution. */
+ * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution, or -1 for a foreign table. */
 int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);
 
 /* Which contact. The equations may hold in several places of a tooth pair at once, and also in places where bodies cannot
@@ -165,13 +165,12 @@ size_t mw_edge_follow(const mw_model *m, int edge, double *s, double phi0, const
 int mw_bounds(const mw_model *m, int surface, int order, const double *s, const double *q, size_t n, double *o);
 
 /* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
- * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. order[vertices]: every
- * vertex once, from one near contact outwards; parent[vertex]: a neighbour that comes earlier, -1 for the first. bound:
- * the parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
+ * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. bound: the
+ * parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
 typedef struct mw_flank_mesh {
     size_t vertices, triangles;
     const double *q;
-    const int *corner, *order, *parent;
+    const int *corner;
     const unsigned char *open;
     int bound;
     const double *wheel_sizes, *pinion_sizes;

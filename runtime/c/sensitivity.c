@@ -1,4 +1,5 @@
 /* Exact sensitivities of a design and of its contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include <string.h>
 #include "complete.h"
 #include "kernels.h"
@@ -6,6 +7,12 @@
 
 /* Below this share of the largest pivot a system does not determine its solution: line contact. */
 static const double RANK_TOLERANCE = 1e-12;
+
+/* A drive's tangents; NULL where it has none, as a header alone, and for a foreign table. */
+static const mw_tangents *tangents_of(const mw_model *m)
+{
+    return mwi_usable(m) && m->kernels ? m->kernels->tangents : NULL;
+}
 
 /* Change of a solution: J change = -dR; J and dR are overwritten. */
 static int implicit(int n, double *J, double *dR, const double *scale, double *change)
@@ -34,8 +41,8 @@ static int place(const mw_model *m, const mw_system *system, const mw_system_tan
 int mw_complete_tangent(const mw_model *m, const double *given, const double *p, double *dp)
 {
     double known[MW_MAX_PARAMETERS];
-    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
-    if (!t || m->np > MW_MAX_PARAMETERS) return MW_BAD_INPUT;
+    const mw_tangents *t = tangents_of(m);
+    if (!t) return MW_BAD_INPUT;
     memcpy(known, given, sizeof(double) * (size_t)m->np);
     t->derive(known, p, dp);
     for (int k = 0; k < m->nsystems; k++) {
@@ -51,7 +58,7 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
                        const double *x, double *dx, double *dr)
 {
     double R[MW_MAX_UNKNOWNS], dR[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
+    const mw_tangents *t = tangents_of(m);
     if (!t) return MW_BAD_INPUT;
     for (int j = 0; j < m->nx; j++) dx[j] = 0.0;
     t->contact(p, dp, phi, dphi, x, dx, dR, dr);
@@ -64,7 +71,7 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
 
 int mw_flank_tangent(const mw_model *m, int body, const double *p, const double *dp, const double *q, size_t n, double *dr)
 {
-    const mw_tangents *t = m->kernels ? m->kernels->tangents : NULL;
+    const mw_tangents *t = tangents_of(m);
     if (!t || body < 0 || body > 1) return MW_BAD_INPUT;
     for (size_t k = 0; k < n; k++) t->flanks[body](p, dp, q + k * (size_t)m->bodies[body].parameters, dr + 3 * k);
     return MW_CONVERGED;
@@ -73,6 +80,7 @@ int mw_flank_tangent(const mw_model *m, int body, const double *p, const double 
 int mw_sensitivity(const mw_model *m, const double *given, const double *p, double phi, const double *s,
                    const double *x, const double *change, double *dp, double *dx, double *dr)
 {
+    if (!mwi_usable(m)) return MW_BAD_INPUT;
     memcpy(dp, change, sizeof(double) * (size_t)m->np);
     const int ended = mw_complete_tangent(m, given, p, dp);
     return ended < 0 ? ended : mw_contact_tangent(m, p, dp, phi, 0.0, s, x, dx, dr);

@@ -1,4 +1,5 @@
 /* The solver of solver/ behind the interface of meshwright.h.  SPDX-License-Identifier: MIT-0 */
+#include "exact.h"
 #include "meshwright.h"
 #include "solver/choice.h"
 

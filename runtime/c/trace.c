@@ -1,6 +1,7 @@
 /* The contacts of a tooth pair at many angles.  SPDX-License-Identifier: MIT-0
  *
  * The rule is "Which contact" in meshwright.h. */
+#include "exact.h"
 #include "meshwright.h"
 #include "solver/choice.h"
 

@@ -30,9 +30,11 @@ CORE = "libmeshwright.so"
 
 #: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
 DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
-DRIVE_HEADERS = ("drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h")
+DRIVE_HEADERS = (
+    "drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h", "exact.h",
+)  # fmt: skip
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
-LIVE_SOURCES = ("complete.c", "complete.h")
+LIVE_SOURCES = ("complete.c", "complete.h", "exact.h")
 #: What programs include, and what generated headers repeat.
 SOLVER = (
     "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",

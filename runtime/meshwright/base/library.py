@@ -16,7 +16,8 @@ import numpy as np
 from meshwright.base.drives import SHIPPED, cache_folder, folders, object_of
 from meshwright.base.errors import LibraryError
 
-ABI = 1
+#: Version of the model table (mw_model.h) that this package reads.
+ABI = 2
 
 _loading, _thread = threading.Lock(), threading.local()
 

@@ -5,9 +5,10 @@ a second or a few; a terminal shows how far it is. Teeth are linear elastic and 
 loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
 pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
 --measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
-touches.
-Exit status 1 if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is
-too large for the method.
+touches. Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method
+builds on, there are no figures: status ``not_first``.
+Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under load is not found, or the
+torque is too large for the method.
 """
 
 import numpy as np
@@ -18,6 +19,7 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.edge import not_first
 from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"
@@ -39,15 +41,18 @@ def run(options):
     points = _measured(options)
     with progress(len(angles) + 4) as step:
         gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
-        if points is not None:
+        late = [""] * len(angles)
+        if points is None:
+            late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+        else:
             from meshwright.fe.as_measured import as_measured
 
             gear = as_measured(gear, drive, options.member, points, options.tooth)
-        compliance = loading.compliances(fe, gear, pairs, step)
+        compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
         found = []
-        for angle in angles:
+        for angle, why in zip(angles, late, strict=True):
             step(f"pinion at {np.degrees(angle):.4g} deg")
-            found.append(_point(fe, gear, angle, pairs, load, compliance))
+            found.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
     document = {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -75,8 +80,30 @@ def _measured(options):
     return read_csv(options.measured)[0]
 
 
-def _point(fe, gear, angle, pairs, load, compliance):
-    point = {
+def _not_first(fe, drive, gear, angle, pairs):
+    """Why there are no figures at an angle: the pairs whose tangency lies inside the other flank, and what touches
+    first; "" if every tangency is the first contact of its flanks.
+    """
+    numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
+    if not numbers:
+        return ""
+    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers]))
+    first = drive.first_contact(result.angles, result)
+    overlaps = 1000.0 * first.overlaps(result.error)
+    return "; ".join(
+        f"the tangency of pair {number:+d} would lie {overlaps[k]:.4g} um inside the other flank: first contact is "
+        f"{first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the method has no figures"
+        for k, number in enumerate(numbers)
+        if "not_first" in not_first(result, first).flags[k]
+    )
+
+
+def _refused(angle, message):
+    return _nothing(angle) | {"status": "not_first", "message": message}
+
+
+def _nothing(angle):
+    return {
         "pinion_angle_deg": float(np.degrees(angle)),
         "status": "no_contact",
         "message": "no tooth pair touches at this angle",
@@ -85,6 +112,10 @@ def _point(fe, gear, angle, pairs, load, compliance):
         "rotation_rad": None,
         "pairs": [],
     }
+
+
+def _point(fe, gear, angle, pairs, load, compliance):
+    point = _nothing(angle)
     if not fe.pair.touches(gear, angle, pairs):
         return point
     try:

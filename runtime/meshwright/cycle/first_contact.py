@@ -28,6 +28,9 @@ TURN = 0.01
 #: flank it is searched so many natural sizes beyond them.
 ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 
+#: Which of the known contacts, by distance in angle, the search starts from until one leads to the angle asked for.
+STARTS = (0, 1, 2, 4, 8, 16, 32)
+
 #: Steps from the aligned drive.
 LEAD = 12
 
@@ -63,6 +66,13 @@ class FirstContacts:
         Along the normal there, by the wheel's turn from the one wheel angle to the other.
         """
         return np.maximum(self.levers * (self.errors - errors), 0.0)
+
+    def words(self, k):
+        """First contact k in words, such as "edge of the wheel (face)"; "" if there is none."""
+        if self.kinds[k] in (None, "tangency"):
+            return self.kinds[k] or ""
+        whose = "both members" if self.members[k] == "both" else f"the {self.members[k]}"
+        return f"{self.kinds[k]} of {whose} ({', '.join(self.limits[k])})".replace("_", " ")
 
     def point(self, k, errors):
         """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
@@ -185,18 +195,16 @@ class _Search:
         open_ = np.zeros(len(triangles.points), dtype=np.uint8)
         open_[triangles.border[names[triangles.limit] == OPEN].ravel()] = 1
         middle = int(np.argmin(np.abs(angles)))
-        wheel = drive.design.description["bodies"][1]["unknowns"]
-        order, parent = _outwards(triangles, whole, solutions[middle][wheel])
         bound = [i for i in range(len(whole.flank.parameters)) if i not in whole.chart.free]
         _, sizes = uses.on(drive.flank(drive.design.description["bodies"][0]["name"]))
         kept = (
             np.ascontiguousarray(triangles.parameters), np.ascontiguousarray(triangles.triangles, dtype=np.int32),
-            order, parent, open_, np.ascontiguousarray(whole.chart.sizes), np.ascontiguousarray(sizes),
+            open_, np.ascontiguousarray(whole.chart.sizes), np.ascontiguousarray(sizes),
         )  # fmt: skip
         table = ffi.new("mw_flank_mesh *")
         table.vertices, table.triangles = len(triangles.points), len(triangles.triangles)
-        names = ("q", "corner", "order", "parent", "open", "wheel_sizes", "pinion_sizes")
-        kinds = ("double[]", "int[]", "int[]", "int[]", "unsigned char[]", "double[]", "double[]")
+        names = ("q", "corner", "open", "wheel_sizes", "pinion_sizes")
+        kinds = ("double[]", "int[]", "unsigned char[]", "double[]", "double[]")
         views = tuple(ffi.from_buffer(kind, array) for kind, array in zip(kinds, kept, strict=True))
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
@@ -215,11 +223,21 @@ class _Search:
         return [self._one(design.model, state, angle) for angle in angles]
 
     def _one(self, compiled, state, angle):
-        nearest = int(np.argmin(np.abs(self.solved_at - angle)))
-        away = angle - self.solved_at[nearest]
+        """``mw_first`` at one angle: from the contact known nearest to it, else from others."""
+        order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
+        for known in order[[i for i in STARTS if i < len(order)]]:
+            found = self._from(known, compiled, state, angle)
+            if found.status >= 0:
+                return found
+            if found.status == library().MW_NO_CONTACT:
+                break
+        return None
+
+    def _from(self, known, compiled, state, angle):
+        away = angle - self.solved_at[known]
         steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
-        angles = self.solved_at[nearest] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1))
-        x = self.solutions[nearest]
+        angles = self.solved_at[known] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1))
+        x = self.solutions[known]
         placed = [*self.lead, _placed(self.drive, angles, x)]
         pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in placed]) for k in (0, 1))
         start = np.concatenate([x[b["unknowns"]] for b in self.drive.design.description["bodies"][::-1]])
@@ -229,7 +247,7 @@ class _Search:
             compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), len(pinion), self.turn, self.sense,
             pointer(start), pointer(self.work), found,
         )  # fmt: skip
-        return found if found.status >= 0 else None
+        return found
 
 
 def _placed(drive, angles, x):
@@ -261,33 +279,3 @@ def _senses(drive, angle, x):
     moved = turn * np.array([-at.points[0, 1], at.points[0, 0], 0.0])
     return turn, math.copysign(1.0, float(outward @ moved))
 
-
-def _outwards(triangles, whole, place):
-    """Vertices in the order of their distance in edges from the one nearest to a place (k,), and a neighbour of each
-    that comes earlier; further pieces begin at their vertex nearest to one that is known.
-    """
-    sizes = np.ptp(triangles.parameters, axis=0)
-    scaled = triangles.parameters / np.where(sizes > 0.0, sizes, 1.0)
-    away = np.linalg.norm(scaled - place / np.where(sizes > 0.0, sizes, 1.0), axis=1)
-    edges = np.concatenate([triangles.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
-    edges = np.concatenate([edges, edges[:, ::-1]])
-    edges = edges[np.argsort(edges[:, 0], kind="stable")]
-    first = np.searchsorted(edges[:, 0], np.arange(len(scaled) + 1))
-    parent, order, seen = np.full(len(scaled), -1), [], np.zeros(len(scaled), dtype=bool)
-    while len(order) < len(scaled):
-        start = int(np.argmin(np.where(seen, np.inf, away)))
-        if order:
-            known = np.array(order)
-            parent[start] = known[np.argmin(np.linalg.norm(scaled[known] - scaled[start], axis=1))]
-        seen[start] = True
-        front = [start]
-        while front:
-            order += front
-            after = []
-            for v in front:
-                for w in edges[first[v] : first[v + 1], 1]:
-                    if not seen[w]:
-                        seen[w], parent[w] = True, v
-                        after.append(int(w))
-            front = after
-    return np.array(order, dtype=np.int32), parent.astype(np.int32)

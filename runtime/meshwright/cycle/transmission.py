@@ -6,20 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.roots import bracketed
-from meshwright.contact.results import ARCSEC
 from meshwright.cycle.edge_contact import edge_paths
-from meshwright.cycle.first_contact import pair_errors
-
-#: A transmission error that varies less than this is constant to round-off, rad.
-ROUND_OFF = 1e-8 * ARCSEC
+from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
 
 #: Samples of one pitch for envelopes; a power of two for the Fourier transform.
 SAMPLES = 256
 
 ANGLE_TOLERANCE = 1e-10
-
-#: Samples of one pitch of what rigid teeth transmit, refinements about its extremes, pairs looked at beyond a window.
-RIGID_SAMPLES, RIGID_REFINEMENTS, MOST_PAIRS = 32, 6, 4
 
 
 @dataclass(frozen=True)
@@ -71,7 +64,8 @@ def transmission_error(mesh):
     low, high = sorted((window.begin.angle, window.end.angle))
     pair = mesh.errors(_critical(mesh, low, high, vertex))
     upper, lower = _ranges(mesh, (low, high), vertex, transfers)
-    rigid = _rigid_peak_to_peak(mesh, low, high)
+    teeth = RigidTeeth.of(mesh)
+    rigid = math.nan if teeth is None else teeth.peak_to_peak()
     if not math.isfinite(rigid):
         rigid = _ranges(mesh, (low, high), vertex, transfers, edge_paths(mesh))[0 if mesh.sense > 0 else 1]
     transmitted, other = (upper, lower) if mesh.sense > 0 else (lower, upper)
@@ -89,52 +83,6 @@ def transmission_error(mesh):
         vertex=vertex,
         rides_on_edge=_extreme_at_an_end(mesh, pair),
     )
-
-
-def _rigid_peak_to_peak(mesh, low, high):
-    """Peak to peak, rad, of what rigid teeth transmit: over one pitch, of the pair whose bounded flanks touch first.
-
-    Sampled, then about its extremes in ever finer steps. NaN where the blank does not bound the flanks.
-    """
-    first, pitch = pair_errors(mesh), mesh.drive.pitch()
-    if first is None:
-        return math.nan
-    before, after = _reached(mesh, first, low, -1), _reached(mesh, first, high, 1)
-    numbers = np.arange(-before, math.ceil((high - low) / pitch) + after)
-
-    def transmitted(angles):
-        own = np.asarray(angles)[None, :] + pitch * numbers[:, None]
-        pairs = first(own.ravel()).reshape(own.shape)
-        touching = ~np.isnan(pairs).all(axis=0)
-        found = np.full(len(touching), np.nan)
-        found[touching] = np.nanmax(mesh.sense * pairs[:, touching], axis=0)
-        return found
-
-    angles = low + np.arange(RIGID_SAMPLES) / RIGID_SAMPLES * pitch
-    errors = transmitted(angles)
-    if not np.isfinite(errors).all():
-        return math.nan
-    extremes = []
-    for sign in (1.0, -1.0):
-        at, best, step = angles[np.argmax(sign * errors)], (sign * errors).max(), pitch / RIGID_SAMPLES
-        for _ in range(RIGID_REFINEMENTS):
-            near = at + step * np.linspace(-1.0, 1.0, 9)
-            values = sign * transmitted(near)
-            at, best, step = near[np.argmax(values)], max(best, values.max()), step / 4.0
-        extremes.append(sign * best)
-    return float(extremes[0] - extremes[1])
-
-
-def _reached(mesh, first, end, sign):
-    """How many pitches beyond an end of its window a pair may touch before others do."""
-    pitch = mesh.drive.pitch()
-    beyond = mesh.sense * first(end + sign * pitch * np.arange(MOST_PAIRS + 1))
-    inside = mesh.sense * first(np.array([end - sign * 0.5 * pitch]))
-    least = np.nanmin(np.concatenate([beyond[:1], inside]), initial=np.inf)
-    count = 0
-    while count < MOST_PAIRS and beyond[count + 1] > least:
-        count += 1
-    return count + 1
 
 
 def rides_on_edge(mesh):

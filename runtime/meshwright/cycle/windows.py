@@ -189,9 +189,13 @@ def _descending(drive):
 
 
 def _worst(path, limits, nodes=slice(None)):
-    """The smallest limit function at every node, or at some; limits that the design leaves open do not count."""
-    values = path.observe(path.angles[nodes], path.unknowns[nodes])[:, [limit.index for limit in limits]]
-    return np.where(np.isnan(values), np.inf, values).min(axis=1)
+    """The smallest limit function at every node, or at some; limits that the design leaves open do not count.
+
+    Where the flanks have no point, none of their limits holds.
+    """
+    observed = path.observe(path.angles[nodes], path.unknowns[nodes])
+    values = observed[:, [limit.index for limit in limits]]
+    return np.where(np.isnan(observed[:, 0]), -np.inf, np.where(np.isnan(values), np.inf, values).min(axis=1))
 
 
 def _searched(path, limits):
@@ -244,7 +248,7 @@ def _nearest_stretch(angles, valid, about):
 
 
 def _locate(path, limits, inside, outside):
-    """The first limit on the way from a valid node to an invalid neighbour.
+    """The first limit on the way from a valid node to an invalid neighbour; none where that is no point of the flanks.
 
     Where contact is along a line but for errors near round-off, its place on it differs from one solution to the next:
     a limit may then be passed at the valid node already.
@@ -258,6 +262,8 @@ def _locate(path, limits, inside, outside):
             function, passed = partial(_value, path, limit), not at_ends[0] > 0.0
             at = angles[0] if passed else bracketed(function, *angles, ANGLE_TOLERANCE, tuple(at_ends))
             crossed.append((at, limit))
+    if not crossed:
+        return NO_EVENT
     angle, limit = min(crossed, key=lambda c: abs(c[0] - angles[0]))
     return Event(float(angle), limit.reason, limit.member)
 

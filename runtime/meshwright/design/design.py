@@ -360,15 +360,21 @@ def words_of(family, checked):
 
 
 def _given(tables, place):
-    """The value of a key of these tables by its place, None where it is open."""
+    """The value of a key of these tables by its place, None where it is open; a word of its own is its own place."""
+    if place in tables:
+        return tables[place]
     table, key = metadata.table_and_key(place)
     return tables[table].get(key)
 
 
 def _full(place, checked):
-    """A place with its table; a key alone is of [design] if that has it, else of the table that does."""
-    if "." in place:
-        return place
+    """A place with its table; a key alone is of [design] if that has it, else of the table that does.
+
+    What is no table but a word of its own, as the flank, is its own place.
+    """
+    table, _, key = place.rpartition(".")
+    if table:
+        return place if isinstance(checked[table], dict) else key
     tables = ["design", *(name for name, table in checked.items() if isinstance(table, dict) and name != "design")]
     return f"{next((name for name in tables if place in checked[name]), 'design')}.{place}"
 
@@ -492,7 +498,9 @@ def _sizes(c, parameters):
 def _guard_error(guard, checked):
     given = {_full(key, checked): _given(checked, _full(key, checked)) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
+    shown = dict(sorted(shown.items(), key=lambda entry: isinstance(entry[1], str)))  # numbers, then words
     first = next(iter(shown or given))
     others = ", ".join(f"{k.removeprefix('design.')} = {v}" for k, v in shown.items() if k != first)
     reason = guard["message"] + (f" (with {others})" if others else "")
-    return DesignError(first, shown.get(first), reason, f"change {' or '.join(guard['keys'])}")
+    keys = " or ".join(key.removeprefix("design.") for key in given)
+    return DesignError(first, shown.get(first), reason, f"change {keys}")

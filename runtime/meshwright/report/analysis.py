@@ -11,7 +11,9 @@ from meshwright.contact.placement import placements
 from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
+from meshwright.cycle.edge import not_first
 from meshwright.cycle.edge_contact import edge_paths
+from meshwright.cycle.first_contact import FirstContacts
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import (
     ROUND_OFF,
@@ -86,7 +88,8 @@ class Analysis:
     exist only where the flanks touch along lines. They, the ``matrices`` (N, 4, 4) that place the members' frames in
     the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
     flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch,
-    ``moving`` and ``efficiency`` the velocities and what friction makes of them.
+    ``moving`` and ``efficiency`` the velocities and what friction makes of them, ``first`` where the bounded flanks
+    of the pair touch first.
     """
 
     drive: Drive
@@ -101,6 +104,7 @@ class Analysis:
     breaks: np.ndarray
     moving: Velocities
     efficiency: Efficiency
+    first: FirstContacts
 
     @property
     def mirror(self):
@@ -137,6 +141,8 @@ def analyse(drive, step, friction=None):
     angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
+    first = drive.first_contact(angles, tca)
+    tca = not_first(tca, first)
     step("all pairs together")
     running = None if mesh.window.path is None else _running(mesh, angles)
     step("contact pattern")
@@ -152,7 +158,7 @@ def analyse(drive, step, friction=None):
     moving = velocities(drive, tca)
     return Analysis(
         drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),
-        moving, efficiency(drive, tca, friction, moving),
+        moving, efficiency(drive, tca, friction, moving), first,
     )  # fmt: skip
 
 

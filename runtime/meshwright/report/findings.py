@@ -99,7 +99,7 @@ def _averages(mesh):
 
 def findings(analysis):
     """What a reader should know before the figures."""
-    said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _error(analysis)
+    said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _first(analysis) + _error(analysis)
     if not any(f.kind == "warn" for f in said):
         said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
     return said
@@ -134,6 +134,26 @@ def _flags(analysis):
     return [
         Finding("warn" if impossible(flag) else "note", f"At {n} of {total} positions {words.flag(flag)}.")
         for flag, n in counted.items()
+    ]
+
+
+def _first(analysis):
+    """Where a tangency that is not the first contact lies deepest in the other flank, and what touches before it."""
+    late = np.array(["not_first" in flags for flags in analysis.tca.flags], dtype=bool)
+    if not late.any():
+        return []
+    overlaps = np.where(late, analysis.first.overlaps(analysis.tca.error), -np.inf)
+    k = int(np.argmax(overlaps))
+    where = ", ".join(number(v, 4) for v in analysis.first.points[k])
+    return [
+        Finding(
+            "warn",
+            f"At {_deg(analysis.tca.angles[k], 2)} the tangency of the equations lies "
+            f"{number(1000.0 * overlaps[k], 4)} µm inside the other flank: first contact is "
+            f"{analysis.first.words(k)}, at ({where}) mm in the fixed frame, "
+            f"with {number(analysis.first.errors[k] / ARCSEC, 4)} arcsec instead of "
+            f"{number(analysis.tca.error[k] / ARCSEC, 4)}.",
+        )
     ]
 
 

@@ -156,7 +156,7 @@ def _above(value, round_off):
 
 
 def _positions(analysis):
-    tca = analysis.tca
+    tca, overlaps = analysis.tca, analysis.first.overlaps(analysis.tca.error)
     rows = []
     for k in range(0, len(tca.angles), max(1, analysis.steps_per_pitch // 4)):
         rows.append(
@@ -169,6 +169,8 @@ def _positions(analysis):
                 fixed(tca.semi_axes[k, 0], 4),
                 fixed(tca.semi_axes[k, 1], 4),
                 " ".join((tca.status[k], *tca.flags[k])).replace("_", " "),
+                analysis.first.words(k),
+                fixed(1000.0 * overlaps[k], 3),
             )
         )
     header = (
@@ -182,6 +184,8 @@ def _positions(analysis):
         "major semi-axis, mm",
         "minor, mm",
         "status and flags",
+        "first contact of the bounded flanks",
+        "overlap of the tangency there, µm",
     )
     note = "Contact of one pair over the pinion angle, four positions a pitch; contact point in the fixed frame."
     table = Table("", header, tuple(rows), frozenset(range(9)))

@@ -1,0 +1,128 @@
+"""A record that anyone may edit, with every hash, link, root and seal made anew."""
+
+import json
+import re
+
+from derive.audit import check, store
+from derive.audit.claims import FigureClaim
+from derive.audit.documents import rack_and_pinion, recess_action
+from derive.audit.ledger import Chapter, build
+from derive.files import replace_text
+
+KINDS = ("source", "step", "equation", "certificate", "verdict")
+
+
+HEADER = """/* A drive.
+ * Equations (hash {root}):
+ *   rack-and-pinion/eq-1
+ */
+double x = a - b;
+"""
+
+
+def small_ledger():
+    """A record of a few claims: proofs with one and several relations, a refutation, corrections, printed numbers."""
+    wanted = {"helicoid", "eq-1", "eq-4", "meshing", "ratio-sign", "twice"}
+    claims = [claim for claim in rack_and_pinion.CLAIMS if claim.key in wanted]
+    printed = {"eq-1", "eq-7", "eq-12", "eq-16", "lead-angle-hob", "table-1-hob"}
+    others = [claim for claim in recess_action.CLAIMS if claim.key in printed or isinstance(claim, FigureClaim)]
+    return build([Chapter(rack_and_pinion.DOCUMENT, claims), Chapter(recess_action.DOCUMENT, others)])
+
+
+def written(small_ledger, folder):
+    """That record on disk below ``folder``, with a page and one generated header; the record's own folder."""
+    texts = store.record_files(small_ledger) | {"index.html": "<p>proved</p>\n", "audit.tex": "proved\n"}
+    files = {"c/drive.h": HEADER.format(root=small_ledger.root)}
+    files |= {f"audit/{name}": text for name, text in texts.items()}
+    files["audit/artifacts.json"] = store.seal(small_ledger, files)
+    for name, text in files.items():
+        replace_text(folder / name, text)
+    return folder / "audit"
+
+
+class Forger:
+    """A record that can be edited as plain JSON and is then hashed, linked, rooted and sealed again."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.objects = list(check.read_record(folder).values())
+
+    def one(self, **wanted):
+        return next(item for item in self.objects if all(item.get(key) == value for key, value in wanted.items()))
+
+    def verdict(self, name):
+        return self.one(object="verdict", id=name)
+
+    def source(self, name):
+        return self.one(object="source", id=name)
+
+    def equation(self, name):
+        return self.one(object="equation", id=name)
+
+    def certificate(self, name):
+        return self.one(object="certificate", equation=self.equation(name)["sha256"])
+
+    def proof(self, left, right, /, name="recess-action/eq-12/as printed/1", **parts):
+        """An equation and its certificate replaced by another statement with an empty numerator."""
+        equation, certificate = self.equation(name), self.certificate(name)
+        text = f"{parts.pop('text', 'omega1 = w1')}"
+        equation |= {"lhs": left, "rhs": right, "where": {}, "signs": [], "jets": {}}
+        certificate |= {
+            "kind": "ring_nf", "outcome": "proved", "angles": [], "arcs": [], "roots": [], "generators": [],
+            "relations": [], "components": [{"numerator": "", "denominators": [], "cofactors": []}], "degree": 0,
+            "point": {"symbols": {}, "half_tangents": {}}, "lhs": ["0"], "rhs": ["0"],
+        } | parts  # fmt: skip
+        verdict = self.verdict(name.rsplit("/", 2)[0])
+        verdict["status"] = "proved"
+        verdict["readings"][0]["texts"] = [text]
+        verdict["readings"][0]["parts"] = verdict["readings"][0]["parts"][:1]
+        self.source(verdict["id"])["reading"] = {"as printed": [text]}
+
+    def used(self):
+        """The objects that a verdict rests on."""
+        by_hash = {item["sha256"]: item for item in self.objects}
+        pending, found = [item["sha256"] for item in self.objects if item["object"] == "verdict"], set()
+        while pending:
+            key = pending.pop()
+            if key in by_hash and key not in found:
+                found.add(key)
+                pending += re.findall(r"[0-9a-f]{64}", check.canonical({**by_hash[key], "sha256": ""}))
+        return [item for item in self.objects if item["sha256"] in found]
+
+    def sealed(self, everything=False):
+        """Everything hashed and written again, in the order of its links; what is no longer used is left out."""
+        renamed, objects = {}, {}
+        kept = self.objects if everything else self.used()
+        for kind in KINDS:
+            for item in (item for item in kept if item["object"] == kind):
+                text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), check.canonical(item))
+                body = json.loads(text)
+                old, body["sha256"] = item["sha256"], check.sha256_of(body)
+                renamed[old] = body["sha256"]
+                objects[body["sha256"]] = body
+        lines = {"ledger.jsonl": "", "certificates.jsonl": ""}
+        for item in objects.values():
+            name = "certificates.jsonl" if item["object"] == "certificate" else "ledger.jsonl"
+            lines[name] += check.canonical(item) + "\n"
+        for name, text in lines.items():
+            replace_text(self.folder / name, text)
+        reseal(self.folder)
+
+
+def reseal(folder):
+    """Root and seal made anew over the files as they are."""
+    root = check.root_of({json.loads(line)["sha256"]: 0 for name in ("ledger", "certificates")
+                          for line in (folder / f"{name}.jsonl").read_text().splitlines()})  # fmt: skip
+    for path in (folder.parent / "c").glob("*.h"):
+        path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {root})", path.read_text()))
+    files = {
+        path.relative_to(folder.parent).as_posix(): path.read_text(encoding="utf-8")
+        for path in sorted(folder.parent.rglob("*"))
+        if path.is_file() and path.name not in ("artifacts.json", "manifest.json")
+    }
+
+    class Rooted:
+        pass
+
+    Rooted.root = root
+    replace_text(folder / "artifacts.json", store.seal(Rooted, files))

@@ -1,0 +1,190 @@
+"""Mutated designs loaded, and some of those that load analysed: a design, or one error that says what is wrong with it.
+
+``python -m tests.fuzz.designs --count N --analyse N --seed S`` runs in processes of their own: one that dies, or whose
+design takes more than ten seconds of its processor's time, is a failure that names the seed which shows it again.
+"""
+
+import argparse
+import json
+import math
+import os
+import random
+import signal
+import struct
+import sys
+import tempfile
+import traceback
+import warnings
+from collections import Counter
+from mmap import mmap
+from pathlib import Path
+
+import numpy as np
+
+from meshwright import DesignError, Drive, UsageError
+from meshwright.base.library import pointer
+from meshwright.design import design
+from tests.fuzz.mutate import mutated
+
+#: Seconds of processor time that one design may take.
+HANG = 10.0
+
+#: Designs a process handles before the next one begins.
+BATCH = 500
+
+LONGEST_MESSAGE = 2000
+
+
+def loaded(content, folder):
+    """The drive of a file with this content, or the DesignError that refused it; anything else is raised."""
+    path = Path(folder) / "design.toml"
+    path.write_bytes(content)
+    try:
+        return Drive.from_tables(design.read(path))
+    except DesignError as error:
+        words = str(error)
+        assert words.isprintable(), f"control characters reach the terminal: {words!r}"
+        assert len(words) < LONGEST_MESSAGE + len(str(path)), f"a message of {len(words)} characters"
+        assert error.reason and error.remedy, f"no reason or no remedy: {words}"
+        return error
+
+
+def false_contacts(drive, result):
+    """What is wrong with the points that a trace calls solved: told from both surfaces, evaluated anew at each."""
+    m, wrong = drive.model, []
+    sign = drive.design.mirror.sign
+    for k in np.flatnonzero(result.solved):
+        x, o = np.ascontiguousarray(result.solutions[k]), np.empty(m.no)
+        s = drive.state(sign * float(result.angles[k]))
+        m.observe(pointer(s), pointer(x), pointer(o))
+        extent = 1.0 + np.abs(o[:3]).max() + np.abs(o[6:9]).max()
+        gap, misfit = np.abs(o[:3] - o[6:9]).max(), np.abs(o[3:6] + o[9:12]).max()
+        where = f"at {math.degrees(result.angles[k])!r} deg"
+        if not gap <= 1e-8 * extent:
+            wrong.append(f"{where}: flanks {gap} mm apart")
+        if not misfit <= 1e-7:
+            wrong.append(f"{where}: normals not opposed by {misfit}")
+        if not all(m.unknowns[i].lower <= x[i] <= m.unknowns[i].upper for i in range(m.nx)):
+            wrong.append(f"{where}: beyond the flanks")
+        bent = float(result.curvatures[k, 0])
+        if bent < -1e-6 and not {"interference", "spurious_sheet"} & set(result.flags[k]):
+            wrong.append(f"{where}: curvature {bent} without a flag")
+        for b in range(2):
+            body = m.bodies[b]
+            if o[body.regular] < 0.0 and not result.flags[k]:
+                wrong.append(f"{where}: beyond a singular line without a flag")
+            for i in range(body.margins):
+                if o[body.margin + i] < -1e-9 * extent and not result.flags[k]:
+                    wrong.append(f"{where}: outside a limit without a flag")
+    return wrong
+
+
+def analysed(drive, chance, deep):
+    """Trace the drive at some angles; if deep also its path and limits. Raises for a false contact."""
+    angles = np.array([chance.uniform(-math.pi, math.pi) for _ in range(5)] + [0.0])
+    wrong = false_contacts(drive, drive.tca(angles))
+    assert not wrong, "; ".join(wrong)
+    if deep:
+        for analysis in (drive.contact_ratio, drive.limits):
+            try:
+                analysis()
+            except (DesignError, UsageError):
+                continue
+
+
+def _quiet(chance, seed, folder, analyse, deep):
+    """Outcome of one mutated design."""
+    name, content = mutated(chance)
+    found = loaded(content, folder)
+    if isinstance(found, DesignError):
+        return "refused"
+    if not analyse:
+        return "loaded"
+    analysed(found, chance, deep)
+    return "analysed"
+
+
+def _batch(seeds, share, deep, at, out):
+    """In a child process: each seed's outcome; the parent reads from ``at`` how far it came."""
+    signal.signal(signal.SIGPROF, signal.SIG_DFL)
+    warnings.simplefilter("error", RuntimeWarning)
+    counted, failures = Counter(), []
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in seeds:
+            at[:8] = struct.pack("q", seed)
+            chance = random.Random(seed)
+            signal.setitimer(signal.ITIMER_PROF, HANG)
+            try:
+                outcome = _quiet(chance, seed, folder, chance.random() < share, chance.random() < deep)
+            except Exception:
+                outcome = "failed"
+                failures.append({"seed": seed, "error": traceback.format_exc(limit=-6)})
+            counted[outcome] += 1
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+    out.write(json.dumps({"counted": counted, "failures": failures}))
+
+
+def _forked(seeds, share, deep):
+    """Counts and failures of a batch, and the seeds still to do after one at which the process died."""
+    at = mmap(-1, 8)
+    with tempfile.TemporaryFile("w+") as out:
+        child = os.fork()
+        if child == 0:
+            _batch(seeds, share, deep, at, out)
+            out.flush()
+            os._exit(0)
+        status = os.waitpid(child, 0)[1]
+        if status == 0:
+            out.seek(0)
+            done = json.load(out)
+            return Counter(done["counted"]), done["failures"], []
+    last = struct.unpack("q", at[:8])[0]
+    number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+    why = f"took more than {HANG:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
+    before, after = [s for s in seeds if s < last], [s for s in seeds if s > last]
+    return Counter({"failed": 1}), [{"seed": last, "error": why}], [part for part in (before, after) if part]
+
+
+def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
+    """Counter of outcomes and the failures of ``count`` mutated designs, until ``analyse`` of them were analysed."""
+    total, failures = Counter(), []
+    for first in range(0, count, BATCH):
+        open_ = [list(range(seed + first, seed + min(first + BATCH, count)))]
+        while open_:
+            wanted, left = analyse - total["analysed"], count - sum(total.values())
+            share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
+            counted, failed, again = _forked(open_.pop(), share, deep)
+            total += counted
+            failures += failed
+            open_ += again
+        say(f"{sum(total.values())} {dict(total)}")
+    return total, failures
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--count", type=int, default=2000)
+    parser.add_argument("--analyse", type=int, default=200)
+    parser.add_argument("--deep", type=float, default=0.0, help="share of which path and limits are sought")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--show", type=int, help="print the design of this seed and what becomes of it")
+    given = parser.parse_args(arguments)
+    if given.show is not None:
+        chance = random.Random(given.show)
+        analyse, deep = chance.random() < 2.0, chance.random() < given.deep
+        state = chance.getstate()
+        name, content = mutated(chance)
+        print(f"# from {name}\n{content.decode('utf-8', 'backslashreplace')}", flush=True)
+        chance.setstate(state)
+        with tempfile.TemporaryDirectory() as folder:
+            print(_quiet(chance, given.show, folder, analyse, deep))
+        return 0
+    total, failures = run(given.count, given.analyse, given.seed, given.deep, lambda text: print(text, flush=True))
+    for failure in failures:
+        print(f"seed {failure['seed']}: {failure['error']}", file=sys.stderr)
+    print(f"designs: {sum(total.values())} loaded, {dict(total)}, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,670 @@
+/* The C interface called with whatever bytes say: for libFuzzer, or by itself with random bytes (MW_FUZZ_ALONE) and in
+ * several threads at once (MW_FUZZ_THREADS). Every buffer has exactly the length that the interface documents.
+ *
+ * Each success is looked at again with both surfaces: a contact that does not touch, lies beyond the flanks or has an
+ * interference that no flag names, a result that differs between two equal calls, and numbers where there is none end
+ * the program.  SPDX-License-Identifier: MIT-0 */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "lanes.h"
+#include "meshwright.h"
+#include "seeds.h"
+
+#ifdef MW_FUZZ_THREADS
+#define MW_EACH _Thread_local
+#else
+#define MW_EACH
+#endif
+
+enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = 17 };
+
+static MW_EACH unsigned long long calls, inputs, successes, ended[16];
+static MW_EACH uint64_t all;     /* digest of the results of all inputs */
+static MW_EACH void *rooms[ROOMS];
+static MW_EACH size_t used;
+
+typedef struct reader {
+    const uint8_t *at, *end;
+    uint64_t digest;             /* of all results */
+} reader;
+
+static void fail(const char *what)
+{
+    fprintf(stderr, "fuzz: %s\n", what);
+    abort();
+}
+
+static unsigned byte(reader *r)
+{
+    return r->at < r->end ? *r->at++ : 0;
+}
+
+static void *room(size_t count, size_t size)
+{
+    if (used == ROOMS) fail("out of rooms");
+    void *made = malloc(count * size ? count * size : 1);
+    if (!made) fail("out of memory");
+    return rooms[used++] = made;
+}
+
+static double *numbers(size_t count)
+{
+    return room(count, sizeof(double));
+}
+
+static void note(reader *r, const void *data, size_t size)
+{
+    const unsigned char *c = data;
+    for (size_t i = 0; i < size; i++) r->digest = (r->digest ^ c[i]) * 1099511628211u;
+}
+
+/* Not-a-numbers of any bits are one. */
+static void note_numbers(reader *r, const double *a, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double one = a[i] == a[i] ? a[i] : 0.125;
+        note(r, &one, sizeof one);
+    }
+}
+
+/* A number near this one, far from it, or any. */
+static double number(reader *r, double near)
+{
+    static const double extreme[] = { 0.0, -0.0, 1.0, -1.0, 5e-324, 2.2e-308, 1e-15, 1e15, 1e154, 1e300, 1.7e308, -1.7e308,
+                                      HUGE_VAL, -HUGE_VAL, NAN, 10000.0 };
+    const unsigned kind = byte(r);
+    if (kind < 96) return near;
+    if (kind < 160) return near * (1.0 + ((double)byte(r) - 128.0) / 2048.0);
+    if (kind < 208) return near + ((double)byte(r) - 128.0) / 512.0;
+    if (kind < 224) return near + ((double)byte(r) - 128.0) / 8.0;
+    if (kind < 248) return extreme[byte(r) % (sizeof extreme / sizeof *extreme)];
+    double any;
+    unsigned char bits[sizeof any];
+    for (size_t i = 0; i < sizeof any; i++) bits[i] = (unsigned char)byte(r);
+    memcpy(&any, bits, sizeof any);
+    return any;
+}
+
+/* A number from -1 to 1 that follows from all results before it. */
+static double scattered(reader *r)
+{
+    r->digest = r->digest * 6364136223846793005u + 1442695040888963407u;
+    return (double)(int64_t)r->digest / 9223372036854775808.0;
+}
+
+static double angle(reader *r)
+{
+    return number(r, ((double)byte(r) - 128.0) / 64.0);
+}
+
+static void angles(reader *r, double *phi, size_t n)
+{
+    const double begin = angle(r), step = ((double)byte(r) - 128.0) / 1024.0;
+    const unsigned other = byte(r);
+    for (size_t k = 0; k < n; k++) phi[k] = begin + (double)k * step;
+    if (other > 128) phi[other % n] = angle(r);
+}
+
+static double extent(const double *a)
+{
+    return fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
+}
+
+/* What anything called a success must be; s is set up for its angle. */
+static void must_touch(const mw_model *m, const double *s, const double *x)
+{
+    double *o = numbers((size_t)m->no), gap = 0.0, misfit = 0.0;
+    m->observe(s, x, o);
+    for (int i = 0; i < 3; i++) {
+        gap = fmax(gap, fabs(o[i] - o[6 + i]));
+        misfit = fmax(misfit, fabs(o[3 + i] + o[9 + i]));
+    }
+    if (!(gap <= 1e-8 * (1.0 + extent(o) + extent(o + 6)))) fail("a success whose flanks are apart");
+    if (!(misfit <= 1e-7)) fail("a success whose normals are not opposed");
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] >= m->unknowns[i].lower && x[i] <= m->unknowns[i].upper)) fail("a success beyond the flanks");
+    successes++;
+}
+
+static void judge(reader *r, const mw_model *m, double *s, double phi, const double *x, int status)
+{
+    ended[(status + 8) & 15]++;
+    note(r, &status, sizeof status);
+    note_numbers(r, x, (size_t)m->nx);
+    if (status < 0) {
+        for (int i = 0; i < m->nx; i++)
+            if (x[i] == x[i]) fail("numbers where there is no contact");
+        return;
+    }
+    m->set_phi(s, phi);
+    must_touch(m, s, x);
+}
+
+static void must_be_flagged(const mw_model *m, const double *o, const mw_contact *c)
+{
+    int flagged = 0;
+    for (int bit = 0; bit < 32; bit++)
+        if (c->flags >> bit & 1u) {
+            const char *name = mw_flag(m, bit);
+            if (!name) fail("a flag without a name");
+            flagged |= mw_impossible(name);
+        }
+    if (c->curvature_min < -1e-8 * fabs(c->curvature_max) && !c->line && !flagged) fail("interference that no flag names");
+    for (int b = 0; b < 2; b++) {
+        if (o[m->bodies[b].regular] < 0.0 && !(c->flags & 1u)) fail("a place beyond a singular line that no flag names");
+        for (int i = 0; i < m->bodies[b].margins; i++)
+            if (o[m->bodies[b].margin + i] < 0.0 && !c->flags) fail("a place outside a limit that no flag names");
+    }
+}
+
+typedef struct fuzzed {
+    const mw_model *m;
+    const seed *from;
+    double *given, *p, *s, *work;
+    int completed;               /* given was completed by mw_complete, so that p follows from it */
+} fuzzed;
+
+/* A design: parameters given, changed and completed, or complete ones changed behind every check. Nonzero if it is set up. */
+static int design(reader *r, fuzzed *f)
+{
+    f->from = &seeds[byte(r) % (sizeof seeds / sizeof *seeds)];
+    f->m = mw_find(f->from->drive);
+    if (!f->m) fail("a drive is missing");
+    const mw_model *m = f->m;
+    const size_t np = (size_t)m->np;
+    const unsigned how = byte(r);
+    f->given = numbers(np), f->p = numbers(np), f->s = numbers((size_t)m->ns), f->work = numbers(np);
+    f->completed = how < 128;
+    memcpy(f->given, f->from->given, np * sizeof *f->p);
+    memcpy(f->p, f->completed ? f->from->given : f->from->complete, np * sizeof *f->p);
+    for (unsigned k = 0; k < how % 4; k++) {
+        const unsigned i = byte(r) % (unsigned)m->np;
+        f->given[i] = f->p[i] = number(r, f->p[i]);
+    }
+    if (f->completed) {
+        mw_info info;
+        calls++;
+        if (mw_complete(m, f->p, numbers(np + 1), &info)) return 0;
+    }
+    calls += 2;
+    if (m->setup(f->p, f->s)) return 0;
+    m->set_phi(f->s, 0.0);
+    return 1;
+}
+
+static double *start(reader *r, const fuzzed *f)
+{
+    double *x = numbers((size_t)f->m->nx);
+    for (int i = 0; i < f->m->nx; i++) x[i] = number(r, f->from->x[i]);
+    return x;
+}
+
+static double *changes(reader *r, int n)
+{
+    double *d = numbers((size_t)n);
+    for (int i = 0; i < n; i++) d[i] = 0.0;
+    d[byte(r) % (unsigned)n] = number(r, 1.0);
+    return d;
+}
+
+/* The functions of the table themselves; each counts as a call of the interface. */
+static void table(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const size_t nx = (size_t)m->nx;
+    double *R = numbers(nx), *J = numbers(nx * nx), *o = numbers((size_t)m->no), *x = start(r, f), *y = numbers(MW_MAX_UNKNOWNS);
+    double *again = numbers(nx), *v = numbers(nx + 1), *d2 = numbers(nx), *scale = numbers(nx), *d = numbers((size_t)m->nd);
+    const double phi = angle(r);
+    m->set_phi(f->s, phi);
+    for (size_t i = 0; i <= nx; i++) v[i] = number(r, i == nx);
+    for (unsigned k = 0, n = 1 + byte(r) % 64; k < n; k++) {
+        const size_t moved = k % nx; /* a walk of its own, from where the bytes begin */
+        x[moved] += 1e-3 * scattered(r) * (1.0 + fabs(f->from->x[moved]));
+        m->eval(f->s, x, R, NULL);
+        m->eval(f->s, x, again, J);
+        for (size_t i = 0; i < nx; i++)
+            if (memcmp(R + i, again + i, sizeof *R) && (R[i] == R[i] || again[i] == again[i])) fail("R depends on J");
+        m->observe(f->s, x, o);
+        m->scale(f->s, scale);
+        mw_touch(m, x, o);
+        m->along(f->s, phi, x, v, R, NULL);
+        m->along(f->s, phi, x, v, again, d2);
+        note_numbers(r, o, (size_t)m->no);
+        note_numbers(r, J, nx * nx);
+        note_numbers(r, d2, nx);
+        calls += 7;
+    }
+    const double length = m->step(f->s, x);
+    note_numbers(r, &length, 1);
+    note_numbers(r, x, nx);
+    m->size(f->p, d);
+    m->guess(f->s, y);
+    m->start_scale(f->s, y);
+    m->guess(f->s, y);
+    m->start_eval(f->s, y, numbers(MW_MAX_UNKNOWNS), numbers(MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS));
+    m->start_solution(f->s, y, x);
+    calls += 7;
+    for (int b = 0; b < 2 + m->nregions; b++) {
+        const mw_surface flank = b < 2 ? m->bodies[b].flank : m->regions[b - 2].flank;
+        const mw_surface curvature = b < 2 ? m->bodies[b].curvature : m->regions[b - 2].curvature;
+        const int count = b < 2 ? m->bodies[b].parameters : m->regions[b - 2].parameters;
+        const int outputs = b < 2 ? m->bodies[b].outputs : m->regions[b - 2].outputs;
+        double *q = numbers((size_t)count * 3), *of = numbers((size_t)outputs * 3);
+        for (int i = 0; i < 3 * count; i++)
+            q[i] = number(r, b < 2 ? f->from->x[m->bodies[b].unknowns[i % count]] : f->from->x[i % (int)nx]);
+        mw_flank(flank, count, outputs, f->s, q, 3, of);
+        calls++;
+        if (curvature) curvature(f->s, q, numbers(16)), calls++;
+    }
+    for (int k = 0; k < m->nfunctions; k++) {
+        double *q = numbers((size_t)m->functions[k].arguments);
+        for (int i = 0; i < m->functions[k].arguments; i++) q[i] = number(r, 0.3);
+        m->functions[k].evaluate(f->s, q, numbers((size_t)m->functions[k].outputs));
+        calls++;
+    }
+}
+
+static void one(reader *r, fuzzed *f)
+{
+    const double phi = angle(r);
+    double *x = numbers((size_t)f->m->nx), *y = numbers((size_t)f->m->nx);
+    mw_info *info = room(2, sizeof *info);
+    const int first = mw_solve(f->m, f->p, phi, f->s, f->work, x, info);
+    judge(r, f->m, f->s, phi, x, first);
+    if (byte(r) % 4 == 0) {
+        if (mw_solve(f->m, f->p, phi, f->s, f->work, y, info + 1) != first) fail("two equal calls end in different ways");
+        for (int i = 0; i < f->m->nx; i++)
+            if (x[i] != y[i] && x[i] == x[i]) fail("two equal calls give different numbers");
+        calls++;
+    }
+    calls++;
+}
+
+static void alone(reader *r, fuzzed *f)
+{
+    const double phi = angle(r);
+    double *x = numbers((size_t)f->m->nx);
+    f->m->setup(f->p, f->s);
+    judge(r, f->m, f->s, phi, x, f->from->solve(f->s, phi, x, NULL));
+    calls += 2;
+}
+
+static void refine(reader *r, fuzzed *f)
+{
+    double *x = start(r, f), phi = angle(r);
+    mw_info *info = room(1, sizeof *info);
+    f->m->set_phi(f->s, phi);
+    if (mw_refine(f->m, f->s, x, info) >= 0) must_touch(f->m, f->s, x);
+    note(r, &info->status, sizeof info->status);
+    calls += 2;
+}
+
+static void trace(reader *r, fuzzed *f, int analyse)
+{
+    const mw_model *m = f->m;
+    const size_t n = 1 + byte(r) % POINTS, nx = (size_t)m->nx, no = (size_t)m->no;
+    double *phi = numbers(n), *x = numbers(n * nx), *o = numbers(n * no);
+    mw_info *info = room(n, sizeof *info);
+    mw_contact *contact = room(n, sizeof *contact);
+    angles(r, phi, n);
+    size_t count = 0;
+    const size_t good = analyse ? mw_analyse(m, f->p, phi, n, f->s, f->work, x, info, o, contact)
+                                : mw_trace(m, f->p, phi, n, f->s, f->work, x, info);
+    calls++;
+    m->setup(f->p, f->s);
+    for (size_t k = 0; k < n; k++) {
+        judge(r, m, f->s, phi[k], x + k * nx, info[k].status);
+        count += info[k].status >= 0;
+        if (analyse && info[k].status >= 0) must_be_flagged(m, o + k * no, contact + k);
+        if (analyse && info[k].status < 0 && contact[k].point[0] == contact[k].point[0]) fail("a point of no contact");
+    }
+    if (count != good) fail("the successes are not as many as was said");
+    if (analyse || good == 0) return;
+    mw_contacts(m, f->s, phi, n, x, info, o, contact);
+    for (size_t k = 0; k < n; k++)
+        if (info[k].status >= 0) must_be_flagged(m, o + k * no, contact + k);
+    calls++;
+}
+
+static void follow(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const size_t n = 1 + byte(r) % POINTS, nx = (size_t)m->nx;
+    double *phi = numbers(n), *x = numbers(n * nx), *x0 = start(r, f), at = number(r, f->from->phi);
+    mw_info *info = room(n, sizeof *info);
+    angles(r, phi, n);
+    const size_t good = mw_follow(m, f->s, at, x0, phi, n, x, info);
+    calls++;
+    if (good < n && info[good].status >= 0) fail("a branch that ends without a reason");
+    for (size_t k = 0; k < good; k++) judge(r, m, f->s, phi[k], x + k * nx, info[k].status);
+}
+
+static void arc(reader *r, fuzzed *f)
+{
+    const size_t n = byte(r) % POINTS, nx = (size_t)f->m->nx;
+    double *phi = numbers(n + 1), *x = numbers((n + 1) * nx), *slope = numbers(n + 1), *determinant = numbers(n + 1);
+    double *from = start(r, f), begin = number(r, f->from->phi), step = number(r, 0.1);
+    const size_t good = mw_arclength(f->m, f->s, begin, from, step, n, phi, x, slope, determinant);
+    if (good > n + 1) fail("more points than asked for");
+    note_numbers(r, phi, good);
+    note_numbers(r, determinant, good);
+    calls++;
+}
+
+static void branch(reader *r, fuzzed *f)
+{
+    double *x = start(r, f), phi = number(r, f->from->phi), before = phi;
+    const int ended_as = mw_branch_point(f->m, f->s, byte(r) & 1, &phi, x);
+    if (ended_as < 0 && memcmp(&phi, &before, sizeof phi)) fail("an angle changed where there is no singular point");
+    note(r, &ended_as, sizeof ended_as);
+    calls++;
+}
+
+static void in_lanes(reader *r, fuzzed *f)
+{
+#ifdef MW_FUZZ_EXACT
+    static const int widths[] = { 2, 2, 2, 2, -1, 3 }; /* those of which the same bits are promised everywhere */
+#else
+    static const int widths[] = { 0, 2, 4, 8, -1, 3 };
+#endif
+    const mw_model *m = f->m;
+    const mw_lane_set *set = mw_lanes(widths[byte(r) % 6]);
+    const size_t n = 1 + byte(r) % POINTS, nx = (size_t)m->nx, designs = 1 + byte(r) % 3, np = (size_t)m->np;
+    calls++;
+    if (!set) return;
+    if (mw_lanes_width(set) < 2 || !mw_lanes_name(set)) fail("a lane set without width or name");
+    double *phi = numbers(n), *p = numbers(designs * np), *x = numbers(designs * n * nx), *first = start(r, f);
+    double *work = numbers(mw_lanes_work(set, m, n)), *points = numbers(designs * n * 3), *o = numbers((size_t)m->no);
+    int *status = room(designs * n, sizeof *status);
+    unsigned *flags = room(designs * n, sizeof *flags);
+    angles(r, phi, n);
+    size_t count = 0;
+    for (size_t d = 0; d < designs; d++) {
+        memcpy(p + d * np, f->p, np * sizeof *p);
+        if (d) p[d * np + byte(r) % np] = number(r, f->p[0]);
+    }
+    if (byte(r) & 1) {
+        const size_t good = mw_trace_angles(set, m, f->p, phi, n, work, x, status);
+        m->setup(f->p, f->s);
+        for (size_t k = 0; k < n; k++) count += status[k] >= 0;
+        for (size_t k = 0; k < n; k++) judge(r, m, f->s, phi[k], x + k * nx, status[k]);
+        if (count != good) fail("lanes: the successes are not as many as was said");
+        calls++;
+        return;
+    }
+    const size_t good = mw_trace_designs(set, m, p, designs, phi, n, first, work, x, status);
+    for (size_t d = 0; d < designs; d++) {
+        if (m->setup(p + d * np, f->s)) continue;
+        for (size_t k = 0; k < n; k++) judge(r, m, f->s, phi[k], x + (d * n + k) * nx, status[d * n + k]);
+    }
+    for (size_t k = 0; k < designs * n; k++) count += status[k] >= 0;
+    if (count != good) fail("lanes: the successes are not as many as was said");
+    mw_contact_points(m, p, designs, phi, n, x, status, f->s, o, points, flags);
+    for (size_t k = 0; k < designs * n; k++)
+        if (status[k] < 0 && (points[3 * k] == points[3 * k] || flags[k])) fail("a point of no contact");
+    m->setup(f->p, f->s);
+    calls += 2;
+}
+
+static void tangents(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const size_t np = (size_t)m->np, nx = (size_t)m->nx;
+    double *dp = numbers(np), *dx = numbers(nx), *dr = numbers(9), *x = start(r, f), phi = number(r, f->from->phi);
+    const int body = (int)(byte(r) % 4) - 1;
+    const size_t count = body == 0 || body == 1 ? (size_t)m->bodies[body].parameters : 1;
+    double *q = numbers(3 * count);
+    for (size_t i = 0; i < 3 * count; i++) q[i] = number(r, f->from->x[i % nx]);
+    m->set_phi(f->s, phi);
+    double *change = changes(r, m->np);
+    if (f->completed) mw_sensitivity(m, f->given, f->p, phi, f->s, x, change, dp, dx, dr);
+    mw_contact_tangent(m, f->p, change, phi, number(r, 0.0), f->s, x, dx, dr);
+    mw_flank_tangent(m, body, f->p, change, q, 3, dr);
+    if (f->completed) mw_complete_tangent(m, f->given, f->p, change);
+    calls += 4;
+}
+
+static void words(reader *r, fuzzed *f)
+{
+    unsigned bits = 0;
+    for (int i = 0; i < 4; i++) bits = bits << 8 | byte(r);
+    const int any = (int)(bits - 0x80000000u), some = (int)byte(r) - 32;
+    const mw_info none = { 0, 0, 0, 0.0, 0.0, 0.0 };
+    if (!mw_status_word(any) || !mw_status_text(any) || !mw_status_word(some) || !mw_status_text(some)) fail("no word");
+    mw_flag(f->m, any), mw_flag(f->m, some);
+    if (mw_model_at(any) && (any < 0 || any >= mw_model_count())) fail("a model that is none");
+    if (mw_abi() != MW_MODEL_ABI) fail("another version");
+    mw_model_at(some), mw_find(""), mw_lanes(any), mw_lanes(some);
+    if (mw_find("no such drive")) fail("a drive of another name");
+    note(r, &none, sizeof none);
+    calls += 12;
+}
+
+/* A table of another version, or larger than the solver's arrays: refused by all. */
+static void foreign(reader *r, fuzzed *f)
+{
+    mw_model other = *f->m;
+    const unsigned which = byte(r) % 5;
+    int *const field[] = { &other.abi, &other.nx, &other.np, &other.no, &other.nstart };
+    static const int most[] = { MW_MODEL_ABI, MW_MAX_UNKNOWNS, MW_MAX_PARAMETERS, MW_MAX_OBSERVATION, MW_MAX_UNKNOWNS };
+    const int excess = 1 + (int)byte(r) * 8388608;
+    *field[which] = byte(r) & 1 ? most[which] + excess : which == 0 ? MW_MODEL_ABI - excess : -excess;
+    double *x = start(r, f), *o = numbers((size_t)f->m->no), *change = changes(r, f->m->np), phi = 0.1;
+    mw_info info;
+    mw_contact contact;
+    int refused = mw_solve(&other, f->p, phi, f->s, f->work, x, &info) == MW_BAD_INPUT;
+    refused += mw_refine(&other, f->s, x, &info) == MW_BAD_INPUT;
+    refused += mw_touch(&other, x, o) == MW_BAD_INPUT;
+    refused += mw_contact_at(&other, f->s, x, o, &contact) == MW_BAD_INPUT;
+    refused += mw_branch_point(&other, f->s, 0, &phi, x) == MW_BAD_INPUT;
+    refused += mw_contact_tangent(&other, f->p, change, phi, 0.0, f->s, x, o, o) == MW_BAD_INPUT;
+    refused += mw_complete_tangent(&other, f->given, f->p, change) == MW_BAD_INPUT;
+    refused += mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
+    refused += mw_complete(&other, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
+    refused += mw_follow(&other, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    refused += mw_arclength(&other, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
+    refused += mw_trace(&other, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    if (refused != 12) fail("a foreign table is not refused");
+    calls += 12;
+}
+
+static void first(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const first_seed *from = f->from->first;
+    if (!from) return;
+    const size_t parameters = (size_t)m->bodies[1].parameters, numbers_of = parameters + (size_t)m->bodies[0].parameters + 1;
+    mw_flank_mesh mesh = from->mesh;
+    double *q = numbers(mesh.vertices * parameters), *pinion = numbers(12 * from->steps), *wheel = numbers(12 * from->steps);
+    double *begin = numbers(numbers_of), *work = numbers(mw_first_contact_work(mesh.vertices));
+    memcpy(q, mesh.q, mesh.vertices * parameters * sizeof *q);
+    memcpy(pinion, from->pinion, 12 * from->steps * sizeof *q);
+    memcpy(wheel, from->wheel, 12 * from->steps * sizeof *q);
+    memcpy(begin, from->start, numbers_of * sizeof *q);
+    mesh.q = q;
+    for (unsigned k = byte(r) % 4; k > 0; k--) {
+        const unsigned which = byte(r) % 4, i = byte(r);
+        if (which == 0) q[i % (mesh.vertices * parameters)] = number(r, q[i % (mesh.vertices * parameters)]);
+        if (which == 1) pinion[i % (12 * from->steps)] = number(r, pinion[i % (12 * from->steps)]);
+        if (which == 2) wheel[i % (12 * from->steps)] = number(r, wheel[i % (12 * from->steps)]);
+        if (which == 3) begin[i % numbers_of] = number(r, begin[i % numbers_of]);
+    }
+    if (byte(r) > 240) mesh.bound = (int)(byte(r) % 5) - 2;
+    mw_first *found = room(1, sizeof *found);
+    const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, number(r, from->turn), number(r, from->sense),
+                                        begin, work, found);
+    if (status != found->status) fail("first contact: two words for one end");
+    if (status >= 0 && !(fabs(found->wheel_turn) < HUGE_VAL)) fail("first contact without an angle");
+    ended[(status + 8) & 15]++;
+    calls++;
+}
+
+/* The drive's entries for CasADi; any argument or result may be absent. */
+static void entries(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const size_t np = (size_t)m->np, nx = (size_t)m->nx, most = np * np + np * nx + nx * nx;
+    const int which = (int)(byte(r) % 5) - 1;
+    const unsigned absent = byte(r);
+    const double phi = angle(r), *x = start(r, f);
+    double *results = numbers(most);
+    const double *complete[] = { f->given, f->p }, *contact[] = { f->p, &phi, x, x };
+    const double **arg = which == 0 || which == 2 ? complete : contact;
+    double *res[] = { results, numbers(nx), NULL };
+    for (int i = 0; i < (arg == complete ? 2 : 4); i++)
+        if (absent >> i & absent >> 7 & 1u) arg[i] = NULL;
+    if (absent >> 5 & absent >> 7 & 1u) res[0] = NULL;
+    if (absent >> 6 & absent >> 7 & 1u) res[1] = NULL;
+    if (which == 2 && !f->completed) return;
+    const int refused = f->from->entry(which, arg, res, numbers(np + 1 + (size_t)m->ns));
+    if (which < 0 && refused) fail("an entry for CasADi has a name too many or too few");
+    if (which == 1 && !refused && res[0]) {
+        m->set_phi(f->s, arg[1] ? phi : 0.0);
+        must_touch(m, f->s, res[0]);
+    }
+    note(r, &refused, sizeof refused);
+    calls++;
+}
+
+static uint64_t run(const uint8_t *data, size_t size)
+{
+    reader r = { data, data + size, 14695981039346656037u };
+    fuzzed f;
+    inputs++;
+    for (int k = 0; k < CALLS && (k == 0 || r.at < r.end); k++) {
+        const int ready = design(&r, &f);
+        if (ready) {
+            switch (byte(&r) % KINDS) {
+            case 0: case 1: case 2: table(&r, &f); break;
+            case 3: one(&r, &f); break;
+            case 4: alone(&r, &f); break;
+            case 5: refine(&r, &f); refine(&r, &f); break;
+            case 6: trace(&r, &f, 0); break;
+            case 7: trace(&r, &f, 1); break;
+            case 8: follow(&r, &f); break;
+            case 9: arc(&r, &f); break;
+            case 10: branch(&r, &f); break;
+            case 11: in_lanes(&r, &f); break;
+            case 12: tangents(&r, &f); break;
+            case 13: words(&r, &f); break;
+            case 14: foreign(&r, &f); break;
+            case 15: entries(&r, &f); break;
+            default: first(&r, &f); break;
+            }
+        }
+        while (used) free(rooms[--used]);
+    }
+    all = all * 1099511628211u + r.digest;
+    return r.digest;
+}
+
+static void report(void)
+{
+    fprintf(stderr, "fuzz: digest %016llx\n", (unsigned long long)all);
+    fprintf(stderr, "fuzz: %llu inputs, %llu calls, %llu successes looked at\n", inputs, calls, successes);
+    for (int i = 0; i < 16; i++)
+        if (ended[i]) fprintf(stderr, "fuzz: %llu ended as %s\n", ended[i], mw_status_word(i - 8));
+}
+
+#ifndef MW_FUZZ_ALONE
+int LLVMFuzzerInitialize(int *argc, char ***argv);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerInitialize(int *argc, char ***argv)
+{
+    (void)argc, (void)argv;
+    return atexit(report);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    run(data, size);
+    return 0;
+}
+#else
+#include <signal.h>
+#include <unistd.h>
+
+enum { LONGEST = 384 };
+
+/* Input number k of a seed. */
+static size_t made(uint64_t seed, uint64_t k, uint8_t *data)
+{
+    uint64_t state = seed * 0x9e3779b97f4a7c15u + k * 0xd1342543de82ef95u + 1u;
+    const size_t size = 16 + (size_t)(k * 7919u % (LONGEST - 16));
+    for (size_t i = 0; i < size; i++) {
+        state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+        data[i] = (uint8_t)(state >> 32);
+    }
+    return size;
+}
+
+#ifdef MW_FUZZ_THREADS
+#include <pthread.h>
+
+typedef struct part {
+    uint64_t seed, count, *digest;
+    int which;
+} part;
+
+/* Every thread runs every input, each beginning elsewhere; their results are the same. */
+static void *thread(void *given)
+{
+    const part *own = given;
+    uint8_t data[LONGEST];
+    for (uint64_t k = 0; k < own->count; k++) {
+        const uint64_t at = (k + own->count * (uint64_t)own->which / MW_FUZZ_THREADS) % own->count;
+        own->digest[at] = run(data, made(own->seed, at, data));
+    }
+    report();
+    return NULL;
+}
+
+static void run_all(uint64_t seed, uint64_t begin, uint64_t count)
+{
+    pthread_t threads[MW_FUZZ_THREADS];
+    part parts[MW_FUZZ_THREADS];
+    (void)begin;
+    for (int t = 0; t < MW_FUZZ_THREADS; t++) {
+        parts[t] = (part){ seed, count, malloc(count * sizeof(uint64_t)), t };
+        if (pthread_create(&threads[t], NULL, thread, &parts[t])) fail("no thread");
+    }
+    for (int t = 0; t < MW_FUZZ_THREADS; t++) pthread_join(threads[t], NULL);
+    for (uint64_t k = 0; k < count; k++)
+        for (int t = 1; t < MW_FUZZ_THREADS; t++)
+            if (parts[t].digest[k] != parts[0].digest[k]) fail("threads find different results");
+    for (int t = 0; t < MW_FUZZ_THREADS; t++) free(parts[t].digest);
+}
+#else
+static uint64_t current;
+
+static void hang(int number)
+{
+    (void)number;
+    fprintf(stderr, "fuzz: input %llu hangs\n", (unsigned long long)current);
+    _exit(3);
+}
+
+static void run_all(uint64_t seed, uint64_t begin, uint64_t count)
+{
+    signal(SIGALRM, hang);
+    for (current = begin; current < begin + count; current++) {
+        uint8_t *data = malloc(LONGEST);
+        alarm(60); /* the machine may be busy with other things: ten seconds of its time are what is meant */
+        run(data, made(seed, current, data));
+        free(data);
+    }
+    report();
+}
+#endif
+
+int main(int argc, char **argv)
+{
+    const uint64_t seed = argc > 1 ? strtoull(argv[1], NULL, 10) : 0, count = argc > 2 ? strtoull(argv[2], NULL, 10) : 1000;
+    run_all(seed, argc > 3 ? strtoull(argv[3], NULL, 10) : 0, count);
+    return 0;
+}
+#endif

@@ -1,0 +1,235 @@
+"""The C interface under sanitizers: built with the drives of five families, called with bytes that a fuzzer chooses.
+
+With clang, libFuzzer leads the bytes to code that was not reached; with gcc alone they are random. A tool that is
+missing is named and nothing is claimed in its place.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+from meshwright import Drive
+from meshwright.base.compile import DRIVE_UNITS
+from meshwright.cycle import first_contact
+from meshwright.design import design
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SOURCE, GENERATED = ROOT / "runtime" / "c", ROOT / "generated" / "c"
+
+#: A design of every family, and beside it those that hold what the others lack: line contact, an undercut, no blank.
+DESIGNS = (
+    "zk-zn-45", "zk-zn-90", "spherical-table-2-3", "spherical-table-5-2-convex", "helical-crowned",
+    "crossed-helical-17-23", "spur-profile-shift", "face-worm-cylindrical-convex", "face-worm-conical-concave",
+    "bevel-formate",
+)  # fmt: skip
+
+#: Misalignments of further seeds of each design, by key where the design has it.
+ERRORS = {
+    "misalignment.center_distance_mm": 0.05, "misalignment.vertical_deg": -0.04, "misalignment.horizontal_deg": 0.06,
+}  # fmt: skip
+
+OPTIONS = (
+    "-std=gnu11", "-O1", "-g1", "-fno-omit-frame-pointer", "-ffp-contract=off", "-fno-math-errno", "-fopenmp-simd",
+    "-Wno-unknown-pragmas",
+)  # fmt: skip
+
+#: Sanitizer: (flags of the compiler, whether gcc has it too).
+SANITIZERS = {
+    "address, undefined": (("-fsanitize=address,undefined", "-fno-sanitize-recover=all"), True),
+    "memory": (("-fsanitize=memory", "-fno-sanitize-recover=all"), False),
+    "thread": (("-fsanitize=thread",), True),
+}
+#: Left out of generated code, which is straight lines: there they find nothing and take ten times as long to compile.
+STRAIGHT = ("-fno-sanitize=alignment,null,pointer-overflow,object-size",)
+
+ENVIRONMENT = {
+    "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1", "UBSAN_OPTIONS": "print_stacktrace=1",
+    "TSAN_OPTIONS": "halt_on_error=1",
+}  # fmt: skip
+
+
+def clang():
+    """A clang with its sanitizers, or None."""
+    for name in ("clang", *(f"clang-{version}" for version in range(21, 12, -1))):
+        if (path := shutil.which(name)) and _links(path, "-fsanitize=fuzzer,address"):
+            return path
+    return None
+
+
+def gcc():
+    """A gcc with its sanitizers, or None."""
+    path = shutil.which("gcc")
+    return path if path and _links(path, "-fsanitize=address", main=True) else None
+
+
+def _links(compiler, option, main=False):
+    text = "int main(void) { return 0; }" if main else "int LLVMFuzzerTestOneInput(void) { return 0; }"
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "probe.c").write_text(text, encoding="utf-8")
+        line = (compiler, option, f"{folder}/probe.c", "-o", f"{folder}/probe")
+        return subprocess.run(line, capture_output=True).returncode == 0
+
+
+def _array(name, values, kind="double"):
+    shown = ", ".join(_number(v) if kind == "double" else str(int(v)) for v in np.ravel(values)) or "0"
+    return f"static const {kind} {name}[] = {{ {shown} }};"
+
+
+def _number(value):
+    value = float(value)
+    return "NAN" if value != value else ("-" if value < 0 else "") + "HUGE_VAL" if abs(value) == np.inf else value.hex()
+
+
+def _seed(name, k, drive):
+    """C text of a seed, and the line that lists it: parameters, a contact, a search for first contact."""
+    m, own = drive.model, f"seed_{k}"
+    result = drive.tca([0.05])
+    x = result.solutions[0] if result.solved[0] else np.zeros(m.nx)
+    lines = [
+        _array(f"{own}_given", design.given_vector(drive.design)), _array(f"{own}_complete", drive.design.parameters),
+        _array(f"{own}_x", x),
+    ]  # fmt: skip
+    found = _search(drive) if k % 2 == 0 else None
+    if found is not None:
+        lines += _first(own, *found)
+    compiled = drive.design.description["name"]
+    lines.append(f"int fuzz_alone_{compiled}(double *s, double phi, double *x, mw_info *info); /* {name} */")
+    lines.append(f"int fuzz_casadi_{compiled}(int which, const double **arg, double **res, double *w);")
+    listed = (
+        f'{{ "{compiled}", {own}_given, {own}_complete, {own}_x, 0.05, fuzz_alone_{compiled}, fuzz_casadi_{compiled}, '
+        f"{f'&{own}_first' if found is not None else 'NULL'} }},"
+    )
+    return lines, listed
+
+
+def _search(drive):
+    """The arguments of a search for first contact over a coarse mesh; None where there is none."""
+    cells, first_contact.CELLS = first_contact.CELLS, (3, 4)
+    caught = []
+    try:
+        angles = np.array([0.05])
+        solved = drive.tca(angles)
+        search = first_contact._Search.of(drive, angles, solved.solutions)[0]
+        if search is None:
+            return None
+        table, start = search.table, solved.solutions[0]
+        placed = first_contact._placed(drive, np.linspace(0.0, 0.05, 2), start)
+        pinion, wheel = (p[:, :3].reshape(-1, 12) for p in placed)
+        begin = np.concatenate([start[b["unknowns"]] for b in drive.design.description["bodies"][::-1]])
+        caught = [search, table, pinion, wheel, np.append(begin, start[drive.design.description["error"]])]
+    finally:
+        first_contact.CELLS = cells
+    return caught if np.isfinite(caught[4]).all() else None
+
+
+def _first(own, search, table, pinion, wheel, start):
+    (q, corner, open_, wheel_sizes, pinion_sizes), _ = search.kept
+    return [
+        _array(f"{own}_q", q), _array(f"{own}_corner", corner, "int"), _array(f"{own}_open", open_, "unsigned char"),
+        _array(f"{own}_wheel_sizes", wheel_sizes), _array(f"{own}_pinion_sizes", pinion_sizes),
+        _array(f"{own}_pinion", pinion), _array(f"{own}_wheel", wheel), _array(f"{own}_start", start),
+        f"static const first_seed {own}_first = {{ {{ {table.vertices}, {table.triangles}, {own}_q, {own}_corner, "
+        f"{own}_open, {table.bound}, {own}_wheel_sizes, {own}_pinion_sizes }}, {own}_pinion, {own}_wheel, "
+        f"{len(pinion)}, {_number(search.turn)}, {_number(search.sense)}, {own}_start }};",
+    ]  # fmt: skip
+
+
+def write_seeds(folder, designs=DESIGNS):
+    """``seeds.h`` and ``drives.h`` of these packaged designs in ``folder``; the names of their drives."""
+    lines, listed, names = [], [], []
+    for name in designs:
+        plain = Drive.load(name)
+        known = {f"{p['table']}.{p['key']}" for p in plain.design.description["parameters"]}
+        errors = {key.split(".")[1]: value for key, value in ERRORS.items() if key in known}
+        for drive in (plain, plain.with_(misalignment=errors)):
+            own, line = _seed(name, len(listed), drive)
+            lines += own
+            listed.append(line)
+        names.append(plain.design.description["name"])
+    names = sorted(set(names))
+    text = SEEDS.format(arrays="\n".join(lines), listed="\n    ".join(listed))
+    (folder / "seeds.h").write_text(text, encoding="utf-8")
+    text = " ".join(f"X({name})" for name in names)
+    (folder / "drives.h").write_text(f"#define MW_DRIVE_LIST(X) {text}\n", encoding="utf-8")
+    return names
+
+
+SEEDS = """/* Where the fuzzer begins. */
+typedef struct first_seed {{
+    mw_flank_mesh mesh;
+    const double *pinion, *wheel;
+    size_t steps;
+    double turn, sense;
+    const double *start;
+}} first_seed;
+
+typedef struct seed {{
+    const char *drive;
+    const double *given, *complete, *x;
+    double phi;
+    int (*solve)(double *s, double phi, double *x, mw_info *info);
+    int (*entry)(int which, const double **arg, double **res, double *w);
+    const first_seed *first;
+}} seed;
+
+{arrays}
+
+static const seed seeds[] = {{
+    {listed}
+}};
+"""
+
+
+def build(folder, compiler, flags, defines=(), designs=DESIGNS, link=()):
+    """Compile the core library, the drives and the harness with these flags into ``folder/fuzz``; the path of it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    command = compiler.split()
+    names = write_seeds(folder, designs)
+    includes = (f"-I{folder}", f"-I{SOURCE}", f"-I{SOURCE / 'drive'}", f"-I{GENERATED}")
+    units = [(unit, ('-DMW_DRIVES="drives.h"',), f"core_{unit.stem}") for unit in sorted(SOURCE.glob("*.c"))]
+    straight = STRAIGHT if any("undefined" in flag for flag in flags) else ()
+    for name in names:
+        drive = (f"-DMW_DRIVE={name}", *straight)
+        units += [(SOURCE / unit, drive, f"{name}_{Path(unit).stem}") for unit in DRIVE_UNITS]
+        units.append((HERE / "alone.c", drive, f"alone_{name}"))
+    units.append((HERE / "interface.c", tuple(defines), "interface"))
+
+    def compiled(unit):
+        path, own, stem = unit
+        target = folder / f"{stem}.o"
+        line = (*command, *OPTIONS, *flags, *includes, *own, "-c", str(path), "-o", str(target))
+        done = subprocess.run(line, capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"{path} did not compile:\n{done.stderr}")
+        return str(target)
+
+    with ThreadPoolExecutor(2) as pool:
+        objects = list(pool.map(compiled, units))
+    program = folder / "fuzz"
+    line = (*command, *flags, *link, *objects, "-o", str(program), "-lm", "-lpthread")
+    done = subprocess.run(line, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"the fuzzer did not link:\n{done.stderr}")
+    return program
+
+
+def counted(text):
+    """Calls and successes that runs report of themselves; several threads report one after the other."""
+    found = re.findall(r"fuzz: (\d+) inputs, (\d+) calls, (\d+) successes", text)
+    return {key: sum(int(row[k]) for row in found) for k, key in enumerate(("inputs", "calls", "successes"))}
+
+
+def run(program, arguments, timeout):
+    """(exit status, what the program wrote) of a fuzzer."""
+    done = subprocess.run(
+        (str(program), *map(str, arguments)), capture_output=True, text=True, errors="replace", timeout=timeout,
+        env=os.environ | ENVIRONMENT, cwd=program.parent,
+    )  # fmt: skip
+    return done.returncode, done.stdout + done.stderr
