@@ -70,16 +70,20 @@ def drawing(analysis):
     tables = []
     for member, prefix in prefixes.items():
         own = [(r[0], r[1], r[2], r[4]) for table, r in rows if table == prefix or prefix in r[4].split("_")]
-        tables.append(Table(member.capitalize(), ("meaning", "value", "unit", "key"), tuple(own), frozenset({1}), "drawing"))
+        tables.append(_stated(member.capitalize(), own))
     both = [(r[0], r[1], r[2], r[4]) for table, r in rows if table in _DRAWN and _SHARED.match(r[4])]
     if design.tables["design"].get("hand"):
         both.append(("hand", design.tables["design"]["hand"], "–", "hand"))
     both.append(("gear ratio", number(1.0 / analysis.drive.ratio), "–", "ratio"))
     if analysis.running is not None and np.isfinite(analysis.running.backlash):
         both.append(("backlash, angle of the wheel", number(analysis.running.backlash / ARCSEC, 4), "″", "–"))
-    tables.append(Table("Both", ("meaning", "value", "unit", "key"), tuple(both), frozenset({1}), "drawing"))
+    tables.append(_stated("Both", both))
     note = "Sizes of the nominal design, without tolerances; those of the tools are in the tables below."
     return Group("drawing", "Drawing data", note, tuple(tables), columns=True)
+
+
+def _stated(heading, rows):
+    return Table(heading, ("meaning", "value", "unit", "key"), tuple(rows), frozenset({1}), "drawing")
 
 
 def _prefixes(analysis):
