@@ -82,13 +82,13 @@ def emit(plan, origin):
         f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
         f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
         f"c/{drive.name}_bounded.h": bounded.header(plan, metadata.GENERATOR),
-        f"c/{drive.name}_certified.h": certified.header(plan, metadata.GENERATOR),
         f"descriptions/{drive.name}.json": description.text(drive),
     }
     files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
-    # last: it adds the changes of the inputs to the tape
+    # last: these add nodes to the tapes, the changes of the inputs and design systems at the end of their path
     tangents = sensitivity.tangents(plan)
     files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
+    files[f"c/{drive.name}_certified.h"] = certified.header(plan, metadata.GENERATOR)
     evaluated = [*guards.functions(plan), guards.along(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
     files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"

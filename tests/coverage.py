@@ -40,9 +40,11 @@ def reached(folder):
         for report in map(json.loads, done.stdout.splitlines()):
             for source in report["files"]:
                 path = (folder / source["file"]).resolve()
-                if interface.SOURCE not in path.parents or any(word in path.name for word in ELSEWHERE):
+                if interface.SOURCE not in path.parents:
                     continue
                 name = path.relative_to(interface.SOURCE).as_posix()
+                if any(word in name for word in ELSEWHERE):
+                    continue
                 for line in source["lines"]:
                     lines[name, line["line_number"]] += line["count"]
                     for k, branch in enumerate(line["branches"]):

@@ -12,6 +12,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
 from derive.audit.claims import Document
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
@@ -123,6 +124,11 @@ def pages(
         ),
         "side-conditions.html": _render(
             "side-conditions.html.jinja", **common, guards=GUARDS, conditions=conditions
+        ),
+        "certified-contact.html": _render(
+            "certified.html.jinja",
+            **common,
+            certified={"outcomes": OUTCOMES, "steps": STEPS, "trusted": TRUSTED, "open": OPEN},
         ),
         "audit.tex": _render("audit.tex.jinja", **common, shown=shown, tex=_tex),
     }

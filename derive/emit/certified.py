@@ -186,15 +186,17 @@ def _rules(plan):
 
 
 def _system(plan, drive):
-    """A design system: its equations and the values that it fills in, of (q, share of the path, y)."""
+    """A design system at the end of its path: its equations and the values that it fills in, of (q, 1, y)."""
     lower, count = plan.lower, len(drive.parameters)
     leaves = {lower(p.symbol): k for k, p in enumerate(drive.parameters)} | {lower(PATH): count}
+    at_end = {lower(PATH): plan.tape.constant(1)}
     leaves |= {lower(u): count + 1 + k for k, u in enumerate(plan.unknowns)}
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    jacobian = [e for row in plan.jacobian for e in row]
+    equations = [plan.tape.substitute(i, at_end) for i in (*plan.residual, *(e for row in plan.jacobian for e in row))]
+    values = [plan.tape.substitute(i, at_end) for i in plan.values]
     return {
         "name": plan.system.name,
-        "equations": code(plan.tape, [*plan.residual, *jacobian], leaves, len(plan.residual)),
-        "values": code(plan.tape, plan.values, leaves),
+        "equations": code(plan.tape, equations, leaves, len(plan.residual)),
+        "values": code(plan.tape, values, leaves),
         "fills": [index[target] for target in plan.system.fills],
     }

@@ -1,9 +1,11 @@
 /* Certified contact: see mw_certify.h.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
+#define MWC_POINTS
 #include "certify/krawczyk.h"
 #include "certify/tables.h"
 #include "complete.h"
 #include "kernels.h"
+#include "lanes.h"
 #include "mw_certify.h"
 
 /* Boxes begin at this share of the natural sizes; steps that shape them; the share beyond which none is tried. */
@@ -386,4 +388,47 @@ size_t mw_certify_boxes(const mw_model *m, mw_wide *s, const mw_wide *phi, const
     size_t unique = 0;
     for (size_t k = 0; k < n; k++) unique += mw_certify_box(m, s, phi[k], x + k * nx, d + k * nx, c + k) == MW_UNIQUE;
     return unique;
+}
+
+/* The design's numbers in every lane. */
+static void spread(const mw_lane_set *set, const mw_certified *t, const mw_wide *s, double *arguments)
+{
+    const int lanes = set->lanes;
+    for (int i = 0; i < t->design_slots; i++) {
+        const mw_ball b = mwc_of_wide(s[i]);
+        for (int l = 0; l < lanes; l++) {
+            arguments[2 * i * lanes + l] = b.mid;
+            arguments[(2 * i + 1) * lanes + l] = b.radius;
+        }
+    }
+}
+
+static void certify_alone(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, unsigned char *unique, mw_ball *error)
+{
+    mw_certificate c;
+    *unique = mw_certify(m, s, phi, x, 0, &c) == MW_UNIQUE;
+    *error = *unique ? mwc_of_wide(c.x[m->error]) : mwc_make(x[m->error], HUGE_VAL);
+}
+
+size_t mw_certify_many(const mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, size_t n,
+                       unsigned char *unique, mw_ball *errors)
+{
+    const size_t nx = (size_t)m->nx, lanes = set ? (size_t)set->lanes : 1;
+    const mw_certified *t = tables_of(m);
+    double arguments[2 * MWC_ARGUMENTS * MW_MAX_LANES], registers[2 * MWC_REGISTERS * MW_MAX_LANES], sizes[MW_MAX_UNKNOWNS], d[MW_MAX_UNKNOWNS];
+    size_t k = 0, count = 0;
+    if (set && mw_encloses(m) && n > 0) {
+        set_instant(t, s, phi[0]);
+        sizes_of(m, s, sizes);
+        spread(set, t, s, arguments);
+        for (size_t i = 0; i < nx; i++) d[i] = sizes[i] * FIRST_BOX;
+        for (; k + lanes <= n; k += lanes)
+            set->certify(t, m->nx, m->error, k == 0, (struct lane_ball *)(void *)arguments,
+                         (struct lane_ball *)(void *)registers, phi + k, x + k * nx, d, unique + k, errors + k);
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (i >= k || !unique[i]) certify_alone(m, s, phi[i], x + i * nx, unique + i, errors + i);
+        count += unique[i];
+    }
+    return count;
 }

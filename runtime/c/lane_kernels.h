@@ -6,5 +6,6 @@
 #ifdef MW_DRIVE
 #include "drive/lanes.h"
 #else
+#include "lane_certify.h"
 #include "lane_follow.h"
 #endif

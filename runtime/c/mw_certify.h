@@ -69,6 +69,40 @@ int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int 
 /* The same of a given box x +- d, d[nx] > 0: one solution, none, or unknown. */
 int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c);
 
+/* Certify n points of one design at once: phi[n], x[n*nx]; unique[n] is 1 where the equations have one solution within 2^-24
+ * natural sizes of x, errors[n] then holds its transmission error, by plain doubles with radii. What a lane does not show is
+ * left to mw_certify. set: as of mw_lanes, NULL: mw_certify alone. Returns how many are unique. */
+struct mw_lane_set;
+size_t mw_certify_many(const struct mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x,
+                       size_t n, unsigned char *unique, mw_ball *errors);
+
+/* A piece of path: at every input angle centre + half t, -1 <= t <= 1, the equations have a solution within x[i].radius of the
+ * polynomials x[nx], and no other within box[nx] of them: one branch, without turning point or crossing. margin: regular and
+ * margins of the pinion, then of the wheel, along it; margins: how many. */
+typedef struct mw_piece {
+    int outcome, reason, margins;
+    double centre, half;
+    mw_polynomial x[8];
+    double box[8];
+    mw_polynomial margin[32];
+} mw_piece;
+
+/* Shares of [-1, 1] at which the solutions of a piece are asked for, MW_ORDER + 1, ascending. */
+void mw_piece_nodes(double *t);
+
+/* Certify the piece from one angle to another, from its solutions x[(MW_ORDER + 1)*nx] at the nodes' angles. */
+int mw_certify_piece(const mw_model *m, const mw_wide *s, double from, double to, const double *x, mw_piece *piece);
+
+/* Whether two certified pieces that meet at an angle are of one branch: at the joint, the solution of the one lies where that of
+ * the other is the only one. */
+int mw_pieces_join(const mw_model *m, const mw_piece *before, const mw_piece *after, double angle);
+
+/* The number of a polynomial of a piece at an angle. */
+mw_ball mw_piece_at(const mw_piece *piece, const mw_polynomial *of, double angle);
+
+/* Bounds of a polynomial over the angles from one to another, [low, high]: by halving down to 2^-depth of the piece. */
+void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from, double to, int depth, double *bounds);
+
 /* Both for n points: phi[n], x[n*nx], line[n], d[n*nx], c[n]. Return the number of those that are shown to be unique. */
 size_t mw_certify_points(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
                          mw_certificate *c);

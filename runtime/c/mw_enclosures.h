@@ -14,5 +14,13 @@ typedef struct mw_wide {
     double hi, lo, radius;
 } mw_wide;
 
+/* Every function of t within radius of c[0] + c[1] t + ... + c[MW_ORDER] t^MW_ORDER for -1 <= t <= 1. */
+enum { MW_ORDER = 8 };
+
+typedef struct mw_polynomial {
+    double c[9];
+    double radius;
+} mw_polynomial;
+
 /* END INTERFACE */
 #endif

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 1
+ABI = 2
 
 
 class Info(ctypes.Structure):

@@ -10,7 +10,7 @@ from meshwright import limits
 from meshwright.base.drives import folders
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, text
-from meshwright.contact import analysis, certificate
+from meshwright.contact import analysis, certificate, certified_path
 from meshwright.contact.functions import Function
 from meshwright.cycle import contact_ratio, edge, first_contact, windows
 from meshwright.design import design as designs
@@ -143,6 +143,12 @@ class Drive:
         result = self.tca(angles) if result is None else result
         lines = [word == "line_contact" for word in result.status]
         return certificate.certify(self, angles, result.solutions, lines, degrees)
+
+    def certify_path(self, begin, end, **how):
+        """Proof of one branch of contact from one pinion angle (rad) to another, of the right-hand drive:
+        :class:`~meshwright.contact.certified_path.CertifiedPath`.
+        """
+        return certified_path.certified_path(self, begin, end, **how)
 
     def first_contact(self, angles, result=None):
         """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:

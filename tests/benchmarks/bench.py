@@ -16,7 +16,7 @@ from derive import drives
 from derive.passes.schedule import schedule
 from derive.program.tape import Stage
 from meshwright import Drive
-from meshwright.base.library import ffi, library
+from meshwright.base.library import ffi, library, record
 from tests.benchmarks import baselines, calls, regeneration
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
@@ -96,6 +96,22 @@ def lane_points(case, width):
     return designs * n / seconds
 
 
+def certified_points(case, width):
+    """Certified points a second in lanes: residual, Jacobian, its inverse and the test; None as above."""
+    lanes, lib, enclosed = library().mw_lanes(width), library(), case.drive.enclosed
+    if lanes == ffi.NULL:
+        return None
+    n, state = 4096, enclosed.state.copy()
+    phi = np.zeros(n, record("mw_wide"))
+    phi["hi"], x = case.angles[:n], np.ascontiguousarray(case.points[:n])
+    unique, errors = np.zeros(n, np.uint8), np.zeros(n, record("mw_ball"))
+    arguments = (lanes, enclosed.model, _pointer(state, "mw_wide[]"), _pointer(phi, "mw_wide[]"), _pointer(x), n)
+    outputs = (_pointer(unique, "unsigned char[]"), _pointer(errors, "mw_ball[]"))
+    seconds = best(lambda: lib.mw_certify_many(*arguments, *outputs), repeats=30)
+    assert unique.all()
+    return n / seconds
+
+
 def _numbers(program, case, *arguments):
     command = [str(program), *map(str, arguments)]
     done = subprocess.run(command, input=case.text(), capture_output=True, text=True, check=True)
@@ -170,6 +186,9 @@ def measure(case, folder):
             "lanes2": lambda: lane_points(case, 2),
             "lanes4": lambda: lane_points(case, 4),
             "lanes8": lambda: lane_points(case, 8),
+            "certified2": lambda: certified_points(case, 2),
+            "certified4": lambda: certified_points(case, 4),
+            "certified8": lambda: certified_points(case, 8),
             "casadi-c": lambda: _run(generated, case, POINTS, 20, 0),
             "casadi-c-extrapolated": lambda: _run(generated, case, POINTS, 20, 1),
             "casadi-rootfinder": lambda: baselines.casadi_rootfinder_points(casadi_function(case), case),

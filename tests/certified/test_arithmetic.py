@@ -241,6 +241,10 @@ def cases(kind, rng):
     extremes = np.concatenate([np.arange(-8, 9) * np.pi / 2, np.arange(-8, 9) * np.pi / 4])
     wide = np.stack([extremes, *([np.zeros_like(extremes)] * (kind == "wide")), np.full_like(extremes, 0.01)], 1)
     yield "sincos", wide, None
+    yield "sincos", numbers(rng, kind, least=-110, most=-0.4), None
+    if kind == "wide":  # both roundings of a sum at their largest
+        points = [numbers(rng, kind, 8 * COUNT, least=-1, most=1) * [1.0, 1.0, 0.0] for _ in range(2)]
+        yield "add", *points
     if kind == "ball":
         far = rng.uniform(1e5, 1e6, 8 * COUNT)  # both roundings of the reduction at their largest
         yield "sincos", np.stack([far, np.zeros_like(far)], 1), None
@@ -266,6 +270,12 @@ def test_results_are_no_wider_than_rounding_makes_them(arithmetic):
     for op in ("mul", "div", "sqrt"):
         result = arithmetic["exact"]("wide", op, np.abs(wide), np.abs(wide[::-1]))
         assert np.all(result[:, 2] <= 16 * U * U * np.abs(result[:, 0]))
+
+
+def test_the_sine_of_a_small_angle_is_known_to_a_share_of_itself(arithmetic):
+    small = np.stack([10.0 ** np.arange(-300.0, 0.0), np.zeros(300)], 1)
+    sine, _ = arithmetic["exact"]("ball", "sincos", small)
+    assert np.all(sine[:, 1] <= 2.1 * U * sine[:, 0])
 
 
 def test_what_is_not_defined_everywhere_holds_everything(arithmetic):

@@ -10,11 +10,13 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.branch import fold_angle
-from meshwright.contact.certificate import certify, certify_boxes
+from meshwright.contact.certificate import certify, certify_boxes, certify_many
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.path import Path
+from meshwright.design.design import packaged_names
 from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
+from tests.lanes import available
 from tests.published import published_rows
 from tests.worm.designs import packaged, plain
 
@@ -113,6 +115,17 @@ def test_an_enclosed_spherical_contact_holds_every_unknown_to_sixty_digits():
             middle = mpmath.mpf(float(entry["hi"])) + mpmath.mpf(float(entry["lo"]))
             assert abs(value - middle) <= mpmath.mpf(float(entry["radius"])) + mpmath.mpf(10) ** -45
             assert entry["radius"] < 1e-18
+
+
+@pytest.mark.parametrize("name", packaged_names())
+def test_every_packaged_design_is_enclosed_and_its_contact_certain_or_a_line(name):
+    drive = Drive.load(name)
+    assert drive.enclosed.failed is None
+    result = drive.tca([drive.design.mirror.sign * drive.design.reference_angle])
+    found = drive.certify(result.angles, result)
+    assert found.outcomes == ("unique",) or (found.reasons == result.status == ("line_contact",))
+    for given, complete in zip(drive.enclosed.parameters, drive.design.parameters, strict=True):
+        assert np.isnan(complete) or abs(float(given["hi"]) - complete) <= 1e-9 * (1.0 + abs(complete))
 
 
 def test_contact_along_a_line_is_never_called_a_single_point():
@@ -228,3 +241,18 @@ def test_the_mirror_image_is_certified_with_the_other_sign():
     there, mirrored = right.certify([1.0]).error_arcsec()[0], left.certify([-1.0]).error_arcsec()[0]
     assert tuple(mirrored) == (-there[1], -there[0])
     assert left.tca([-1.0]).error[0] / ARCSEC == pytest.approx(mirrored.mean(), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "helical-crowned"])
+def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
+    drive = Drive.load(name)
+    angles = np.linspace(-0.4, 0.4, 50) * drive.pitch()
+    solutions = drive.trace(angles)[0]
+    narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
+    for width in available():
+        unique, bounds = certify_many(drive, angles, solutions, width)
+        assert unique.all()
+        assert np.all((bounds[:, 1] - bounds[:, 0]) / ARCSEC < 2e-7)
+        for k in range(len(angles)):
+            low, high = narrow.error(k)
+            assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])

@@ -12,9 +12,9 @@ from meshwright.base.library import pointer
 from meshwright.contact.placement import placements_at
 
 #: Samples of a line, lines of a window; how much narrower each window is, and how many.
-SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 8.0, 16
+SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, 22
 #: How much narrower in each window the part of a line is that is sampled closely, beside the whole of it.
-CLOSER = 0.4
+CLOSER = 0.55
 BISECTIONS, STEPS = 46, 24
 
 

@@ -21,12 +21,13 @@ static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931
  *   series      Taylor's, its first omitted term below 1e-19;
  *   evaluation  last sum half of MWC_U; the terms before it, below 0.08 in the sine and 0.016 in the cosine, four
  *               roundings each; the square in 1 - r^2/2 a quarter of MWC_U.
- * Sine 0.88 + 0.5 + 0.35, cosine 0.71 + 0.5 + 0.25 + 0.08: below two units of MWC_U. */
+ * Sine 0.88 + 0.5 + 0.35, cosine 0.71 + 0.5 + 0.25 + 0.08: below two units of MWC_U. Where k = 0 nothing is reduced, and the
+ * sine's error is as small a share of the sine itself: 1 for the last sum and 0.6 for the terms before it. */
 static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = 1.6e6;
 
 static inline double mwc_abs(double a)
 {
-    return a < 0.0 ? -a : a;
+    return fabs(a);
 }
 
 /* The radius, with what its rounding lost. */
@@ -122,9 +123,9 @@ static inline void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
     double s, c;
     const int near = mwc_abs(a.mid) < MWC_FAR;
     mwc_sine(near ? a.mid : 0.0, &s, &c);
-    const double bend = 0.5 * a.radius * mwc_reach(a) + MWC_SINE;
-    *sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend);
-    *cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend);
+    const double bend = 0.5 * a.radius * mwc_reach(a), size = mwc_abs(a.mid) < 0.78 ? mwc_abs(s) : 1.0;
+    *sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend + (MWC_SINE * size + MWC_TINY));
+    *cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend + MWC_SINE);
 }
 
 /* Angle of the point (x, y): about any angle t near it, t + atan((y cos t - x sin t)/(x cos t + y sin t)), whose arc is

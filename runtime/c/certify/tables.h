@@ -1,4 +1,4 @@
-/* Functions of a drive in both arithmetics.  SPDX-License-Identifier: MIT-0 */
+/* Functions of a drive in the arithmetics of points (MWC_POINTS) or of paths (MWC_PATHS).  SPDX-License-Identifier: MIT-0 */
 #ifndef MWC_TABLES_H
 #define MWC_TABLES_H
 
@@ -8,6 +8,7 @@
 /* Most registers of a function and most numbers that it reads. */
 enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 
+#ifdef MWC_POINTS
 #define MWC_RUN mwc_run_ball
 #define MWC_NUMBER mw_ball
 #define MWC_DO(operation) mwc_##operation
@@ -19,5 +20,15 @@ enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 #define MWC_DO(operation) mwc_wide_##operation
 #define MWC_CONSTANT(c) (c)
 #include "run.h"
+#endif
+
+#ifdef MWC_PATHS
+#include "polynomial.h"
+#define MWC_RUN mwc_run_polynomial
+#define MWC_NUMBER mw_polynomial
+#define MWC_DO(operation) mwc_poly_##operation
+#define MWC_CONSTANT(c) mwc_poly_of_wide(c)
+#include "run.h"
+#endif
 
 #endif

@@ -7,7 +7,7 @@ MODULES = {
     name: f"meshwright.commands.{name}"
     for name in (
         "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
-        "live", "schema", "grid", "measured", "identify", "completion",
+        "live", "schema", "grid", "measured", "identify", "benchmark", "completion",
     )
 } | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
 

@@ -15,6 +15,7 @@ from meshwright.contact.analysis import status_text
 from meshwright.contact.friction import mean_efficiency
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.backlash import meaning
+from meshwright.cycle.certified import certified_window
 from meshwright.cycle.ends import why_open
 from meshwright.cycle.transmission import ROUND_OFF, fourier
 
@@ -26,6 +27,10 @@ def add_arguments(parser):
     common.add_design(parser)
     common.add_angles(parser)
     common.add_friction(parser)
+    parser.add_argument(
+        "--certify", action="store_true",
+        help="prove that the pair has one branch of contact over its window, and bound its ends and its error",
+    )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.ratio/1)")
 
 
@@ -33,6 +38,9 @@ def run(options):
     drive = common.drive_of(options)
     found = drive.contact_ratio()
     contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
+    if options.certify:
+        certified = certified_window(drive, found.mesh.window)
+        contents["certificate"] = None if certified is None else certified.plain(drive.design.mirror.sign)
     if options.json:
         write_json(options.json, contents)
     else:
@@ -135,9 +143,27 @@ def _page(drive, found, contents):
     if found.impossible:
         lines.append(f"bodies cannot make this contact everywhere from begin to end: {', '.join(found.impossible)}")
     lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
+    lines += _certified(contents.get("certificate"))
     if contents["transmission_error"]["rides_on_edge"]:
         lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")
     return "\n".join(lines) + "\n"
+
+
+def _certified(certificate):
+    """What is proved of the window, if that was asked for."""
+    if certificate is None:
+        return
+    if certificate["gaps"]:
+        gap = certificate["gaps"][0]
+        low, high = gap["pinion_angle_deg"]
+        yield f"not certified: from {low:.6f}° to {high:.6f}° no single branch is shown ({gap['reason']})"
+        return
+    yield f"certified: one branch of contact, {certificate['pieces']} pieces without a gap"
+    if certificate["contact_ratio"]:
+        low, high = certificate["contact_ratio"]
+        yield f"certified: contact ratio from {low:.12f} to {high:.12f}"
+        low, high = certificate["pair_peak_to_peak_arcsec"]
+        yield f"certified: peak to peak of the pair from {low:.9f} to {high:.9f} arcsec"
 
 
 def _rows(found, contents):

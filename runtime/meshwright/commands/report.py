@@ -14,6 +14,10 @@ FORMATS = ("pdf", "svg", "png")
 def add_arguments(parser):
     common.add_design(parser)
     common.add_friction(parser)
+    parser.add_argument(
+        "--marking-um", type=common.positive, metavar="UM",
+        help="thickness of the marking compound of the composite pattern; default: the design's separation",
+    )  # fmt: skip
     parser.add_argument("--html", metavar="FILE", help="write the page")
     parser.add_argument("--figures", metavar="FOLDER", help="write the figures for print, one file each")
     parser.add_argument("--format", choices=FORMATS, default="pdf", help="of the figures for print")
@@ -24,8 +28,9 @@ def run(options):
         raise UsageError("report: nothing to write; give --html FILE, --figures FOLDER or both")
     report = _report()
     drive, friction = common.drive_of(options), common.friction_of(options)
+    marking = None if options.marking_um is None else options.marking_um / 1000.0
     with progress(report.steps(drive) + 1) as step:
-        analysis = report.analyse(drive, step, friction)
+        analysis = report.analyse(drive, step, friction, marking)
         step("figures")
         if options.html:
             write_text(options.html, report.page(analysis))

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import library, pointer, record, text
+from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact import exact
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.results import impossible
@@ -164,6 +164,26 @@ def certify_boxes(drive, angles, centres, half_widths):
     if centres.shape != (len(phi), drive.model.nx) or half_widths.shape != centres.shape:
         raise UsageError(f"boxes: centres and half-widths must be arrays ({len(phi)}, {drive.model.nx})")
     return _all(drive, phi, library().mw_certify_boxes, pointer(centres), pointer(half_widths))
+
+
+def certify_many(drive, angles, solutions, width=0):
+    """Uniqueness (N,) and bounds of the transmission error (N, 2), rad, of many contacts of one design, in lanes.
+
+    ``angles`` (N,) rad and ``solutions`` (N, nx) of the right-hand drive; ``width``: numbers in a vector, 0 for the
+    widest that this processor has. The bounds are those of doubles, about 1e-7 arcseconds apart.
+    """
+    lanes = library().mw_lanes(width)
+    if lanes == ffi.NULL:
+        raise UsageError(f"width = {width}: this processor has no vectors of that width; use 2, or 0 for its widest")
+    phi, x = exact.wides([(Fraction(float(a)),) * 2 for a in angles]), np.ascontiguousarray(solutions, dtype=float)
+    unique, errors = np.zeros(len(phi), np.uint8), np.zeros(len(phi), record("mw_ball"))
+    library().mw_certify_many(
+        lanes, drive.enclosed.model, pointer(drive.enclosed.state.copy(), "mw_wide[]"), pointer(phi, "mw_wide[]"),
+        pointer(x), len(phi), pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"),
+    )  # fmt: skip
+    radius = errors["radius"] * (1.0 + 1e-12)
+    low, high = np.nextafter(errors["mid"] - radius, -np.inf), np.nextafter(errors["mid"] + radius, np.inf)
+    return unique.astype(bool), np.stack([low, high], axis=1)
 
 
 def _all(drive, phi, each, first, second):

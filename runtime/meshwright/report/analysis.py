@@ -28,6 +28,7 @@ from meshwright.pattern.pattern import Contour, along_ellipse, contour
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
+from meshwright.report.whole_flank import WholeFlank, whole_flanks
 
 #: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
 POSITIONS, LARGEST_STEP = 120, math.radians(5.0)
@@ -89,7 +90,8 @@ class Analysis:
     the fixed frame, and the ``patches`` of the flanks are those of the right-hand drive. ``running`` is None where the
     flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch,
     ``moving`` and ``efficiency`` the velocities and what friction makes of them, ``first`` where the bounded flanks
-    of the pair touch first.
+    of the pair touch first. ``whole`` are the flanks between their limits, ``marking`` the thickness of the marking
+    compound of the composite pattern, mm.
     """
 
     drive: Drive
@@ -105,6 +107,8 @@ class Analysis:
     moving: Velocities
     efficiency: Efficiency
     first: FirstContacts
+    whole: dict[str, WholeFlank]
+    marking: float
 
     @property
     def mirror(self):
@@ -130,10 +134,11 @@ class Analysis:
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
 
-def analyse(drive, step, friction=None):
+def analyse(drive, step, friction=None, marking=None):
     """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work.
 
-    ``friction`` is a :class:`~meshwright.contact.friction.Friction` or None.
+    ``friction`` is a :class:`~meshwright.contact.friction.Friction` or None; ``marking`` the thickness of the marking
+    compound, mm, by default the design's separation.
     """
     step("window of contact")
     mesh = Mesh.of(drive)
@@ -151,6 +156,8 @@ def analyse(drive, step, friction=None):
     step("flanks")
     matrices = _matrices(drive, tca)
     patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
+    step("whole flanks")
+    whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
     sensitivities = []
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
@@ -158,13 +165,14 @@ def analyse(drive, step, friction=None):
     moving = velocities(drive, tca)
     return Analysis(
         drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),
-        moving, efficiency(drive, tca, friction, moving), first,
+        moving, efficiency(drive, tca, friction, moving), first, whole,
+        drive.design.value("separation_mm", "contact") if marking is None else marking,
     )  # fmt: skip
 
 
 def steps(drive):
     """How often :func:`analyse` calls ``step``."""
-    return 5 + len(misalignments(drive.design))
+    return 6 + len(misalignments(drive.design))
 
 
 def _positions(drive, mesh):

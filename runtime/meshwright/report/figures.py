@@ -8,8 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from meshwright.contact.results import ARCSEC
-from meshwright.report import pattern_figure, sensitivity_figures, style
+from meshwright.report import pattern_figure, sensitivity_figures, style, whole_figure
 from meshwright.report.branches import broken
+from meshwright.report.numbers import number as text_of
 
 PINION_ANGLE = "pinion angle, deg"
 
@@ -45,6 +46,9 @@ def pictures(analysis):
         drawn += [_DRIVE_ERROR, _TEETH]
     elif known:
         drawn.append(_PAIR_ERROR)
+    drawn += [_whole_pattern(member, analysis) for member in analysis.whole]
+    drawn += [_ease_off(member) for member, w in analysis.whole.items()
+              if member == "wheel" and np.isfinite(w.ease_off).any()]  # fmt: skip
     drawn += [_pattern(member, bool(analysis.lines)) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
@@ -64,6 +68,31 @@ _PATTERN_CAPTION = (
 )
 
 
+def _whole_pattern(member, analysis):
+    shown = "Lines along which the flanks touch" if analysis.lines else "Path of contact and single patches"
+    if np.isfinite(analysis.whole[member].alone).any():
+        shown += (
+            f"; filled where the mate comes nearer than a marking compound of {text_of(1000.0 * analysis.marking)} µm: "
+            "dark in the running drive, whose leading pair carries; light where only a pair that carries alone does"
+        )
+    return Picture(
+        f"whole-{member}",
+        f"Contact pattern on the whole flank of the {member}, true scale",
+        f"{shown}. The border is dashed where nothing in the design ends the flank.",
+        lambda analysis: whole_figure.pattern(analysis, member),
+    )
+
+
+def _ease_off(member):
+    return Picture(
+        f"ease-off-{member}",
+        f"Ease-off on the {member}",
+        "How far the flank stands back from the conjugate of its mate, along the normal, in µm: from the surface that "
+        "the mate would envelop at a constant ratio. None where that lies beyond the positions of a pair.",
+        lambda analysis: whole_figure.ease_off(analysis, member),
+    )
+
+
 def _pattern(member, along_lines):
     if along_lines:
         caption = "Lines along which the flanks touch, at positions spread over the contact of one pair."
@@ -71,7 +100,7 @@ def _pattern(member, along_lines):
         caption = _PATTERN_CAPTION
     return Picture(
         f"pattern-{member}",
-        f"Contact pattern on the {member}",
+        f"Contact pattern on the {member}, enlarged",
         caption,
         lambda analysis: pattern_figure.draw(analysis, member),
     )

@@ -1,0 +1,145 @@
+"""Write a set of certified contacts that other programs can be tested against: designs, tables, a manifest.
+
+A folder of design files, one table of all contacts as CSV and JSON, and an RO-Crate manifest. Every packaged design is
+a case, aligned and with each of its misalignments; each case is enclosed at decimal angles over one pitch, and beside
+points where branches of contact cross. Exit status 1 if a contact that floating point finds cannot be certified.
+"""
+
+import hashlib
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from meshwright.base.files import write_csv, write_json, write_text
+from meshwright.commands.progress import progress
+from meshwright.contact import exact
+from meshwright.design.design import packaged_names, toml_text
+from meshwright.drive import Drive
+
+#: Shares of a pitch at which a case is enclosed, and decimals of its angles in degrees.
+SHARES, DECIMALS = (-0.4, -0.2, 0.0, 0.2, 0.4), 4
+
+#: Misalignment of a case in the unit of its key, mm or degrees, and how far beside a crossing it is enclosed, degrees.
+MISALIGNED, BESIDE = 0.02, Fraction("0.01")
+
+#: When this set was first made, which a manifest must say.
+DATE = "2026-11-23"
+
+
+def add_arguments(parser):
+    parser.add_argument("folder", metavar="FOLDER", help="folder to write")
+    parser.add_argument("--design", action="append", default=[], help="packaged design; repeatable; default: all")
+
+
+def run(options):
+    folder, cases = Path(options.folder), []
+    names = options.design or packaged_names()
+    (folder / "designs").mkdir(parents=True, exist_ok=True)
+    with progress(len(names)) as step:
+        for name in names:
+            step(f"certifying {name}")
+            cases += [case(folder, *named) for named in variants(name)]
+    header = list(dict.fromkeys(key for c in cases for p in c["points"] for key in row(c, p)))
+    rows = [row(c, p) for c in cases for p in c["points"]]
+    write_json(str(folder / "contacts.json"), {"schema": "meshwright.benchmark/1", "cases": cases})
+    write_csv(str(folder / "contacts.csv"), header, [[r.get(key, "") for key in header] for r in rows])
+    write_json(str(folder / "ro-crate-metadata.json"), manifest(folder, cases))
+    shown = sum(p["outcome"] == "unique" for c in cases for p in c["points"])
+    write_text("-", f"{len(cases)} cases, {shown} of {len(rows)} contacts certified, in {folder}\n")
+    return 0 if all(p["outcome"] == "unique" or p["reason"] != "wide" for c in cases for p in c["points"]) else 1
+
+
+def variants(name):
+    """(name, drive) of a packaged design and of each of its misalignments."""
+    drive = Drive.load(name)
+    yield name, drive
+    for p in drive.design.description["parameters"]:
+        if p["table"] == "misalignment" and p["key"].endswith(("_mm", "_deg")):
+            yield f"{name}--{p['key']}", drive.with_(misalignment={p["key"]: MISALIGNED})
+
+
+def degrees(drive):
+    """The angles of a case, fractions of degrees."""
+    middle, pitch = (np.degrees(a) for a in (drive.design.mirror.sign * drive.design.reference_angle, drive.pitch()))
+    angles = {Fraction(f"{middle + share * pitch:.{DECIMALS}f}") for share in SHARES}
+    for point in drive.limits().branch_points:
+        at = Fraction(f"{np.degrees(point.angle):.{DECIMALS}f}")
+        angles |= {at - BESIDE, at + BESIDE}
+    return sorted(angles)
+
+
+def case(folder, name, drive):
+    """One case as plain data; its design file is written."""
+    write_text(str(folder / "designs" / f"{name}.toml"), toml_text(drive.design.given()))
+    angles = degrees(drive)
+    result = drive.tca(np.radians([float(a) for a in angles]))
+    found = drive.certify(result.angles, result, angles)
+    return {
+        "name": name,
+        "design": f"designs/{name}.toml",
+        "points": [_point(found, k, angle, found.error_arcsec()[k]) for k, angle in enumerate(angles)],
+    }
+
+
+def _point(found, k, angle, error):
+    plain, curvature = found.to_plain()[k], found.records["curvature"][k]
+    shown = plain["outcome"] == "unique"
+    ends = [exact.bounds(ball) for ball in curvature] if shown else []
+    return {
+        "pinion_angle_deg": str(float(angle)),
+        "outcome": plain["outcome"],
+        "reason": plain["reason"],
+        "transmission_error_arcsec": [float(error[0]), float(error[1])] if shown else None,
+        "contact_point_mm": plain["contact_point_mm"],
+        "contact_point_radius_mm": plain["contact_point_radius_mm"],
+        "relative_curvature_per_mm": [[exact.downwards(low), exact.upwards(high)] for low, high in ends] or None,
+        "flags": [name for name, word in plain["flags"].items() if word == "yes"],
+        "undecided": [name for name, word in plain["flags"].items() if word == "undecided"],
+    }
+
+
+def row(named, point):
+    """A point as a flat row of the table."""
+    flat = {"case": named["name"]}
+    for key, value in point.items():
+        if key in ("flags", "undecided"):
+            flat[key] = " ".join(value)
+        elif key == "relative_curvature_per_mm":
+            for which, pair in zip(("min", "max"), value or (("", ""), ("", "")), strict=True):
+                name = f"relative_curvature_{which}_per_mm"
+                flat |= {f"{name}_low": pair[0], f"{name}_high": pair[1]}
+        elif key == "transmission_error_arcsec":
+            flat |= dict(zip((f"{key}_low", f"{key}_high"), value or ("", ""), strict=True))
+        elif key == "contact_point_mm":
+            flat |= dict(zip((f"{key}_{axis}" for axis in "xyz"), value or ("", "", ""), strict=True))
+        else:
+            flat[key] = "" if value is None else value
+    return flat
+
+
+def manifest(folder, cases):
+    """The RO-Crate 1.1 manifest of what was written."""
+    kinds = {".toml": "application/toml", ".json": "application/json", ".csv": "text/csv"}
+    names = ["contacts.json", "contacts.csv", *(c["design"] for c in cases)]
+    files = [_file(folder / name, name, kinds) for name in names]
+    root = {
+        "@id": "./", "@type": "Dataset", "name": "Certified contacts of gear drives", "datePublished": DATE,
+        "description": "Transmission error, contact point and relative curvatures of gear drives at decimal pinion "
+        "angles, each between proved bounds, for testing programs of tooth contact analysis. Angles in degrees, "
+        "lengths in millimetres, fixed frame of the drive; a point is within its radius in each coordinate.",
+        "license": {"@id": "https://spdx.org/licenses/MIT-0"}, "hasPart": [{"@id": f["@id"]} for f in files],
+    }  # fmt: skip
+    about = {
+        "@id": "ro-crate-metadata.json", "@type": "CreativeWork", "about": {"@id": "./"},
+        "conformsTo": {"@id": "https://w3id.org/ro/crate/1.1"},
+    }  # fmt: skip
+    return {"@context": "https://w3id.org/ro/crate/1.1/context", "@graph": [about, root, *files]}
+
+
+def _file(path, name, kinds):
+    content = path.read_bytes()
+    return {
+        "@id": name, "@type": "File", "encodingFormat": kinds[path.suffix], "contentSize": str(len(content)),
+        "sha256": hashlib.sha256(content).hexdigest(),
+    }  # fmt: skip
