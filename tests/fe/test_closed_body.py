@@ -98,3 +98,28 @@ def test_what_has_no_closed_body_says_why(capsys):
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid", "--teeth", "999", "--stl", "-"]) == 2
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid"]) == 2
     assert "choose from 1 to" in capsys.readouterr().err
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("name", ["zk-zn-30", "zk-zn-90"])
+def test_a_wheel_whose_flank_narrows_to_a_cusp_is_whole_from_face_to_face(name):
+    """The hob's axis crosses the wheel's symmetrically: a half turn about the middle of a tooth changes nothing."""
+    drive = Drive.load(name)
+    body = closed_body(drive, "wheel", 1, departure=2e-2)
+    edges = _edges(body.triangles)
+    there, back = (set(map(tuple, e.tolist())) for e in (edges, edges[:, ::-1]))
+    assert len(there) == len(edges) and there == back
+    half = 0.5 * drive.design.value("wheel_face_width_mm", "blank")
+    assert (body.points[:, 2].min(), body.points[:, 2].max()) == pytest.approx((-half, half), abs=1e-9)
+    tip = drive.design.value("wheel_tip_radius_mm", "blank")
+    assert np.hypot(body.points[:, 0], body.points[:, 1]).max() == pytest.approx(tip, abs=1e-9)
+    corners = body.points[body.triangles]
+    parts = np.sum(np.cross(corners[:, 0], corners[:, 1]) * corners[:, 2], axis=1) / 6.0
+    moment = (parts[:, None] * corners.sum(axis=1) / 4.0).sum(axis=0)
+    assert abs(moment[2]) / body.volume < 1e-3 * half
+
+
+def test_a_coarse_grid_reaches_as_far_as_a_fine_one():
+    drive = Drive.load("zk-zn-30")
+    coarse, fine = (drive.surface("wheel", shape).values[:, 0] for shape in ((2, 9), (41, 9)))
+    assert (coarse.min(), coarse.max()) == pytest.approx((fine.min(), fine.max()), abs=0.05)

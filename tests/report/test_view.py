@@ -8,7 +8,7 @@ import pytest
 from meshwright import Drive
 from meshwright.pattern.pattern import along_ellipse
 from meshwright.report import analyse
-from meshwright.report.scene import scene
+from meshwright.report.scene import flank_data, scene
 
 from .conftest import DESIGNS, quiet
 
@@ -30,22 +30,44 @@ def drawn(body, patch, position):
     return tuple(np.concatenate(f) for f in found)
 
 
+def distance(point, facets):
+    """From a point to the nearest of triangles (T, 3, 3)."""
+    near, side = facets - point, np.roll(facets, -1, axis=1) - facets
+    normals = np.cross(side[:, 0], side[:, 1])
+    along = np.clip(-np.sum(near * side, axis=2) / np.sum(side**2, axis=2), 0.0, 1.0)
+    edges = np.linalg.norm(near + along[:, :, None] * side, axis=2).min(axis=1)
+    over = (np.einsum("tkj,tj->tk", np.cross(near, side), normals) >= 0.0).all(axis=1)
+    planes = np.abs(np.sum(near[:, 0] * normals, axis=1)) / np.linalg.norm(normals, axis=1)
+    return np.where(over, planes, edges).min()
+
+
 @pytest.mark.parametrize("name", DESIGNS)
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
-    """The grid point nearest to a contact is within a cell of it, and far closer to the tangent plane."""
+    """No contact is further from either drawn flank than a small part of what the view shows."""
     view = scene(analysed(name))
     steps, last = view["steps_per_pitch"], len(view["contacts"]) - 1
     position = round(share * last)
     contact_points = [view["contacts"][at]["point"] for at in range(position % steps, last + 1, steps)]
-    cell = view["radius"] / 15
     for body in view["bodies"]:
-        points, normals = drawn(body, body["patches"][0], position)
+        points, _ = drawn(body, body["patches"][0], position)
+        corners = np.frombuffer(base64.b64decode(body["patches"][0]["triangles"]), dtype="<u4").reshape(-1, 3)
+        count = len(points) // len(body["copies"])
+        facets = points[np.concatenate([corners + count * k for k in range(len(body["copies"]))])]
         for contact in np.array(contact_points):
-            offsets = points - contact
-            nearest = np.nanargmin(np.linalg.norm(offsets, axis=1))
-            assert np.linalg.norm(offsets[nearest]) < cell
-            assert abs(offsets[nearest] @ normals[nearest]) < 0.1 * cell
+            assert distance(contact, facets) < view["radius"] / 150
+
+
+@pytest.mark.parametrize("name", ["zk-zn-90", "plain-zc"])
+def test_drawn_flanks_keep_within_the_blank(name):
+    """Also where the surface has a pole beyond the tip: no vertex past tip or face."""
+    drive = Drive.load(name)
+    data = flank_data(drive.region("wheel"), True, np.ones(3), 0.5)
+    points = unpacked(data["points"], -1, 3)
+    corners = np.frombuffer(base64.b64decode(data["triangles"]), dtype="<u4").reshape(-1, 3)
+    assert len(corners) > 500 and corners.max() < len(points)
+    assert np.hypot(points[:, 0], points[:, 1]).max() < drive.design.value("wheel_tip_radius_mm", "blank") + 1e-5
+    assert np.abs(points[:, 2]).max() < 0.5 * drive.design.value("wheel_face_width_mm", "blank") + 1e-5
 
 
 @pytest.mark.validate

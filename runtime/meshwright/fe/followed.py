@@ -28,83 +28,84 @@ _ON_PLACE, _STILL = 1e-10, 1e-14
 
 @dataclass(frozen=True)
 class Line:
-    """Sections z (K,) of a surface over a monotone row of profile parameters (P,).
+    """Sections z (K,) of a surface over monotone rows of profile parameters (P, K), equally spaced in each section.
 
-    face (P, K): the angle; beyond a cusp that of the last regular place.  regular (P, K): False from a cusp on.
-    radius (P, K) in mm.
+    start (K,): the profile parameter from which each section was followed.  face (P, K): the angle; beyond a cusp that
+    of the last regular place.  regular (P, K): False from a cusp on.  radius (P, K) in mm.
     """
 
     generated: Generated
     sections: Floats
     profile: Floats
+    start: Floats
     face: Floats
     regular: Bools
     radius: Floats
 
     @classmethod
-    def follow(cls, generated: Generated, sections: Floats, start: float, end: float, steps: int) -> Line:
-        """From a profile parameter, at an angle of 0 and then in the sections, to another in so many steps.
+    def follow(cls, generated: Generated, sections: Floats, start: tuple[Floats, Floats], profile: Floats) -> Line:
+        """From a place near each section, profile parameter and angle (K,), both ways along it over ``profile`` (P, K).
 
-        Raises ValueError where a section does not reach the start.
+        Raises ValueError where a section does not hold its start.
         """
-        first = np.full_like(sections, start)
-        face = np.zeros_like(sections)
-        height = generated(first, face).points[:, 2]
-        for share in np.linspace(0.0, 1.0, steps // 4 + 1):
-            face = _in_section(generated, first, face, height + share * (sections - height))
-        profile = np.linspace(start, end, steps + 1)
-        faces, regulars, radii = [], [], []
-        regular = np.ones(len(sections), dtype=bool)
-        for value in profile:
-            place = np.full_like(sections, value)
-            trial = _in_section(generated, place, face, sections)
-            found = generated(place, trial)
-            regular = regular & (found.regular > 0.0) & (np.abs(found.points[:, 2] - sections) < _ON_PLACE)
-            face = np.where(regular, trial, face)
-            faces.append(face)
-            regulars.append(regular)
-            radii.append(np.hypot(found.points[:, 0], found.points[:, 1]))
-        if not np.all(regulars[0]):
+        first = start[0]
+        begun = in_section(generated, first, start[1], sections)
+        if not np.all(held(generated(first, begun), sections)):
             raise ValueError("the surface does not reach some section of its face, or only on another sheet")
-        return cls(generated, sections, profile, np.stack(faces), np.stack(regulars), np.stack(radii))
-
-    def joined(self, other: Line) -> Line:
-        """With one that goes the other way from the same start."""
-        def both(here: NDArray, there: NDArray) -> NDArray:
-            return np.concatenate([here[:0:-1], there])
-
-        tables = (both(getattr(self, n), getattr(other, n)) for n in ("profile", "face", "regular", "radius"))
-        return Line(self.generated, self.sections, *tables)
+        up = np.sign(profile[-1] - profile[0])
+        faces, regulars = np.tile(begun, (len(profile), 1)), np.zeros(profile.shape, dtype=bool)
+        radii = np.full(profile.shape, np.nan)
+        for way in (1, -1):
+            face, regular = begun.copy(), np.ones(len(sections), dtype=bool)
+            for k in range(len(profile))[::way]:
+                mine = up * way * (profile[k] - first) >= 0.0
+                faces[k, mine] = face[mine]
+                (on,) = np.nonzero(mine & regular)
+                if not len(on):
+                    continue
+                place = profile[k, on]
+                trial = in_section(generated, place, face[on], sections[on])
+                found = generated(place, trial)
+                good = held(found, sections[on])
+                regular[on] = regulars[k, on] = good
+                face[on[good]] = faces[k, on[good]] = trial[good]
+                radii[k, on] = np.hypot(found.points[:, 0], found.points[:, 1])
+        return cls(generated, sections, profile, first, faces, regulars, radii)
 
     def of(self, chosen: Bools) -> Line:
         """The same in some of the sections."""
         tables = (table[:, chosen] for table in (self.face, self.regular, self.radius))
-        return Line(self.generated, self.sections[chosen], self.profile, *tables)
+        return Line(
+            self.generated, self.sections[chosen], self.profile[:, chosen], self.start[chosen], *tables
+        )
 
     @cached_property
     def _near(self) -> RegularGridInterpolator:
-        return RegularGridInterpolator((self.profile, self.sections), self.face, bounds_error=False, fill_value=None)
+        shares = np.linspace(0.0, 1.0, len(self.profile))
+        return RegularGridInterpolator((shares, self.sections), self.face, bounds_error=False, fill_value=None)
 
     def surface(self, profile: Floats, sections: Floats) -> tuple[Floats, Floats]:
         """Points and normals over profile parameter and z, between the line's own sections."""
         profile, sections = np.broadcast_arrays(profile, sections)
         places, wanted = profile.ravel(), sections.ravel()
-        face = _in_section(self.generated, places, self._near(np.stack([places, wanted], axis=1)), wanted)
+        first, last = (np.interp(wanted, self.sections, row) for row in (self.profile[0], self.profile[-1]))
+        share = (places - first) / (last - first)
+        face = in_section(self.generated, places, self._near(np.stack([share, wanted], axis=1)), wanted)
         found = self.generated(places, face)
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
     def at(self, profile: Floats) -> FlankPoints:
         """The surface at a profile parameter (K,) in each section."""
-        return self.generated(profile, _in_section(self.generated, profile, self._face(profile), self.sections))
+        return self.generated(profile, in_section(self.generated, profile, self._face(profile), self.sections))
 
     def _face(self, profile: Floats) -> Floats:
         sense = np.sign(self.profile[-1] - self.profile[0])
-        columns = zip(profile, self.face.T, strict=True)
-        return np.array([np.interp(sense * value, sense * self.profile, face) for value, face in columns])
+        columns = zip(profile, sense, self.profile.T, self.face.T, strict=True)
+        return np.array([np.interp(way * value, way * row, face) for value, way, row, face in columns])
 
     def cusp(self) -> Floats:
         """Profile parameter (K,) in each section up to which a line that meets a cusp is regular."""
-        return self._end_of(self.regular, lambda found: found.regular > 0.0)
+        return self._end_of(lambda found: found.regular > 0.0, self.regular)
 
     def up_to(self, height: Callable[[FlankPoints], Floats]) -> Floats:
         """Profile parameter (K,) in each section at which a height (N,) of places of the surface first falls to zero.
@@ -115,22 +116,26 @@ class Line:
             return (found.regular > 0.0) & (height(found) > 0.0)
 
         places = zip(self.profile, self.face, self.regular, strict=True)
-        held = np.stack([
-            regular & inside(self.generated(np.full_like(face, value), face)) for value, face, regular in places
+        below = np.stack([
+            regular & inside(self.generated(value, face)) for value, face, regular in places
         ])
-        if not np.all(held.any(axis=0)):
+        if not np.all(inside(self.at(self.start))):
             raise ValueError("some section of its face has no flank below the tip")
-        found = self._end_of(held, inside)
+        found = self._end_of(inside, below)
         if not np.all(np.abs(height(self.at(found))) < _ON_PLACE):
             raise ValueError("the flank does not reach its tip in every section of its face")
         return found
 
-    def _end_of(self, held: Bools, holds: Callable[[FlankPoints], Bools]) -> Floats:
-        """Last profile parameter (K,) in each section of the first run of places (P, K) that are held."""
-        first = np.argmax(held, axis=0)
-        beyond = np.arange(len(held))[:, None] > first
-        last = np.where(np.any(beyond & ~held, axis=0), np.argmax(beyond & ~held, axis=0) - 1, len(held) - 1)
-        inside, outside = self.profile[last], self.profile[np.minimum(last + 1, len(held) - 1)]
+    def _end_of(self, holds: Callable[[FlankPoints], Bools], kept: Bools) -> Floats:
+        """Last profile parameter (K,) in each section of the run from its start on of places (P, K) that are kept."""
+        up, column = np.sign(self.profile[-1] - self.profile[0]), np.arange(len(self.sections))
+        after = up * (self.profile - self.start) > 0.0
+        lost = after & ~kept
+        end = np.where(lost.any(axis=0), np.argmax(lost, axis=0), len(kept) - 1)
+        before = np.maximum(end - 1, 0)
+        inside = np.where(after[before, column], self.profile[before, column], self.start)
+        outside = self.profile[end, column]
+        inside = np.where(lost.any(axis=0), inside, outside)
         for _ in range(_BISECTIONS):
             middle = 0.5 * (inside + outside)
             good = holds(self.at(middle))
@@ -139,8 +144,8 @@ class Line:
 
     def at_radius(self, radius: Floats) -> tuple[Floats, Floats]:
         """Profile parameter (K,) and point (K, 3) at a radius (K,); not a number beyond the largest one followed."""
-        grown = np.maximum.accumulate(self.radius)
-        profile = np.array([np.interp(r, column, self.profile) for r, column in zip(radius, grown.T, strict=True)])
+        grown = np.maximum.accumulate(np.nan_to_num(self.radius, nan=-np.inf))
+        profile = np.array([np.interp(r, *column) for r, *column in zip(radius, grown.T, self.profile.T, strict=True)])
         face = self._face(profile)
         for _ in range(_NEWTON_STEPS):
             found = self.generated(profile, face)
@@ -157,7 +162,21 @@ class Line:
         return profile, np.where(((radius <= grown[-1]) & (miss < _ON_PLACE))[:, None], found, np.nan)
 
 
-def _in_section(generated: Generated, profile: Floats, face: Floats, sections: Floats) -> Floats:
+def level(generated: Generated, sections: Floats, profile: Floats, steps: int = 16) -> Floats:
+    """Angle (K,) in the sections at a profile parameter (K,), followed there from an angle of 0."""
+    face = np.zeros_like(sections)
+    height = generated(profile, face).points[:, 2]
+    for share in np.linspace(0.0, 1.0, steps + 1):
+        face = in_section(generated, profile, face, height + share * (sections - height))
+    return face
+
+
+def held(found: FlankPoints, sections: Floats) -> Bools:
+    """Whether places are regular ones of their sections."""
+    return (found.regular > 0.0) & (np.abs(found.points[:, 2] - sections) < _ON_PLACE)
+
+
+def in_section(generated: Generated, profile: Floats, face: Floats, sections: Floats) -> Floats:
     """Angle (K,) near ``face`` at which the surface is in the sections."""
     for _ in range(_NEWTON_STEPS):
         found = generated(profile, face)

@@ -10,21 +10,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.fe.followed import Generated, Line
+from meshwright.fe.followed import Generated, Line, level
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.rounding import Span
 from meshwright.fe.sizes import key_of
+from meshwright.fe.spine import Spine
 from meshwright.fe.tooth import ToothSide
 from meshwright.flank.surface import Flank, FlankPoints
 
-_SAMPLES = 17
+_SAMPLES = 33
 # Steps from the middle of the flank to either end, or along the fillet.
 _STEPS = 64
 _BISECTIONS, _NEWTON_STEPS = 50, 30
@@ -38,14 +38,12 @@ def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, fl
     not leave a whole side.
     """
     values = np.linspace(*faces, _SAMPLES)
-    wheel = _Wheel.of(drive, member, span)
-    inner, outer = (Line.follow(wheel.flank, values, span.middle, end, _STEPS) for end in (wheel.joint, span.tip))
-    flank, fillet = inner.joined(outer), Line.follow(wheel.fillet, values, 0.0, wheel.turn, _STEPS)
-    tip = CubicSpline(values, flank.up_to(_below_tip))
+    wheel = _Wheel.of(drive, member, span, faces)
+    flank, fillet = wheel.line(values), wheel.root(values)
     wheel.ends(values)  # now, rather than when a mesh asks for it
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),
-        SectionCurves(flank.surface, _axial, lambda sections: wheel.ends(sections)[0], tip),
+        SectionCurves(flank.surface, _axial, lambda sections: wheel.ends(sections)[0], wheel.tips),
     )
 
 
@@ -63,19 +61,21 @@ def _below_tip(found: FlankPoints) -> Floats:
 class _Wheel:
     """What a tool cuts: flank over (t, rack angle), fillet over (turn of the tool's normal from the land, rack angle).
 
-    middle: t in the middle of the flank.  joint: t of the edge between the tool's flank and its rounding.  turn: that
-    of the normal on this edge in rad.
+    spine: places of the flank from face to face.  joint: t of the edge between the tool's flank and its rounding.
+    turn: that of the normal on this edge in rad.
     """
 
     flank: Generated
     fillet: Generated
-    middle: float
+    spine: Spine
     joint: float
     turn: float
 
     @classmethod
-    def of(cls, drive: Drive, member: str, span: Span) -> _Wheel:
-        """Raises DesignError where the rounding of the tool's tip finds no place on its flank."""
+    def of(cls, drive: Drive, member: str, span: Span, faces: tuple[float, float]) -> _Wheel:
+        """Raises DesignError where the rounding of the tool's tip finds no place on its flank, ValueError where the
+        flank does not go from face to face.
+        """
         flank, rounding = (drive.flank(member, region) for region in ("flank", "fillet"))
         joint, turn = _edge(rounding, span.root)
         if not np.isfinite([joint, turn]).all():
@@ -90,35 +90,58 @@ class _Wheel:
         def on_fillet(turned: Floats, face: Floats) -> FlankPoints:
             return rounding(np.stack([turned, np.full_like(turned, joint), face], axis=1))
 
-        return cls(on_flank, on_fillet, span.middle, joint, turn)
+        ends = joint, span.tip
+        spine = Spine.along(on_flank, faces, span.middle, ends, lambda at: _below_tip(at) > 0.0, _STEPS)
+        return cls(on_flank, on_fillet, spine, joint, turn)
+
+    def line(self, sections: Floats) -> Line:
+        """The flank in the sections (K,), from its root to beyond its tip."""
+        return Line.follow(self.flank, sections, self.spine.at(sections), self.spine.rows(sections, 2 * _STEPS + 1))
+
+    def root(self, sections: Floats) -> Line:
+        """The fillet in the sections (K,), from the land to the flank's edge."""
+        land = np.zeros_like(sections)
+        start = land, level(self.fillet, sections, land)
+        rows = np.linspace(land, np.full_like(land, self.turn), _STEPS + 1)
+        return Line.follow(self.fillet, sections, start, rows)
+
+    def tips(self, sections: Floats) -> Floats:
+        """t (K,) of the flank at the blank's tip in the sections (K,)."""
+        return self.line(sections).up_to(_below_tip)
 
     def ends(self, sections: Floats) -> tuple[Floats, Floats]:
         """t of the flank and turn of the normal (K,), (K,) where flank and fillet meet in the sections (K,).
 
         Raises ValueError where they do not.
         """
-        flank = Line.follow(self.flank, sections, self.middle, self.joint, _STEPS)
+        rows = self.spine.rows(sections, 2 * _STEPS + 1)[::-1]
+        flank = Line.follow(self.flank, sections, self.spine.at(sections), rows)
         joint, turn = np.full_like(sections, self.joint), np.full_like(sections, self.turn)
-        undercut = ~np.all(flank.regular, axis=0)
+        undercut = ~(flank.regular[-1] & (flank.profile[-1] == self.joint))
         if undercut.any():
             joint[undercut], turn[undercut] = self._crossing(flank.of(undercut))
         return joint, turn
 
     def _crossing(self, flank: Line) -> tuple[Floats, Floats]:
-        """The same where the flank is undercut, by bisection between its middle and its cusp."""
-        fillet = Line.follow(self.fillet, flank.sections, 0.0, self.turn, _STEPS)
-        kept, cut = np.full_like(flank.sections, self.middle), flank.cusp()
+        """The same where the flank is undercut, by bisection between its tip and its cusp."""
+        fillet = self.root(flank.sections)
+        kept, cut = flank.start, flank.cusp()
         middle = flank.at(kept)
         outward = np.sign(_azimuthal(middle.points, middle.normals))
-        here = cut
-        for _ in range(_BISECTIONS):
-            points = flank.at(here).points
+
+        def cut_away(place: Floats) -> tuple[Floats, Floats]:
+            points = flank.at(place).points
             turn, beside = fillet.at_radius(np.hypot(points[:, 0], points[:, 1]))
-            removed = outward * _azimuthal(points, points - beside) > 0.0
-            if here is cut and not removed.all():
-                raise ValueError("the flank ends in a cusp that the fillet does not reach")
-            kept, cut = np.where(removed, kept, here), np.where(removed, here, cut)
+            return turn, outward * _azimuthal(points, points - beside) > 0.0
+
+        if cut_away(kept)[1].any():
+            kept = np.where(cut_away(kept)[1], self.tips(flank.sections), kept)
+        if not cut_away(cut)[1].all():
+            raise ValueError("the flank ends in a cusp that the fillet does not reach")
+        for _ in range(_BISECTIONS):
             here = 0.5 * (kept + cut)
+            turn, removed = cut_away(here)
+            kept, cut = np.where(removed, kept, here), np.where(removed, here, cut)
         return here, turn
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.mesh import Triangulation, mesh
-from meshwright.flank.region import NEWTON_STEPS, lengthwise, region, solved
+from meshwright.flank.region import CELLS, NEWTON_STEPS, lengthwise, region, solved
 
 #: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
 SAMPLES, BISECTIONS = 65, 56
@@ -52,7 +52,9 @@ def grid(drive, member, shape, name, uses, inset=0.0):
     triangles = mesh(whole, tuple(n - 1 for n in shape))
     if not len(triangles.triangles):
         raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
-    values = _Lines.over(whole, triangles, shape[1], inset).rows(shape[0], inset)
+    # Coarser triangles may miss a narrow end of the region, beyond which no line would then be looked for.
+    close = triangles if min(shape) > CELLS else mesh(whole, tuple(max(CELLS, n - 1) for n in shape))
+    values = _Lines.over(whole, close, shape[1], inset).rows(shape[0], inset)
     return _of_design(drive, whole.flank, shape, values, triangles)
 
 

@@ -62,21 +62,6 @@ def patch(flank, path, axes, cell):
     return Patch.of(flank, _completed(flank, _extended(path, grid)))
 
 
-def trimmed(flank, whole):
-    """The part of a :class:`Patch` inside the limits: its outermost points moved onto the limit, none beyond."""
-    parameters, inside = whole.parameters.copy(), np.nan_to_num(whole.inside, nan=-np.inf)
-    kept = inside >= 0.0
-    for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
-        near, margin = np.roll(whole.parameters, step, axis), np.roll(inside, step, axis)
-        beside = np.roll(inside >= 0.0, step, axis) & ~kept & np.isfinite(inside)
-        beside[(slice(None),) * axis + ((0 if step > 0 else -1),)] = False
-        share = margin[beside] / (margin[beside] - inside[beside])
-        parameters[beside] = near[beside] + share[:, None] * (whole.parameters[beside] - near[beside])
-        kept |= beside
-    parameters[~kept] = np.nan
-    return Patch.of(flank, _completed(flank, parameters))
-
-
 def _along(at):
     """Tangents (N, 2, 3) by the first two parameters, while a third one keeps to the flank's condition."""
     if not at.conditions.shape[1]:

@@ -1,4 +1,4 @@
-"""The teeth in contact as data for the embedded 3-D view: flank grids, placements, contacts."""
+"""The teeth in contact as data for the embedded 3-D view: meshed flanks, placements, contacts."""
 
 import base64
 import math
@@ -7,11 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.contact.results import ARCSEC
-from meshwright.report.patch import Patch, trimmed
+from meshwright.flank.mesh import mesh
 from meshwright.report.style import MEMBERS
 
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
 LIGHTER = 0.22
+
+#: Cells of a flank's first mesh across and along the tooth, and at most; how many go to the radius of the view.
+FIRST, MOST, CELLS_PER_RADIUS = (12, 24), (32, 192), 24.0
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ def scene(analysis):
     inward = _inward(touch, matrices["pinion"])
     points = touch.points[touch.known]
     centre = points.mean(axis=0)
+    radius = float(np.linalg.norm(points - centre, axis=1).max() + touch.reach)
+    cell = radius / CELLS_PER_RADIUS
     return {
         "angles_deg": np.degrees(tca.angles).tolist(),
         "wheel_deg": _numbers(np.degrees(tca.wheel_angles)),
@@ -53,10 +58,10 @@ def scene(analysis):
         "steps_per_pitch": analysis.steps_per_pitch,
         "breaks": analysis.breaks.tolist(),
         "centre": centre.tolist(),
-        "radius": float(np.linalg.norm(points - centre, axis=1).max() + touch.reach),
+        "radius": radius,
         "view": _view(touch, inward).tolist(),
         "cut": _cut(points, inward),
-        "bodies": [_body(analysis, name, matrices[name]) for name in matrices],
+        "bodies": [_body(analysis, name, matrices[name], cell) for name in matrices],
         "contacts": [_contact(tca, touch, k) if known else None for k, known in enumerate(touch.known)],
     }
 
@@ -87,12 +92,12 @@ def _numbers(values):
     return [float(v) if np.isfinite(v) else None for v in values]
 
 
-def _packed(values):
-    """Single-precision little-endian numbers as base64."""
-    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
+def _packed(values, kind="<f4"):
+    """Little-endian numbers, of single precision if not told otherwise, as base64."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
-def _body(analysis, name, matrices):
+def _body(analysis, name, matrices, cell):
     colour = [int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5)]
     flip = np.array([1.0, analysis.mirror, 1.0])
     return {
@@ -100,32 +105,42 @@ def _body(analysis, name, matrices):
         "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "patches": [_drawn(*side, flip) for side in _sides(analysis, name)],
+        "patches": [flank_data(*side, flip, cell) for side in _sides(analysis, name)],
     }
 
 
 def _sides(analysis, name):
-    """The flank in contact and, if it belongs to the same design, the other side of the tooth: flank, patch, active."""
-    drive, patch = analysis.drive, analysis.patches[name]
-    flank = drive.flank(name)
-    sides = [(flank, patch, True)]
+    """The flank in contact and, if it belongs to the same design, the other side of the tooth: region, active."""
+    drive = analysis.drive
+    sides = [(drive.region(name), True)]
     if not drive.design.description["flanks_apart"]:
         words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
-        other = drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"])).flank(name)
-        sides.append((other, Patch.of(other, patch.parameters), False))
+        other = drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
+        sides.append((other.region(name), False))
     return sides
 
 
-def _drawn(flank, patch, active, flip):
-    """A flank inside its limits, single precision."""
-    drawn = trimmed(flank, patch)
+def flank_data(region, active, flip, cell):
+    """A flank with its border resolved, in cells of about ``cell`` mm: points, normals, corners of triangles."""
+    drawn = mesh(region, FIRST)
+    if len(drawn.triangles):
+        drawn = mesh(region, tuple(_finer(region, drawn, cell, axis) for axis in (0, 1)))
     return {
-        "rows": drawn.inside.shape[0],
-        "columns": drawn.inside.shape[1],
         "active": active,
         "points": _packed(drawn.points * flip),
         "normals": _packed(drawn.normals * flip),
+        "triangles": _packed(drawn.triangles, "<u4"),
     }
+
+
+def _finer(region, drawn, cell, axis):
+    """How many cells of about ``cell`` mm go along one coordinate of a region, by such edges of a first mesh."""
+    corners = drawn.triangles
+    here, there = corners.ravel(), np.roll(corners, 1, axis=1).ravel()
+    across = np.abs(drawn.parameters[here] - drawn.parameters[there])[:, region.chart.free[1 - axis]]
+    along = across < 1e-6 * np.ptp(region.box[:, 1 - axis])
+    lengths = np.linalg.norm(drawn.points[here] - drawn.points[there], axis=1)[along]
+    return int(np.clip(round(FIRST[axis] * np.quantile(lengths, 0.9) / cell), FIRST[axis], MOST[axis]))
 
 
 def _copies(analysis, name):

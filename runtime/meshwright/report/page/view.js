@@ -30,11 +30,10 @@
     copies: body.copies,
     matrices: decoded(body.matrices, Float32Array),
     patches: body.patches.map((patch) => ({
-      rows: patch.rows,
-      columns: patch.columns,
       active: patch.active,
       points: decoded(patch.points, Float32Array),
       normals: decoded(patch.normals, Float32Array),
+      triangles: decoded(patch.triangles, Uint32Array),
     })),
   }));
 
@@ -74,13 +73,13 @@
     layers = bodies.map(() => ({ depth: new Float32Array(width * height), shade: new Float32Array(width * height) }));
   }
 
-  /* Values of a grid point on the screen: place (2), depth, shade, and how far inside the cut it lies. */
+  /* Values of a vertex on the screen: place (2), depth, shade, and how far inside the cut it lies. */
   const VALUES = 5;
 
   function drawPatch(layer, patch, matrix, cut) {
-    const { rows, columns, points, normals } = patch;
-    const screen = new Float64Array(VALUES * rows * columns);
-    for (let i = 0; i < rows * columns; i++) {
+    const { points, normals, triangles } = patch;
+    const vertices = points.length / 3, screen = new Float64Array(VALUES * vertices);
+    for (let i = 0; i < vertices; i++) {
       const x = points[3 * i], y = points[3 * i + 1], z = points[3 * i + 2];
       const p = [0, 4, 8].map((r) => matrix[r] * x + matrix[r + 1] * y + matrix[r + 2] * z + matrix[r + 3]);
       const [u, v, near] = projected(p);
@@ -93,16 +92,11 @@
       const shade = (0.78 + 0.5 * lit) * (side > 0 ? 1 : 0.9) * (patch.active ? 1 : 0.82);
       screen.set([u, v, near, shade, kept], VALUES * i);
     }
-    for (let r = 0; r + 1 < rows; r++)
-      for (let c = 0; c + 1 < columns; c++) {
-        const a = VALUES * (r * columns + c), b = a + VALUES, d = a + VALUES * columns, e = d + VALUES;
-        const band = ((r >> 2) + (c >> 2)) & 1 ? 0.93 : 1;
-        drawTriangle(layer, screen, a, b, d, band);
-        drawTriangle(layer, screen, b, e, d, band);
-      }
+    for (let k = 0; k < triangles.length; k += 3)
+      drawTriangle(layer, screen, VALUES * triangles[k], VALUES * triangles[k + 1], VALUES * triangles[k + 2]);
   }
 
-  function drawTriangle(layer, s, a, b, c, band) {
+  function drawTriangle(layer, s, a, b, c) {
     const ax = s[a], ay = s[a + 1], bx = s[b], by = s[b + 1], cx = s[c], cy = s[c + 1];
     const area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
     if (!(Math.abs(area) > 1e-9)) return; /* degenerate, or a point that does not exist (NaN) */
@@ -117,7 +111,7 @@
         const near = wa * s[a + 2] + wb * s[b + 2] + wc * s[c + 2], at = y * canvas.width + x;
         if (near > layer.depth[at] && wa * s[a + 4] + wb * s[b + 4] + wc * s[c + 4] > 0) {
           layer.depth[at] = near;
-          layer.shade[at] = band * (wa * s[a + 3] + wb * s[b + 3] + wc * s[c + 3]);
+          layer.shade[at] = (wa * s[a + 3] + wb * s[b + 3] + wc * s[c + 3]);
         }
       }
   }
