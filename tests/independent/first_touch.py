@@ -94,7 +94,7 @@ class FirstTouch:
             centre, half = lines[k], (3.0 * half if window == 0 else half * LINES) / (NARROWER * LINES / 2.0)
             near = 0.5 * (a_high - a_low) * CLOSER ** (window + 1) * np.linspace(-1.0, 1.0, SAMPLES // 2)
             close = np.clip(places[k] + near, a_low, a_high)
-            samples = np.union1d(np.linspace(a_low, a_high, SAMPLES // 2 + 1), close)
+            samples = np.union1d(np.linspace(a_low, a_high, SAMPLES), close)
         return self.side * best
 
     def _on_lines(self, lines, a):
