@@ -29,7 +29,7 @@ def only(drive, words):
         checker.CODE.attempt(*check)
 
 
-@pytest.mark.parametrize("name", [SPUR, "face_worm"])
+@pytest.mark.parametrize("name", [SPUR, pytest.param("face_worm", marks=pytest.mark.validate)])
 def test_a_drive_is_its_description(name):
     assert checker.check_drive(*paths(name)) > 80
 
@@ -53,6 +53,13 @@ def test_a_drive_without_description_is_refused(tmp_path, capsys):
         ("start_solution", r"x\[1\] = (\w+);", r"x[1] = -\1;", "solution"),
         ("observe", r"o\[3\] = (\S+);", r"o[3] = -\1;", "normal_pinion_f"),
         ("generation", r"o\[6\] = (\S+);", r"o[6] = -\1;", "generation"),
+        ("placement", r"o\[22\] = (\S+);", r"o[22] = -\1;", "placement of the wheel"),
+        ("placement", r"o\[30\] = s\[\d+\];", "o[30] = s[118];", "placement of the wheel"),
+        ("setup", r"t35 = 1\.0 \+ t28;", "t35 = 1.0 - t28;", "guard 0"),
+        ("observe", r"o\[27\] = (\S+);", r"o[27] = -\1;", "regular_pinion"),
+        ("observe", r"o\[49\] = (\S+);", r"o[49] = -\1;", "second_form_pinion"),
+        ("observe", r"o\[59\] = (\S+);", r"o[59] = -\1;", "lever arms"),
+        ("curvature_flank_pinion", r"o\[7\] = (\S+);", r"o[7] = -\1;", "curvature of flank_pinion"),
     ],
 )
 def test_a_changed_function_is_refused(function, pattern, other, words):
@@ -83,3 +90,62 @@ def test_a_changed_factor_of_a_motion_is_refused():
     turned[2] = ["*", -1, turned[2]]
     with pytest.raises(checker.Rejected, match="point_wheel_f"):
         only(checker.Drive(described, header), "point_wheel_f")
+
+
+def drive_of(name, change=lambda text: text, changes=lambda text: text):
+    """A drive with its header or the changes of its rules altered."""
+    description, header = paths(name)
+    beside = header.with_name(f"{name}_sensitivity.h").read_text(encoding="utf-8")
+    text = change(header.read_text(encoding="utf-8"))
+    return checker.Drive(json.loads(description.read_text(encoding="utf-8")), text, changes(beside))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("const double t1 = dp[2] * 0.5;", "const double t1 = dp[2] * 0.25;"), (" && known[2] == known[2]", "")],
+)
+def test_a_wrong_change_of_a_rule_is_refused(old, new):
+    only(drive_of(ZN), "changes by rule 9 ")
+    with pytest.raises(checker.Rejected, match="rule 9"):
+        only(drive_of(ZN, changes=lambda text: text.replace(old, new, 1)), "changes by rule 9 ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("J[8] = t", "J[8] = -t", "pitch_point_eval"),
+        ("if (q[21] != q[21]) q[21] = y[1];", "if (q[21] != q[21]) q[21] = y[2];", "pitch_point_fill"),
+        ("    y[0] = q[3];", "    y[0] = q[4];", "pitch_point_scale"),
+        ("    return t121;", "    return t119;", "inner_point_watch"),
+    ],
+)
+def test_a_changed_system_of_a_design_is_refused(old, new, words):
+    def change(text):
+        returned = "double" if "watch" in words else "void"
+        head, signature, body = text.partition(f"static inline {returned} face_worm_{words}(")
+        assert old in body
+        return head + signature + body.replace(old, new, 1)
+
+    with pytest.raises(checker.Rejected, match="description"):
+        only(drive_of("face_worm", change), words)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("z, 0.1999999999999552,", "z, 0.1999999999995,"), ("3.141592653589793 - octant", "3.141592653589793 + octant"),
+     ("small > 0.41421356237309503", "small > 0.4142135")],
+)  # fmt: skip
+def test_a_changed_kernel_of_atan2_is_refused(old, new):
+    text = paths(ZN)[1].read_text(encoding="utf-8")
+    checker.CODE.check_arc_kernel(text)
+    assert old in text
+    with pytest.raises(checker.Rejected, match="atan2"):
+        checker.CODE.check_arc_kernel(text.replace(old, new))
+
+
+def test_a_guard_of_the_lanes_that_is_not_that_of_setup_is_refused():
+    text, lanes = (paths(ZN)[1].with_name(f"{ZN}{end}.h").read_text(encoding="utf-8") for end in ("", "_lanes"))
+    header = checker.CODE.read_header(text, lanes)
+    changed = lanes.replace("(t35 > 0.0 ?", "(t36 > 0.0 ?", 1)
+    with pytest.raises(checker.Rejected, match="guard 0"):
+        checker.CODE.attempt(checker.CODE.check_lanes, header, changed)
