@@ -18,6 +18,10 @@ def add_arguments(parser):
         "--marking-um", type=common.positive, metavar="UM",
         help="thickness of the marking compound of the composite pattern; default: the design's separation",
     )  # fmt: skip
+    parser.add_argument(
+        "--misalign", action="append", default=[], metavar="KEY=SIZE",
+        help="size of a misalignment whose effect is shown, in the unit of its key; repeatable",
+    )  # fmt: skip
     parser.add_argument("--html", metavar="FILE", help="write the page")
     parser.add_argument("--figures", metavar="FOLDER", help="write the figures for print, one file each")
     parser.add_argument("--format", choices=FORMATS, default="pdf", help="of the figures for print")
@@ -29,14 +33,24 @@ def run(options):
     report = _report()
     drive, friction = common.drive_of(options), common.friction_of(options)
     marking = None if options.marking_um is None else options.marking_um / 1000.0
+    sizes = dict(_misalignment(text) for text in options.misalign)
     with progress(report.steps(drive) + 1) as step:
-        analysis = report.analyse(drive, step, friction, marking)
+        analysis = report.analyse(drive, step, friction, marking, sizes)
         step("figures")
         if options.html:
             write_text(options.html, report.page(analysis))
         if options.figures:
             report.write_figures(analysis, options.figures, options.format)
     return 0 if analysis.tca.complete else 1
+
+
+def _misalignment(text):
+    """``KEY=SIZE`` as (key, number)."""
+    key, _, size = text.partition("=")
+    try:
+        return key.strip(), float(size)
+    except ValueError as error:
+        raise UsageError(f"--misalign {text}: not KEY=SIZE with a number; for example vertical_deg=0.05") from error
 
 
 def _report():

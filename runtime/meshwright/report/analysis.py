@@ -27,7 +27,7 @@ from meshwright.drive import Drive
 from meshwright.pattern.pattern import Contour, along_ellipse, contour
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
-from meshwright.report.sensitivity import Sensitivity, misalignments, sensitivity
+from meshwright.report.sensitivity import Sensitivity, checked_sizes, misalignments, sensitivity
 from meshwright.report.whole_flank import WholeFlank, whole_flanks
 
 #: Least number of positions over the contact of one pair, and largest step of the pinion, rad.
@@ -134,12 +134,13 @@ class Analysis:
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
 
-def analyse(drive, step, friction=None, marking=None):
+def analyse(drive, step, friction=None, marking=None, sizes=None):
     """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work.
 
     ``friction`` is a :class:`~meshwright.contact.friction.Friction` or None; ``marking`` the thickness of the marking
-    compound, mm, by default the design's separation.
+    compound, mm, by default the design's separation; ``sizes`` of misalignments by key, in the unit of the key.
     """
+    sizes = checked_sizes(drive.design, sizes or {})
     step("window of contact")
     mesh = Mesh.of(drive)
     along_lines = mesh.window.status == "line_contact"
@@ -161,7 +162,7 @@ def analyse(drive, step, friction=None, marking=None):
     sensitivities = []
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
-        sensitivities.append(sensitivity(drive, parameter, angles))
+        sensitivities.append(sensitivity(drive, parameter, angles, sizes.get(parameter["key"])))
     moving = velocities(drive, tca)
     return Analysis(
         drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),

@@ -17,19 +17,18 @@ PINION_ANGLE = "pinion angle, deg"
 #: Least room above and below a curve, arcsec or µm.
 LEAST_ROOM = 1e-4
 
+#: Specific sliding beyond this is not drawn.
+MOST_SPECIFIC = 20.0
+
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure of the report: file ``name``, ``title``, ``caption`` in words, and how it is drawn from an analysis.
-
-    A ``wide`` figure takes the whole width of the page.
-    """
+    """A figure of the report: file ``name``, ``title``, ``caption`` in words, and how it is drawn from an analysis."""
 
     name: str
     title: str
     caption: str
     draw: Callable[..., Figure]
-    wide: bool = False
 
     def figure(self, analysis):
         """The drawn figure."""
@@ -52,6 +51,8 @@ def pictures(analysis):
     drawn += [_pattern(member, bool(analysis.lines)) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
+    if solved:
+        drawn.append(_SLIDING)
     if analysis.running is not None and analysis.running.varies:
         drawn.append(_SPECTRUM)
     if known and any(effect.touches for effect in effects):
@@ -190,6 +191,23 @@ def _semi_axes(analysis):
     return figure
 
 
+def _sliding(analysis):
+    moving, angles = analysis.moving, np.degrees(broken(analysis.tca.angles, analysis.breaks))
+    figure = style.figure(6.4, 4.6)
+    speeds, specific = figure.subplots(2, 1, sharex=True)
+    for velocity, name, line in ((moving.sliding, "sliding", "-"), (moving.entraining, "entraining", "--")):
+        values = broken(np.linalg.norm(velocity, axis=1), analysis.breaks)
+        speeds.plot(angles, values, line, color=style.INK, label=name)
+    speeds.set(ylabel="velocity, mm/rad", ylim=(0.0, None))
+    for member, values in moving.specific_sliding.items():
+        shown = np.where(np.abs(values) < MOST_SPECIFIC, values, np.nan)
+        specific.plot(angles, broken(shown, analysis.breaks), color=style.MEMBERS[member], label=member)
+    specific.set(xlabel=PINION_ANGLE, ylabel="specific sliding")
+    for axes in (speeds, specific):
+        axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.0)
+    return figure
+
+
 def _spectrum(analysis):
     amplitudes = analysis.running.amplitudes / ARCSEC
     figure = style.figure(6.4, 3.6)
@@ -227,6 +245,14 @@ _SEMI_AXES = Picture(
     "Semi-axes of the contact ellipse at the design's separation, logarithmic.",
     _semi_axes,
 )
+_SLIDING = Picture(
+    "sliding",
+    "Sliding along the path of contact",
+    "Above: velocity of the pinion's flank relative to the wheel's, and mean velocity of both through the contact, for "
+    f"one radian of the pinion a second. Below: specific sliding, left out beyond {MOST_SPECIFIC:g}, where a flank "
+    "almost rests in the contact.",
+    _sliding,
+)
 _SPECTRUM = Picture(
     "fourier",
     "Fourier components of the transmission error",
@@ -239,7 +265,6 @@ _SENSITIVITY_ERROR = Picture(
     "Relative transmission error of one pair with one misalignment, less that of the design as given. The constant "
     "offset is in the table below. A misalignment under which no contact is found has no panel.",
     sensitivity_figures.error,
-    wide=True,
 )
 _SENSITIVITY_PATH = Picture(
     "sensitivity-path",
@@ -247,5 +272,4 @@ _SENSITIVITY_PATH = Picture(
     "With each misalignment alone, either way, on top of the design as given. One under which no point touches "
     "has no panel.",
     sensitivity_figures.path,
-    wide=True,
 )

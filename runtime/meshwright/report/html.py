@@ -20,7 +20,6 @@ from meshwright.report.tables import groups
 class _Drawn:
     title: str
     caption: str
-    wide: bool
     svg: Markup
 
 
@@ -73,4 +72,4 @@ def _json(data):
 
 def _drawn(picture, analysis):
     svg = style.to_svg(picture.figure(analysis), picture.name, html.escape(picture.title))
-    return _Drawn(picture.title, picture.caption, picture.wide, Markup(svg))
+    return _Drawn(picture.title, picture.caption, Markup(svg))

@@ -8,7 +8,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.report import style
 from meshwright.report.branches import broken
 
-_COLUMNS = 4
+_COLUMNS = 2
 
 #: Longest line of a panel's title, characters.
 _TITLE = 28
@@ -72,7 +72,7 @@ def _panels(effects, height):
     count = len(effects)
     columns = min(count, _COLUMNS)
     rows = -(-count // columns)
-    figure = style.figure(12.8, height * rows)
+    figure = style.figure(6.4, height * rows)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in panels[count:]:
         axes.set_visible(False)

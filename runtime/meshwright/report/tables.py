@@ -1,5 +1,6 @@
 """The tables of a report: the design with every derived size, the results, the sensitivities."""
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,13 @@ POSITION_ROUND_OFF = 1e-12
 
 #: Tables of numbers that no one gives.
 _UNLISTED = ("flank", "placement")
+
+#: Tables whose keys a drawing states, and the keys of both members that it does.
+_DRAWN = ("design", "blank")
+_SHARED = re.compile(
+    r"(normal_|axial_|transverse_|outer_|mean_)?"
+    r"(module|pressure_angle|profile_angle|spiral_angle|shaft_angle|center_distance|offset|face_width)"
+)
 
 
 @dataclass(frozen=True)
@@ -44,8 +52,48 @@ def groups(analysis):
     found = []
     if analysis.sensitivities and np.isfinite(analysis.tca.error).any():
         found.append(_sensitivities(analysis))
-    found += [_design(analysis.drive.design), _positions(analysis)]
+    found += [drawing(analysis), _design(analysis.drive.design), _positions(analysis)]
     return [*found, _sliding(analysis)] if analysis.tca.solved.any() else found
+
+
+def drawing(analysis):
+    """What a drawing of each member and of their assembly states: the :class:`Group` of those keys of the design.
+
+    The first word of the key of a member's number of teeth is in its other keys too, or names its table.
+    """
+    design, prefixes = analysis.drive.design, _prefixes(analysis)
+    rows = [(p["table"], _parameter(design, p)) for p in design.description["parameters"]
+            if p["table"] in (*_DRAWN, *prefixes.values())]  # fmt: skip
+    rows += [("", (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"]))
+             for s in design.description["sizes"]]  # fmt: skip
+    rows = [(table, row) for table, row in rows if row[1] != "–"]
+    tables = []
+    for member, prefix in prefixes.items():
+        own = [(r[0], r[1], r[2], r[4]) for table, r in rows if table == prefix or prefix in r[4].split("_")]
+        tables.append(_stated(member.capitalize(), own))
+    both = [(r[0], r[1], r[2], r[4]) for table, r in rows if table in _DRAWN and _SHARED.match(r[4])]
+    if design.tables["design"].get("hand"):
+        both.append(("hand", design.tables["design"]["hand"], "–", "hand"))
+    both.append(("gear ratio", number(1.0 / analysis.drive.ratio), "–", "ratio"))
+    if analysis.running is not None and np.isfinite(analysis.running.backlash):
+        both.append(("backlash, angle of the wheel", number(analysis.running.backlash / ARCSEC, 4), "″", "–"))
+    tables.append(_stated("Both", both))
+    note = "Sizes of the nominal design, without tolerances; those of the tools are in the tables below."
+    return Group("drawing", "Drawing data", note, tuple(tables), columns=True)
+
+
+def _stated(heading, rows):
+    return Table(heading, ("meaning", "value", "unit", "key"), tuple(rows), frozenset({1}), "drawing")
+
+
+def _prefixes(analysis):
+    """The first word of the keys of each member: that of its number of teeth."""
+    design = analysis.drive.design
+    pinion = design.description["pinion_teeth"]
+    counted = [p["key"] for p in design.description["parameters"] if p["table"] == "design"]
+    counted = [key for key in counted if key.rpartition("_")[2] in ("teeth", "threads") and key != pinion]
+    wheel = next(key for key in counted if round(design.value(key)) == analysis.teeth["wheel"])
+    return {"pinion": pinion.partition("_")[0], "wheel": wheel.partition("_")[0]}
 
 
 def _design(design):

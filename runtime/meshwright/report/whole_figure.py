@@ -57,7 +57,7 @@ class Sheet:
             begin = low[0] + k * size[0] / rows - ROOM * size[0] / rows
             axes.set(xlim=(begin, begin + shown[0]), ylim=(low[1] - ROOM * size[1], high[1] + ROOM * size[1]))
             axes.set_aspect("equal")
-            axes.locator_params(axis="y", nbins=max(2, min(8, round(9 * shown[1] / shown[0]))))
+            axes.locator_params(axis="y", nbins=max(1, min(8, round(18 * shown[1] / shown[0]))))
         panels[-1].set_xlabel(self.labels[0])
         figure.supylabel(self.labels[1], fontsize=9.0) if rows > 1 else panels[0].set_ylabel(self.labels[1])
         return figure, panels
