@@ -273,6 +273,20 @@ def check_rules(drive: Drive, number: int, rng: Random) -> None:
     same(run.value(f"p[{place}]"), Reader(drive.named, values, run)(value), f"derive: rule {number} for {target}")
 
 
+def check_unit(drive: Drive, number: int) -> None:
+    """What a parameter is multiplied by when it is read: a fraction, times the circle's number or not."""
+    entry = drive.description["keys"][number]
+    name, factor = entry["symbol"]["name"], entry["factor"]
+    table = re.search(r"_parameter_names\[\] = {\n(.*?)\n};", drive.text, re.DOTALL)[1]
+    found = re.search(rf'^\s*{{ "{re.escape(name)}", .*", ([\d.e-]+), \S+, \S+ }}', table, re.M)
+    require(found, f"the header has no parameter {name}")
+    exact = Fraction(1)
+    for part in factor[1:] if isinstance(factor, list) and factor[0] == "*" else [factor]:
+        exact *= part if isinstance(part, int) else CODE.PI_ENCLOSED if part == ["pi"] else Fraction(*part[1:])
+    apart = abs(Fraction(float(found[1])) - exact)
+    require(apart <= abs(exact) * Fraction(1, 2**52), f"the unit of {name} is not that of the description")
+
+
 def given_rules(drive: Drive) -> list[tuple[str, object]]:
     defaults = [(key["symbol"]["name"], key["default"]) for key in drive.description["keys"]]
     return [pair for pair in defaults if pair[1] is not None] + [tuple(rule) for rule in drive.description["rules"]]
@@ -785,6 +799,8 @@ def check_drive(description: Path, header: Path) -> int:
     try:
         text, changes = header.read_text(encoding="utf-8"), CODE.read_companion(header, "sensitivity")
         drive = Drive(json.loads(description.read_text(encoding="utf-8")), text, changes)
+        for number in range(len(drive.description["keys"])):
+            check_unit(drive, number)
         for system in drive.description["design_systems"]:
             check_open(drive, system)
         checks = list(checks_of(drive))
