@@ -114,3 +114,20 @@ def test_one_angle_has_one_status_whichever_others_are_asked_for(name):
         for k, angle in enumerate(angles):
             assert short.tca([angle]).status == (together[k],)
             assert short.tca([angle, 0.0]).status[0] == together[k]
+
+
+@pytest.mark.parametrize("shorter", [2.0, -4.0], ids=["past the tips", "wide tips"])
+def test_random_subsets_of_angles_have_the_same_statuses(shorter):
+    """Where the branch folds and the teeth do not reach each other either, at 40.107° alone or with others."""
+    changes = {"hob_pitch_radius_mm": 12.996704, "shaft_angle_deg": 75.5278}
+    errors = {"center_distance_mm": -0.042, "vertical_deg": 0.019, "horizontal_deg": -0.1448}
+    blank = {"worm_tip_radius_mm": 16.62 - shorter, "wheel_tip_radius_mm": 62.62 - shorter}
+    drive = Drive.load("zk-zn-60").with_(design=changes, misalignment=errors, blank=blank)
+    angles = np.radians([40.107, 0.0, -40.107, 170.0, -200.0, 200.0, 240.0, -80.0])
+    assert "fold" in analysis.analyse(drive, angles).status
+    alone = [drive.tca([angle]).status[0] for angle in angles]
+    assert ("no_contact" in alone) == (shorter > 0.0)
+    generator = np.random.default_rng(3)
+    for _ in range(12):
+        chosen = generator.permutation(len(angles))[: generator.integers(2, len(angles) + 1)]
+        assert drive.tca(angles[chosen]).status == tuple(alone[k] for k in chosen)

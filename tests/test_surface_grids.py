@@ -150,6 +150,21 @@ def test_step_passes_through_the_flank_and_says_how_far_it_departs():
     assert _area_of_faces(made.content) == pytest.approx(_area_between_face_and_tip(), rel=1e-4)
 
 
+def test_a_flank_that_ends_in_a_cusp_is_trimmed_within_a_micrometre():
+    """The face's curve stands still in space where it meets the undercut line, but not in the chart."""
+    pytest.importorskip("OCP.TColgp")
+    from meshwright.flank.mesh import mesh
+    from meshwright.flank.step import step
+
+    drive = Drive.load("zk-zn-30")
+    made = step(drive, drive.region("wheel"), (21, 41))
+    assert made.deviation < 1e-3
+    fine = mesh(drive.region("wheel"), (96, 96))
+    a, b, c = (fine.points[fine.triangles[:, k]] for k in range(3))
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+    assert _area_of_faces(made.content) == pytest.approx(area, rel=2e-4)
+
+
 def _area_of_faces(content):
     import tempfile
     from pathlib import Path

@@ -12,7 +12,9 @@ from meshwright.base.library import pointer
 from meshwright.contact.placement import placements_at
 
 #: Samples of a line, lines of a window; how much narrower each window is, and how many.
-SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, 14
+SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, 22
+#: How much narrower in each window the part of a line is that is sampled closely, beside the whole of it.
+CLOSER = 0.55
 BISECTIONS, STEPS = 46, 24
 
 
@@ -83,33 +85,40 @@ class FirstTouch:
         """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back)."""
         (a_low, b_low), (a_high, b_high) = box
         centre, half = 0.5 * (b_low + b_high), 0.5 * (b_high - b_low)
-        best = -np.inf
+        best, samples = -np.inf, np.linspace(a_low, a_high, SAMPLES)
         for window in range(WINDOWS):
             lines = np.linspace(centre - half, centre + half, 5 * LINES if window == 0 else LINES)
-            values = self._on_lines(lines, a_low, a_high)
+            values, places = self._on_lines(lines, samples)
             k = int(np.argmax(values))
             best = max(best, values[k])
             centre, half = lines[k], (3.0 * half if window == 0 else half * LINES) / (NARROWER * LINES / 2.0)
+            near = 0.5 * (a_high - a_low) * CLOSER ** (window + 1) * np.linspace(-1.0, 1.0, SAMPLES // 2)
+            close = np.clip(places[k] + near, a_low, a_high)
+            samples = np.union1d(np.linspace(a_low, a_high, SAMPLES), close)
         return self.side * best
 
-    def _on_lines(self, lines, low, high):
-        """The largest value on each line: samples between, and the ends of the stretches inside all limits."""
-        a = np.linspace(low, high, SAMPLES)
+    def _on_lines(self, lines, a):
+        """The largest value on each line, and where: samples ``a``, the ends of the stretches inside all limits."""
+        count = len(a)
         grid = np.stack(np.meshgrid(a, lines, indexing="ij"), axis=-1).reshape(-1, 2)
         values, x = self.look(grid, np.tile(self.start, (len(grid), 1)))
-        values, x = values.reshape(SAMPLES, -1), x.reshape(SAMPLES, len(lines), -1)
-        best = values.max(axis=0)
-        inside = np.isfinite(values)
-        for i, other in (*((i, i + 1) for i in range(SAMPLES - 1)), *((i + 1, i) for i in range(SAMPLES - 1))):
-            edge = inside[i] & ~inside[other]
-            if edge.any():
-                best[edge] = np.maximum(best[edge], self._end(a[i], a[other], lines[edge], x[i][edge]))
+        values, x = values.reshape(count, -1), x.reshape(count, len(lines), -1)
         top = values.argmax(axis=0)
-        some = np.isfinite(best)
-        if some.any():
-            at = x[top, np.arange(len(lines))][some]
-            best[some] = np.maximum(best[some], self._top(a, top[some], lines[some], at))
-        return best
+        best, places = values.max(axis=0), a[top]
+        inside = np.isfinite(values)
+
+        def take(chosen, found, at):
+            better = found > best[chosen]
+            best[chosen], places[chosen] = np.where(better, [found, at], [best[chosen], places[chosen]])
+
+        for i, other in (*((i, i + 1) for i in range(count - 1)), *((i + 1, i) for i in range(count - 1))):
+            edge = np.flatnonzero(inside[i] & ~inside[other])
+            if edge.size:
+                take(edge, *self._end(a[i], a[other], lines[edge], x[i][edge]))
+        some = np.flatnonzero(np.isfinite(best))
+        if some.size:
+            take(some, *self._top(a, top[some], lines[some], x[top, np.arange(len(lines))][some]))
+        return best, places
 
     def _end(self, inner, outer, lines, x):
         inner, outer = np.full(len(lines), inner), np.full(len(lines), outer)
@@ -120,16 +129,18 @@ class FirstTouch:
             good = np.isfinite(found)
             value, x = np.where(good, found, value), np.where(good[:, None], at, x)
             inner, outer = np.where(good, middle, inner), np.where(good, outer, middle)
-        return value
+        return value, inner
 
     def _top(self, a, top, lines, x):
-        centre, half, best = a[top], np.full(len(top), a[1] - a[0]), np.full(len(top), -np.inf)
+        spacing = np.diff(a)
+        half = np.maximum(np.append(spacing, 0.0), np.append(0.0, spacing))[top]
+        centre, best, rows = a[top], np.full(len(top), -np.inf), np.arange(len(top))
         for _ in range(14):
             trial = centre[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 9)
             places = np.stack([trial, np.broadcast_to(lines[:, None], trial.shape)], axis=-1).reshape(-1, 2)
             values, _ = self.look(places, np.repeat(x, 9, axis=0))
             values = values.reshape(trial.shape)
             k = values.argmax(axis=1)
-            best = np.maximum(best, values.max(axis=1))
-            centre, half = trial[np.arange(len(k)), k], half / 3.0
-        return best
+            best = np.maximum(best, values[rows, k])
+            centre, half = trial[rows, k], half / 3.0
+        return best, centre

@@ -12,6 +12,7 @@ from meshwright.cli import main
 from meshwright.design.design import changed
 from meshwright.limits import Request
 from meshwright.limits.sections import section
+from tests.fuzz.mutate import toml
 from tests.independent.worm import WormDrive
 from tests.worm.designs import PROFILES, plain
 
@@ -222,11 +223,42 @@ def _undercut_within_blank(teeth):
     return [u for u in drive.limits().undercut if u.on_flank]
 
 
+@pytest.mark.parametrize("blank", ["open", "without the hob's tip"])
+def test_an_ordinary_wheel_is_not_undercut_below_the_tip_of_any_hob(blank, tmp_path, capsys):
+    """Where the blank is open, the standard proportions end the blade, as they do under load; the output says so.
+
+    41 teeth at 20°: the involute hob's blade would undercut only with an addendum of more than m z sin²α / 2, which is
+    twice the 1.2 modules of a standard one.
+    """
+    tables = changed(plain("ZI"), {} if blank == "open" else {"blank.wheel_tip_radius_mm": 89.66})
+    drive = Drive.from_tables(tables)
+    found = drive.limits()
+    whole, assumed = drive.design.with_whole_blank()
+    axial = 4.0 / np.cos(np.radians(11.31))
+    assert assumed["hob_tip_addendum_mm"] == pytest.approx(1.2 * axial) and 1.2 * axial < 4.0 * 41 * 0.342**2 / 2.0
+    assert found.undercut and not any(u.on_flank for u in found.undercut)
+    assert found.assumed_blank == found.plain()["assumed_blank"] == assumed
+    given = tmp_path / "given.toml"
+    given.write_bytes(toml(tables))
+    assert main(["limits", str(given)]) == 0
+    assert f"assumed where [blank] is open: hob_tip_addendum_mm = {1.2 * axial:.6g}" in capsys.readouterr().out
+    assert Drive(whole).limits().assumed_blank == {}
+
+
+def test_an_open_blank_that_the_standard_proportions_do_not_fit_is_said_to_bound_nothing(tmp_path, capsys):
+    """A worm whose root is given above the tip that a standard addendum makes."""
+    given = tmp_path / "given.toml"
+    given.write_bytes(toml(changed(plain("ZA"), {"blank.worm_root_radius_mm": 25.0})))
+    assert main(["limits", str(given)]) == 0
+    said = capsys.readouterr().out
+    assert "a standard blank does not fit: blank.worm_tip_radius_mm = 24.47" in said and "25" in said
+
+
 def test_thread_thickness_at_the_tip_and_pointed_radius():
     """Axial thread thickness of an Archimedean worm: half the axial pitch at r1, less 2 tan α_x a millimetre up."""
     tables = changed(plain("ZA"), {"blank.worm_tip_radius_mm": 24.0})
     drive = Drive.from_tables(tables)
-    (worm,) = drive.limits().tip_thickness
+    (worm,) = (t for t in drive.limits().tip_thickness if t.member == "pinion")
     r = drive.design.value("worm_pitch_radius_mm")
     lead = drive.design.value("worm_lead_angle_deg")
     slope = np.tan(drive.design.value("pressure_angle_deg")) / np.cos(lead)

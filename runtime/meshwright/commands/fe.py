@@ -15,6 +15,7 @@ from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.commands.shown import blank_note
 
 
 def add_arguments(parser):
@@ -109,7 +110,7 @@ def _write(options, gear, positions):
     if options.json:
         write_json(options.json, positions[0] if len(positions) == 1 else whole)
     else:
-        write_text("-", loading.blank_note(gear) + "".join(map(page, positions)))
+        write_text("-", blank_note(gear.assumed) + "".join(map(page, positions)))
 
 
 def _or_none(value):

@@ -3,7 +3,7 @@
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
-from meshwright.commands.shown import shown
+from meshwright.commands.shown import blank_note, shown
 from meshwright.limits import Request
 
 #: More lines than this are taken for a mistake.
@@ -35,7 +35,12 @@ def run(options):
 def _page(drive, found, axial):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
     for name, entries in found.items():
-        if isinstance(entries, list):
+        if name == "assumed_blank":
+            lines += blank_note(entries).splitlines()
+        elif name == "blank_left_open":
+            if entries:
+                lines.append(f"what [blank] leaves open bounds nothing, a standard blank does not fit: {entries}")
+        elif isinstance(entries, list):
             where = " at the axial positions given" if axial and name == "undercut" else ""
             lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}")
             lines += [f"  {_line(entry)}" for entry in entries]

@@ -18,6 +18,7 @@ from meshwright.base.files import write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.commands.shown import blank_note
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.edge import not_first
 from meshwright.shop.tables import read_csv
@@ -65,7 +66,7 @@ def run(options):
     if options.json:
         write_json(options.json, document)
     else:
-        write_text("-", loading.blank_note(gear) + _table(document) + _gaps(document))
+        write_text("-", blank_note(gear.assumed) + _table(document) + _gaps(document))
     return 0 if all(point["pairs"] for point in found) else 1
 
 

@@ -51,12 +51,6 @@ def loaded_gears(fe, options, drive, step):
     return gear, load, options.pairs or usual["pairs"]
 
 
-def blank_note(gear):
-    """A line that says what of the blank is a standard proportion, empty where the design gives all of it."""
-    sizes = ", ".join(f"{key} = {value:.6g}" for key, value in gear.assumed.items())
-    return f"assumed where [blank] is open: {sizes}\n" if sizes else ""
-
-
 def gap_note(gear):
     """Why there are angles at which no tooth pair touches, empty at a contact ratio of 1 and more."""
     if not gear.contact_ratio < 1.0:

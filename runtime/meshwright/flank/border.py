@@ -10,6 +10,9 @@ from meshwright.base.errors import UsageError
 TOLERANCE = 1e-6
 FEWEST, MOST = 9, 513
 
+#: At a corner both limits are zero to this.
+ON_CORNER = 1e-8
+
 #: Degree of the curves, where they have points enough.
 DEGREE = 5
 NEWTON_STEPS = 12
@@ -35,6 +38,17 @@ class Side:
 def loops(region, triangles):
     """The border of a region as closed loops: lists of :class:`Side`, each beginning where the one before ends."""
     return [[_side(region, triangles, *part) for part in _parts(loop)] for loop in _chained(triangles)]
+
+
+def cornered(region, triangles):
+    """Whether every curve of the border ends on both limits that meet there."""
+    for loop in _chained(triangles):
+        parts = _parts(loop)
+        for (_, before), (vertices, limit) in zip([parts[-1], *parts[:-1]], parts, strict=True):
+            values = region.limits.values(region.flank(triangles.parameters[vertices[:1]]))[0]
+            if not np.abs(values[[before, limit]]).max() < ON_CORNER:
+                return False
+    return True
 
 
 def _spline(coordinates):
@@ -77,8 +91,10 @@ def _parts(loop):
 def _side(region, triangles, vertices, limit):
     """The :class:`Side` along a chain of border vertices."""
     known = triangles.parameters[vertices]
-    points = triangles.points[vertices]
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    # Lengths in the chart: in space a curve stands still where it meets a cusp.
+    free = list(region.chart.free)
+    steps = np.diff(known[:, free] / region.chart.sizes[free], axis=0)
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
     keep = np.concatenate([[True], np.diff(length) > 1e-9 * max(length[-1], 1e-300)])
     keep[-1] = True
     share, known = length[keep] / max(length[-1], 1e-300), known[keep]

@@ -13,8 +13,9 @@ FEWEST, MOST_GROWN, FEWEST_ASKED = 12, 4.0, 4
 BISECTIONS = 60
 NEWTON_STEPS = 25
 
-#: A corner belongs to a cell if it lies in it to this part of the cell's width.
-SLACK = 1e-6
+#: A corner belongs to the cell in which the border passes from limit to limit: it lies in it, or pokes through a side
+#: between two nodes outside, by no more than this part of the cell's width.
+SLACK = 1.0
 
 #: The four edges of a cell from corner to corner, counter-clockwise: (corner, next corner).
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))

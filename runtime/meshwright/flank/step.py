@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.flank.border import DEGREE, loops
+from meshwright.flank.border import DEGREE, cornered, loops
 from meshwright.flank.mesh import mesh
 
 #: The surface is refined until it departs by no more than this from the exact one, mm, or has as many points as that.
@@ -96,8 +96,7 @@ def step(drive, region, shape):
     far enough to be trimmed.
     """
     needs_open_cascade()
-    cells = tuple(n - 1 for n in shape)
-    triangles = mesh(region, cells)
+    triangles = _resolved(region, tuple(n - 1 for n in shape))
     free = list(region.chart.free)
     frame = Frame.about(triangles.parameters[:, free], region.chart.sizes[free])
     spline, deviation = _fitted(region, frame, triangles, shape)
@@ -107,6 +106,15 @@ def step(drive, region, shape):
         spline = Spline(spline.poles * [1.0, -1.0, 1.0], spline.knots, spline.degrees)
     name = f"{drive.design.tables['name'] or drive.design.family} {region.flank.body['name']} {region.flank.region}"
     return StepFile(written(_faces(spline, frame, border), name), deviation)
+
+
+def _resolved(region, cells):
+    """Triangles fine enough for every corner of the border to be found, narrow ends of the region among them."""
+    while True:
+        triangles = mesh(region, cells)
+        if cornered(region, triangles) or max(cells) * 2 > MOST:
+            return triangles
+        cells = tuple(2 * n for n in cells)
 
 
 def needs_open_cascade():

@@ -6,6 +6,7 @@ drive that offers them.
 
 from dataclasses import replace
 
+from meshwright.base.errors import DesignError
 from meshwright.contact import functions
 from meshwright.limits import clearance, contacts, rack
 from meshwright.limits.branches import branch_points
@@ -20,14 +21,19 @@ __all__ = ["Limits", "Request", "contacts_of", "limits_of"]
 def limits_of(drive, request=None):
     """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad.
 
-    Raises :class:`~meshwright.base.errors.UsageError` for sections or radii of a drive that has none.
+    Where the blank is open the standard proportions bound the flanks, as they do under load: ``assumed_blank`` says
+    which, ``blank_left_open`` why none do. Raises :class:`~meshwright.base.errors.UsageError` for sections or radii of
+    a drive that has none.
     """
     request = request or Request()
+    drive, assumed, left_open = _bounded(drive)
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
     searched = drive.design.description["least_teeth"]
     found = Limits(
         undercut=undercut_lines(drive, request),
         branch_points=branch_points(drive),
+        assumed_blank=assumed,
+        blank_left_open=left_open,
         tip_thickness=tip_thicknesses(drive),
         least_teeth={member: least_teeth(drive, member) for member in searched} or None,
         tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
@@ -36,6 +42,15 @@ def limits_of(drive, request=None):
     mirror = drive.design.mirror
     names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
     return replace(found, **{name: tuple(entry.seen_in(mirror) for entry in getattr(found, name)) for name in names})
+
+
+def _bounded(drive):
+    """The drive with its whole blank, what of it was assumed, and why the standard proportions do not fit or ""."""
+    try:
+        whole, assumed = drive.design.with_whole_blank()
+    except DesignError as error:
+        return drive, {}, str(error)
+    return (type(drive)(whole, drive.backend) if assumed else drive), assumed, ""
 
 
 def contacts_of(drive, angle):

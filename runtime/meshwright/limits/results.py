@@ -168,7 +168,9 @@ class Limits:
     """Everything that bounds a drive; see the classes above. Only helicoids may have meshing ``axes``.
 
     ``tool_clearance`` is the :class:`~meshwright.limits.clearance.Judgement` of a drive whose tool must clear its
-    teeth; in plain data it goes by the tool's name.
+    teeth; in plain data it goes by the tool's name. ``assumed_blank``: the standard proportions that stand for sizes
+    of the blank which the design leaves open, by their keys and in the units of these; ``blank_left_open``: why these
+    proportions do not fit the design, whose open blank then bounds nothing, or "".
     """
 
     undercut: tuple[SurfaceLimit, ...] = ()
@@ -182,6 +184,8 @@ class Limits:
     tip_thickness: tuple[Thickness, ...] = ()
     least_teeth: dict[str, int] | None = None
     tool_clearance: Judgement | None = None
+    assumed_blank: dict[str, float] = field(default_factory=dict)
+    blank_left_open: str = ""
 
     def plain(self):
         """The lists of the ``meshwright.limits/1`` schema."""
@@ -197,4 +201,6 @@ class Limits:
             "branch_points": [b.plain() for b in self.branch_points],
             "tip_thickness": [t.plain() for t in self.tip_thickness],
             "least_teeth_without_undercut": self.least_teeth,
+            "assumed_blank": self.assumed_blank,
+            "blank_left_open": self.blank_left_open or None,
         } | judged
