@@ -134,6 +134,9 @@ def ease_off(analysis, member):
             axes.tricontourf(triangles, shown, levels=levels, cmap="viridis_r", alpha=0.55, extend="both")
             drawn = axes.tricontour(triangles, shown, levels=levels, colors=style.INK, linewidths=0.6)
             axes.clabel(drawn, fmt=lambda v: number(v, 3), fontsize=7.5)
+        else:
+            said = f"within {number(LEVELS * LEAST_STEP)} µm everywhere"
+            axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", va="center")
         sheet.border(axes, style.MEMBERS[member])
         sheet.path(axes, analysis, member)
     return figure
