@@ -716,14 +716,14 @@ def check_flank_tangent(header: Header, text: str, body: str, rng: Random) -> No
         require(tangent.value(f"dr[{k}]").value == rate, f"tangent of {body}: dr[{k}] is not the point's derivative")
 
 
-def attempt(check: Callable[..., None], *arguments: object) -> None:
+def attempt(check: Callable[..., None], *arguments: object, source: Random | None = None) -> None:
     """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
     has.
 
     Modulo a prime, sqrt(x*y*y) is y*sqrt(x) only up to sign, so a right program passes at a share of all inputs. A
     wrong one passes at none: one input at which everything holds is enough.
     """
-    rng = SystemRandom()
+    rng = source or SystemRandom()
     refusals: list[Rejected] = []
     for _ in range(ATTEMPTS):
         try:

@@ -28,10 +28,10 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
-from random import Random
+from random import Random, SystemRandom
 from types import ModuleType
 
 
@@ -794,6 +794,26 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
             yield f"{result['name']} of {entry['name']}", (check_function, drive, entry, result)
 
 
+class Flank(Random):
+    """Numbers from the system's source, and one sign of the flank."""
+
+    def __init__(self, sign: int):
+        super().__init__()
+        self.sign, self.source = sign, SystemRandom()
+
+    def randrange(self, *bounds: int) -> int:
+        return self.source.randrange(*bounds)
+
+    def choice(self, _: object) -> int:
+        return self.sign % CODE.PRIME
+
+
+def attempt(check: Callable[..., None], *arguments: object) -> None:
+    """A check on each of the two flanks; one alone would not notice where a sign of the flank is missing."""
+    for sign in (1, -1):
+        CODE.attempt(check, *arguments, source=Flank(sign))
+
+
 def check_drive(description: Path, header: Path) -> int:
     """All checks of one drive; how many were made."""
     try:
@@ -805,7 +825,7 @@ def check_drive(description: Path, header: Path) -> int:
             check_open(drive, system)
         checks = list(checks_of(drive))
         for _, check in checks:
-            CODE.attempt(*check)
+            attempt(*check)
     except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
         raise Rejected(f"{header.name}: {error}") from error
     return len(checks)

@@ -1,10 +1,14 @@
 """Misalignments of chosen size, and what a drawing states of the members."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from meshwright import Drive, cli
 from meshwright.contact.results import ARCSEC
+from meshwright.report.figures import pictures
+from meshwright.report.findings import findings
 from meshwright.report.sensitivity import misalignments, sensitivity
 from meshwright.report.tables import drawing
 
@@ -39,3 +43,30 @@ def test_a_drawing_states_each_member_and_both(analysed):
     assert not set(stated) & {row[3] for row in pinion.rows}
     assert {row[3]: row[1] for row in both.rows}["module_mm"] == "4"
     assert any(row[0].startswith("backlash") for row in both.rows)
+
+
+def test_a_report_under_load_shows_what_was_solved_and_says_what_was_not(analysed):
+    """One angle carries on two pairs, another has no figures: one point on either curve, and a sentence."""
+    pairs = [
+        {"pairs_later": 0, "share": 0.75, "peak_pressure_mpa": 900.0},
+        {"pairs_later": 1, "share": 0.25, "peak_pressure_mpa": 500.0},
+    ]
+    points = [
+        {"pinion_angle_deg": 1.0, "message": "", "loaded_transmission_error_arcsec": -20.0, "pairs": pairs},
+        {"pinion_angle_deg": 2.0, "message": "no tooth pair touches at this angle", "pairs": []},
+    ]
+    document = {"torque_nm": 200.0, "torque_on": "pinion", "points": points}
+    analysis = replace(analysed("spherical-table-3-1-concave"), loaded=document)
+    (picture,) = (p for p in pictures(analysis) if p.name == "loaded")
+    assert picture.title == "Under 200 N m on the pinion"
+    error, share, pressure = picture.figure(analysis).axes
+    assert [line.get_ydata()[0] for line in error.lines] == [-20.0]
+    assert np.isnan([line.get_ydata()[1] for axes in (error, share, pressure) for line in axes.lines]).all()
+    assert [line.get_ydata()[0] for line in share.lines] == [0.75, 0.25]
+    assert [line.get_ydata()[0] for line in pressure.lines] == [900.0, 500.0]
+    assert any("at 1 of 2 angles: no tooth pair touches" in finding.text for finding in findings(analysis))
+
+
+def test_a_member_without_a_torque_is_bad_input(capsys):
+    assert cli.main(["report", "spherical-table-3-1-concave", "--torque-on", "wheel", "--html", "unwritten.html"]) == 2
+    assert "--torque-nm" in capsys.readouterr().err

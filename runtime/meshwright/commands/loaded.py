@@ -25,6 +25,9 @@ from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"
 
+#: Steps of the work besides one an angle.
+STEPS = 4
+
 
 def add_arguments(parser):
     loading.add_arguments(parser)
@@ -40,21 +43,33 @@ def run(options):
     drive = loading.checked_drive(options)
     angles = common.angles_of(options, drive)
     points = _measured(options)
-    with progress(len(angles) + 4) as step:
-        gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
-        late = [""] * len(angles)
-        if points is None:
-            late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
-        else:
-            from meshwright.fe.as_measured import as_measured
+    with progress(len(angles) + STEPS) as step:
+        gear, document = solved(fe, options, drive, angles, step, points)
+    if options.json:
+        write_json(options.json, document)
+    else:
+        write_text("-", blank_note(gear.assumed) + _table(document) + _gaps(document))
+    return 0 if all(point["pairs"] for point in document["points"]) else 1
 
-            gear = as_measured(gear, drive, options.member, points, options.tooth)
-        compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
-        found = []
-        for angle, why in zip(angles, late, strict=True):
-            step(f"pinion at {np.degrees(angle):.4g} deg")
-            found.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
-    document = {
+
+def solved(fe, options, drive, angles, step, points=None):
+    """The gear pair and the document ``meshwright.loaded/1`` at pinion angles, rad; ``step(text)`` is called
+    :data:`STEPS` times and once an angle. ``points`` are measured ones.
+    """
+    gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
+    late = [""] * len(angles)
+    if points is None:
+        late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+    else:
+        from meshwright.fe.as_measured import as_measured
+
+        gear = as_measured(gear, drive, options.member, points, options.tooth)
+    compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
+    found = []
+    for angle, why in zip(angles, late, strict=True):
+        step(f"pinion at {np.degrees(angle):.4g} deg")
+        found.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
+    return gear, {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
         "torque_on": load.member,
@@ -63,11 +78,6 @@ def run(options):
         "contact_ratio": gear.contact_ratio if np.isfinite(gear.contact_ratio) else None,
         "points": found,
     }
-    if options.json:
-        write_json(options.json, document)
-    else:
-        write_text("-", blank_note(gear.assumed) + _table(document) + _gaps(document))
-    return 0 if all(point["pairs"] for point in found) else 1
 
 
 def _measured(options):

@@ -91,7 +91,7 @@ class Analysis:
     flanks touch along lines or not at all. ``breaks`` are the positions at which contact passes to another branch,
     ``moving`` and ``efficiency`` the velocities and what friction makes of them, ``first`` where the bounded flanks
     of the pair touch first. ``whole`` are the flanks between their limits, ``marking`` the thickness of the marking
-    compound of the composite pattern, mm.
+    compound of the composite pattern, mm. ``loaded`` is a document ``meshwright.loaded/1``, if there is one.
     """
 
     drive: Drive
@@ -109,6 +109,7 @@ class Analysis:
     first: FirstContacts
     whole: dict[str, WholeFlank]
     marking: float
+    loaded: dict | None = None
 
     @property
     def mirror(self):

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from meshwright.contact.results import ARCSEC
-from meshwright.report import pattern_figure, sensitivity_figures, style, whole_figure
+from meshwright.report import loaded_figure, pattern_figure, sensitivity_figures, style, whole_figure
 from meshwright.report.branches import broken
 from meshwright.report.numbers import number as text_of
 
@@ -53,6 +53,8 @@ def pictures(analysis):
         drawn.append(_SEMI_AXES)
     if solved:
         drawn.append(_SLIDING)
+    if analysis.loaded and any(point["pairs"] for point in analysis.loaded["points"]):
+        drawn.append(_loaded(analysis.loaded))
     if analysis.running is not None and analysis.running.varies:
         drawn.append(_SPECTRUM)
     if known and any(effect.touches for effect in effects):
@@ -81,6 +83,16 @@ def _whole_pattern(member, analysis):
         f"Contact pattern on the whole flank of the {member}, true scale",
         f"{shown}. The border is dashed where nothing in the design ends the flank.",
         lambda analysis: whole_figure.pattern(analysis, member),
+    )
+
+
+def _loaded(document):
+    return Picture(
+        "loaded",
+        f"Under {text_of(document['torque_nm'])} N m on the {document['torque_on']}",
+        "Over one pitch, elastic teeth: transmission error, how the pairs share the load, and their peak pressure. "
+        "Gaps are angles for which the method has no figures.",
+        loaded_figure.draw,
     )
 
 

@@ -99,10 +99,20 @@ def _averages(mesh):
 
 def findings(analysis):
     """What a reader should know before the figures."""
-    said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _first(analysis) + _error(analysis)
+    said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _first(analysis)
+    said += _error(analysis) + _loaded(analysis)
     if not any(f.kind == "warn" for f in said):
         said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
     return said
+
+
+def _loaded(analysis):
+    """Why there are no figures under load at some angles, and where an edge cuts a contact off."""
+    if analysis.loaded is None:
+        return []
+    counted = Counter(point["message"] for point in analysis.loaded["points"] if point["message"])
+    total = len(analysis.loaded["points"])
+    return [Finding("note", f"Under load, at {n} of {total} angles: {message}.") for message, n in counted.items()]
 
 
 def _window(analysis):
