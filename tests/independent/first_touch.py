@@ -12,7 +12,7 @@ from meshwright.base.library import pointer
 from meshwright.contact.placement import placements_at
 
 #: Samples of a line, lines of a window; how much narrower each window is, and how many.
-SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, 22
+SAMPLES, LINES, NARROWER, WINDOWS = 33, 13, 5.0, (14, 22)
 #: How much narrower in each window the part of a line is that is sampled closely, beside the whole of it.
 CLOSER = 0.55
 BISECTIONS, STEPS = 46, 24
@@ -82,20 +82,27 @@ class FirstTouch:
         return np.where(inside, self.side * x[:, -1], -np.inf), np.where(known[:, None], x, self.start)
 
     def highest(self, box):
-        """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back)."""
+        """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back).
+
+        Of two searches: whole lines sampled evenly, and the surroundings of the best place ever more closely.
+        """
+        return self.side * max(self._search(box, closely) for closely in (False, True))
+
+    def _search(self, box, closely):
         (a_low, b_low), (a_high, b_high) = box
         centre, half = 0.5 * (b_low + b_high), 0.5 * (b_high - b_low)
         best, samples = -np.inf, np.linspace(a_low, a_high, SAMPLES)
-        for window in range(WINDOWS):
+        for window in range(WINDOWS[closely]):
             lines = np.linspace(centre - half, centre + half, 5 * LINES if window == 0 else LINES)
             values, places = self._on_lines(lines, samples)
             k = int(np.argmax(values))
             best = max(best, values[k])
             centre, half = lines[k], (3.0 * half if window == 0 else half * LINES) / (NARROWER * LINES / 2.0)
-            near = 0.5 * (a_high - a_low) * CLOSER ** (window + 1) * np.linspace(-1.0, 1.0, SAMPLES // 2)
-            close = np.clip(places[k] + near, a_low, a_high)
-            samples = np.union1d(np.linspace(a_low, a_high, SAMPLES), close)
-        return self.side * best
+            if closely:
+                near = 0.5 * (a_high - a_low) * CLOSER ** (window + 1) * np.linspace(-1.0, 1.0, SAMPLES // 2)
+                close = np.clip(places[k] + near, a_low, a_high)
+                samples = np.union1d(np.linspace(a_low, a_high, SAMPLES // 2 + 1), close)
+        return best
 
     def _on_lines(self, lines, a):
         """The largest value on each line, and where: samples ``a``, the ends of the stretches inside all limits."""
