@@ -7,8 +7,13 @@ READY  := $(VENV)/.ready
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
 
-.PHONY: setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
+.PHONY: help setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
 .PHONY: fuzz benchmark coverage compilers sanitizers
+
+# What can be made.
+help:
+	@awk '/^# /{said = said " " substr($$0, 3)} /^[a-z][a-z-]*:/{if (said) print substr($$1, 1, length($$1) - 1) ":" said} \
+		!/^#/{said = ""}' Makefile
 
 setup: $(READY)
 
@@ -64,6 +69,7 @@ run: setup
 lint: setup
 	$(PY) -m ruff check derive runtime tests
 
+# Set up, build, derive a second time and compare, and run the tests but for the longer ones.
 test: build check solver cmake
 	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadfile
 

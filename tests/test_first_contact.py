@@ -125,6 +125,7 @@ def check(name):
         assert (expected - tangency.error[0]) * found.levers[0] > -1e-6
 
 
+@pytest.mark.validate
 @pytest.mark.parametrize("name", ["face edge"])
 def test_first_contact_is_what_brute_force_finds(name):
     check(name)

@@ -46,7 +46,7 @@ def rejected(tmp_path, text, match):
 
 @pytest.fixture(autouse=True)
 def few_attempts(monkeypatch):
-    monkeypatch.setattr(check_code, "ATTEMPTS", 40)
+    monkeypatch.setattr(check_code, "ATTEMPTS", 400)
 
 
 def test_a_changed_jacobian_entry_is_caught(tmp_path):

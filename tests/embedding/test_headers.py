@@ -76,7 +76,7 @@ def test_the_lanes_of_a_drive_need_nothing(drive):
 CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUSED", "-march=native")}
 
 
-@pytest.mark.parametrize("fused", [False, True])
+@pytest.mark.parametrize("fused", quick([False, True], False))
 @pytest.mark.parametrize("levels", [("-O0", "-O3"), pytest.param(("-O1", "-O2"), marks=pytest.mark.validate)])
 @pytest.mark.parametrize("drive", ONE_QUICKLY)
 def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, levels, fused):
@@ -145,6 +145,7 @@ def test_lanes_give_the_bits_of_the_scalar_kernel(tmp_path, drive, width, contra
         assert size[0] == sizes[lane]
 
 
+@pytest.mark.validate
 @pytest.mark.parametrize("drive", ONE_QUICKLY)
 def test_fusing_changes_no_more_than_round_off(tmp_path, drive):
     _, solution = problem_of(drive)

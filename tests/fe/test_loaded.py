@@ -187,6 +187,7 @@ def test_bad_input(capsys, arguments, said):
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.validate
 def test_a_load_that_no_flank_carries_is_said_to_be_so(capsys):
     arguments = ["spherical-table-4-4-concave", "--torque-nm", "1e12", "--phi-deg", "0", "--json", "-"]
     assert main(["loaded", *arguments]) == 1
@@ -195,6 +196,7 @@ def test_a_load_that_no_flank_carries_is_said_to_be_so(capsys):
     assert point["pairs"] == [] and point["loaded_transmission_error_arcsec"] is None
 
 
+@pytest.mark.validate
 def test_a_rotation_that_is_not_small_is_said_to_be_so(capsys):
     """3 kN m turn the pinion by less than 0.01 rad and have figures, more than any tooth bears has none."""
     design = ["spherical-table-4-4-concave", "--phi-deg", "0"]
@@ -222,6 +224,7 @@ def test_a_contact_cut_off_by_an_edge_is_named(concave):
     assert whole.peak_pressure == pytest.approx(whole.hertz.peak_pressure, rel=2e-3)
 
 
+@pytest.mark.validate
 def test_edges_in_text_and_json(capsys):
     arguments = ["loaded", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg=-1.8182,0"]
     assert main([*arguments, "--json", "-"]) == 0

@@ -153,6 +153,7 @@ def refused(document, reason):
     json.dumps(document, allow_nan=False)
 
 
+@pytest.mark.validate
 def test_without_solver_the_input_is_written(monkeypatch, capsys, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     arguments = ["--torque-nm", "100", "--pairs", "1", "--folder", str(tmp_path / "runs"), "--json", "-"]
@@ -173,6 +174,7 @@ def test_no_pair_at_this_angle(capsys):
     assert "--phi-deg" in capsys.readouterr().err
 
 
+@pytest.mark.validate
 def test_a_load_that_no_flank_carries_is_bad_input(capsys, tmp_path):
     arguments = ["spherical-table-4-4-concave", "--torque-nm", "1e12", "--pairs", "1", "--folder", str(tmp_path)]
     assert main(["fe", *arguments]) == 2

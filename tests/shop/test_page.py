@@ -1,4 +1,4 @@
-"""What the README shows of the shop runs as it stands, in its order."""
+"""What the page on the shop shows runs as it stands, in its order."""
 
 import re
 import shlex
@@ -12,8 +12,8 @@ from meshwright.cli import main
 from meshwright.shop.located import along, located
 from meshwright.shop.tables import csv_text, read_csv
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-SECTION = README.split("## In the shop\n")[1].split("\n## ")[0].replace("\\\n", " ")
+PAGE = Path(__file__).parents[2] / "runtime" / "site" / "reference" / "shop.md"
+SECTION = PAGE.read_text(encoding="utf-8").replace("\\\n", " ")
 LINES = re.findall(r"^    (\.venv/bin/meshwright .*)$", SECTION, re.M)
 COMMANDS = [shlex.split(line, comments=True)[1:] for line in LINES]
 LONG = [words for words in COMMANDS if words[0] in ("hob-life", "loaded")]
