@@ -76,7 +76,7 @@ def test_the_lanes_of_a_drive_need_nothing(drive):
 CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUSED", "-march=native")}
 
 
-@pytest.mark.parametrize("fused", quick([False, True], False))
+@pytest.mark.parametrize("fused", [False, pytest.param(True, marks=pytest.mark.validate)])
 @pytest.mark.parametrize("levels", [("-O0", "-O3"), pytest.param(("-O1", "-O2"), marks=pytest.mark.validate)])
 @pytest.mark.parametrize("drive", ONE_QUICKLY)
 def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, levels, fused):
