@@ -497,6 +497,7 @@ class Exact(Point):
         super().__init__(scope)
         symbols = {name: Ball(fraction(text)) for name, text in point["symbols"].items()}
         self.tangents = {name: fraction(text) for name, text in point["half_tangents"].items()}
+        require(set(self.tangents) <= set(scope["angles"].values()), "a point gives the angle of nothing")
         require(
             all(abs(symbols.get(name, Ball(1)).middle) == 1 for name in scope["signs"]), "a sign is neither +1 nor -1"
         )
@@ -1177,6 +1178,12 @@ KEYS = {
     "undecided": {"kind", "outcome", "equation", "angles", "arcs"},
     "numeric": {"kind", "outcome", "equation", "value"},
 }
+#: Keys of any object whose value is text.
+TEXTS = {
+    "id", "kind", "document", "document_sha256", "locator", "verbatim", "ocr_doubt", "op", "unit", "source", "status",
+    "plain", "missing", "damage", "drops", "outcome", "change",
+}  # fmt: skip
+EQUATIONS = ("printed", "derived", "corrected")
 OPERATIONS_OF_STEPS = {"d": "diff", "cross": "cross", "dot": "dot", "triple": "dot", "@": "matmul"}
 
 
@@ -1224,10 +1231,56 @@ def read_record(folder: Path) -> dict[str, dict]:
             shape = KEYS.get(item.get("kind") if kind == "certificate" else kind)
             require(shape is not None, f"{name} line {number}: unknown object {kind!r}")
             require(set(item) == shape | {"object", "sha256"}, f"{name} line {number}: not the keys of a {kind}")
+            require(all(type(item[key]) is str for key in TEXTS & set(item)), f"{name} line {number}: a text is none")
+            require(FORMS.get(kind, bool)(item), f"{name} line {number}: not the form of a {kind}")
             require(item["sha256"] == sha256_of(item), f"{name} line {number}: the hash is not that of the line")
             require(item["sha256"] not in objects, f"{name} line {number}: repeated")
             objects[item["sha256"]] = item
     return objects
+
+
+def formed_equation(equation: dict) -> bool:
+    """Whether what an equation says of itself beside its two sides has the form that it must have."""
+    jets, conditions = equation["jets"], equation["side_conditions"]
+    return (
+        equation["kind"] in EQUATIONS
+        and type(jets) is dict
+        and all(names and distinct_texts(names) for names in jets.values())
+        and distinct_texts(conditions)
+        and distinct_texts(equation["signs"])
+        and all(name.isidentifier() for name in equation["signs"])
+    )
+
+
+def formed_verdict(verdict: dict) -> bool:
+    """Whether its readings are lists of texts, each part with an equation and its certificate."""
+    readings = [verdict[role] for role in ("readings", "corrected", "contradiction")]
+    return all(
+        type(reading) is dict
+        and set(reading) == {"label", "parts", "texts"}
+        and type(reading["label"]) is str
+        and type(reading["texts"]) is list
+        and type(reading["parts"]) is list
+        and all(type(part) is dict and set(part) == {"certificate", "equation"} for part in reading["parts"])
+        and all(type(part[key]) is str for part in reading["parts"] for key in part)
+        for reading in [each for role in readings if type(role) is list for each in role]
+    ) and all(type(role) is list for role in readings)
+
+
+def formed_certificate(certificate: dict) -> bool:
+    texts = (certificate["equation"], certificate.get("value", ""))
+    return (
+        all(type(text) is str for text in texts)
+        and type(certificate.get("rounded", False)) is bool
+        and certificate["outcome"] in ("proved", "refuted", "undecided")
+    )
+
+
+FORMS = {"equation": formed_equation, "verdict": formed_verdict, "certificate": formed_certificate}
+
+
+def distinct_texts(items: list) -> bool:
+    return type(items) is list and all(type(item) is str for item in items) and len(items) == len(set(items))
 
 
 def root_of(objects: dict[str, dict]) -> str:
@@ -1459,7 +1512,13 @@ def check_manifest(folder: Path, seal: dict) -> None:
 
 def verify(folder: Path) -> dict[str, int | str]:
     """Check everything in a folder; the counts and the root hash, or Rejected."""
-    folder = folder.resolve()
+    try:
+        return verified(folder.resolve())
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+        raise Rejected(f"something is not of the form that it must have ({type(error).__name__}: {error})") from error
+
+
+def verified(folder: Path) -> dict[str, int | str]:
     objects = read_record(folder)
     check_use(objects)
     decided = []

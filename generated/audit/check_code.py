@@ -17,9 +17,10 @@ Then, for every drive:
   along      first and second derivatives of the residual along a path of unknowns and input angle
   start      the Jacobian of the start system
   curvature  basis, second form and principal curvatures follow from the normal's derivatives
-  lanes      each of two instances is computed as the scalar setup, set_phi and step compute it
+  lanes      each of two instances is computed as the scalar setup, set_phi and step compute it, guards included
   tangent    changes of the residual and of the contact point along changes of parameters, angle and unknowns
   sine       polynomials and reduction of the sine and cosine kernel, against enclosures
+  atan2      its polynomial against the series of the arc, octants and quadrants
   agreement  a flank has the point, the singular function and the limits that the observation of a contact has there
 
 A wrong program passes with a probability of about degree / 2^61. Needs check.py beside it and nothing else.
@@ -74,7 +75,9 @@ class Number:
 
     @property
     def form(self) -> dict:
-        return {self.value: Fraction(1)} if self.angle is None else self.angle
+        if self.angle is not None:
+            return self.angle
+        return {self.value: Fraction(1)} if self.value else {}
 
 
 def combined(a: tuple[int, ...], x: int, b: tuple[int, ...], y: int) -> tuple[int, ...]:
@@ -183,6 +186,7 @@ class Header:
     frames: tuple[tuple[str, ...], ...]
     sizes: dict[str, int]
     unknowns: dict[str, tuple[int, ...]]
+    guards: tuple[Function, dict[int, str]]
     lanes: str = ""
     tangents: str = ""
 
@@ -205,7 +209,8 @@ def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
         for body, places in re.findall(rf"int {prefix}_(\w+)_unknowns\[\] = {{ ([\d, ]+) }}", text)
     }
     parameters = max(function.size_of("p") for function in found.values())
-    return Header(found, parameters, read_frames(text), sizes, unknowns, lanes, tangents)
+    guards = guards_of(body_of(text, f"{prefix}_setup"))
+    return Header(found, parameters, read_frames(text), sizes, unknowns, guards, lanes, tangents)
 
 
 def letter_of(name: str) -> str:
@@ -619,6 +624,7 @@ def check_lanes(header: Header, text: str, rng: Random) -> None:
         require(not missing, f"lanes: {', '.join(sorted(missing)[:3])} is not set")
         for key in keys:
             require(wide.value(key).value == scalar.value(key).value, f"lanes: {key} is not that of {name}")
+    check_lane_guards(header, text, inputs, circle)
     # one design for both instances: every root of the design is needed once
     other = {
         key: Number(rng.randrange(1, PRIME), (), {f"m{key}": Fraction(1)}) for key in inputs if key.startswith("x[")
@@ -638,6 +644,30 @@ def check_lanes(header: Header, text: str, rng: Random) -> None:
         )
         there = wide.value(f"new mx[{k}]").value
         require(there == second.value(f"new x[{k}]").value, f"lanes: x[{k}] of the partner is not that of step")
+
+
+GUARD = re.compile(r"if \(!\((\S+) > 0\.0\)\) failed = (\d+);")
+
+
+def guards_of(body: str) -> tuple[Function, dict[int, str]]:
+    """The block of a setup that holds its guards, and place -> what must be positive."""
+    block = re.search(r"^    {\n(.*?)^    }", body, re.DOTALL | re.M)[1]
+    return Function("guards", read_body(block), {}), {int(place) - 1: name for name, place in GUARD.findall(block)}
+
+
+def check_lane_guards(header: Header, text: str, inputs: dict[str, Number], circle: Circle) -> None:
+    """An instance is valid where all that the scalar setup tests is positive."""
+    prefix = re.search(r"MW_LANE_NAME\((\w+)_setup_lanes\)", text)[1]
+    body = re.sub(r"\b(\w)\[(\d+) \* MW_LANES \+ l\]", r"\1[\2]", body_of(text, f"{prefix}_setup_lanes"))
+    before, _, after = body.partition("valid[l] = ")
+    block = read_body(before[before.rindex("{\n") + 2 :])
+    tested = re.findall(r"\((\S+) > 0\.0 \? 1\.0 : 0\.0\)", after.partition(";")[0])
+    function, places = header.guards
+    wide, scalar = (Machine(inputs, f, None, circle) for f in (Function("guards", block, {}), function))
+    require(len(tested) == len(places), f"lanes: {len(tested)} guards, setup has {len(places)}")
+    for place, name in places.items():
+        found, expected = wide.value(tested[place]), scalar.value(name)
+        require(found.value == expected.value, f"lanes: guard {place} is not that of setup")
 
 
 def check_tangent(header: Header, text: str, rng: Random) -> None:
@@ -686,14 +716,14 @@ def check_flank_tangent(header: Header, text: str, body: str, rng: Random) -> No
         require(tangent.value(f"dr[{k}]").value == rate, f"tangent of {body}: dr[{k}] is not the point's derivative")
 
 
-def attempt(check: Callable[..., None], *arguments: object) -> None:
+def attempt(check: Callable[..., None], *arguments: object, source: Random | None = None) -> None:
     """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
     has.
 
     Modulo a prime, sqrt(x*y*y) is y*sqrt(x) only up to sign, so a right program passes at a share of all inputs. A
     wrong one passes at none: one input at which everything holds is enough.
     """
-    rng = SystemRandom()
+    rng = source or SystemRandom()
     refusals: list[Rejected] = []
     for _ in range(ATTEMPTS):
         try:
@@ -735,6 +765,7 @@ def check_header(path: Path) -> int:
     try:
         text = path.read_text(encoding="utf-8")
         check_kernels(text)
+        check_arc_kernel(text)
         header = read_header(text, read_companion(path, "lanes"), read_companion(path, "sensitivity"))
         checks = list(checks_of(header))
         for _, check in checks:
@@ -778,6 +809,42 @@ def check_kernels(text: str) -> None:
     for line in ("s.number = MW_FMA(r * z, u, r);", "const double w = MW_FNMA(z, 0.5, 1.0);",
                  "c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));"):  # fmt: skip
         require(line in body[1], f"sincos: {line} is not there")
+
+
+#: What stands around the polynomial of atan2: the ratio to the nearest of 0 and 45 degrees, octants, quadrants.
+ARC_LINES = (
+    "const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;",
+    "const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;",
+    "const double top = upper ? small - large : small, bottom = upper ? small + large : large;",
+    "const double r = bottom > 0.0 ? top / bottom : (x + y);",
+    "const double z = r * r;",
+    "const double octant = ax >= ay ? first : 1.5707963267948966 - first;",
+    "const double half = x < 0.0 ? 3.141592653589793 - octant : octant;",
+    "return y < 0.0 ? -half : half;",
+)
+
+
+def check_arc_kernel(text: str) -> None:
+    """atan2: its polynomial against the series of the arc, in exact arithmetic, and the words of its reduction."""
+    body = re.search(r"_atan2\(double y, double x\)\n{\n(.*?)\n}", text, re.DOTALL)
+    if body is None:
+        return
+    for line in ARC_LINES:
+        require(line in body[1], f"atan2: {line} is not there")
+    border = re.search(r"upper = small > ([\d.]+) \* large;", body[1])
+    require(border, "atan2: no border of the octants")
+    eighth = Fraction(float(border[1]))
+    require(abs(eighth * eighth + 2 * eighth - 1) < Fraction(1, 2**49), "atan2: the octants part elsewhere")
+    turn = re.search(r"first = \(upper \? ([\d.]+) : 0\.0\) \+ MW_FMA\(r \* z, u, r\);", body[1])
+    require(turn and float(turn[1]) == math.pi / 4, "atan2: another eighth of a turn")
+    lines = re.findall(r"const double (u\w*) = (.+?);", body[1])
+    for step in range(-8, 9):
+        r = Fraction(step, 8) * eighth
+        known = {"r": r, "z": r * r}
+        for name, expression in lines:
+            known[name] = kernel_value(expression, known)
+        arc = sum(Fraction((-1) ** k, 2 * k + 1) * r ** (2 * k + 1) for k in range(24))
+        require(abs(r + r * known["z"] * known["u"] - arc) <= abs(r) * Fraction(1, 2**52), "atan2: the polynomial")
 
 
 def kernel_value(expression: str, known: dict[str, Fraction]) -> Fraction:

@@ -6,12 +6,17 @@ The description is plain data (``descriptions/<drive>.json``): motions are lists
 Both it and the C functions are evaluated modulo a prime of 61 bits drawn at random, at random parameters, unknowns and
 points of the circle; derivatives are those of dual numbers. Then, for every drive:
 
-  rules      each default and each rule of a design, in its order
+  rules      each default and each rule of a design, in its order; the change of each along changes of what it reads
+  systems    of a design: guess, natural sizes, equations with their Jacobian, what they fill in, where they are regular
+  guards     what must be positive, in its order; divisors by the name in their message
   sizes      derived sizes
   residual   of contact and start; natural sizes, guess and first contact
   chain      a point is carried by the factors of its motions, a normal turned by them and divided by its length, in the
              observation and on each flank; tangents are derivatives, fixed frame
   limits     margins, relative ones and derivatives among them, conditions, recovered parameters, wheel's angle
+  regular    the singular function of each flank and region
+  forms      tangent basis, second forms by linear algebra of their own, principal curvatures by sum and product
+  placement  motions of both bodies; axis and lever arm by what a change of the body's angle moves
   functions  results of whatever else the drive offers
 
 A normal that points the other way has the same length and is refused. A wrong program passes with a probability of
@@ -23,10 +28,10 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
-from random import Random
+from random import Random, SystemRandom
 from types import ModuleType
 
 
@@ -182,8 +187,8 @@ FUNCTIONS = {
 class Drive:
     """What is compared: the description, the header, and inputs for both."""
 
-    def __init__(self, description: dict, text: str):
-        self.description, self.text = description, text
+    def __init__(self, description: dict, text: str, tangents: str = ""):
+        self.description, self.text, self.tangents = description, text, tangents
         self.header = CODE.read_header(text)
         self.prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
         self.named = {entry["name"]: entry["value"] for entry in description["definitions"]}
@@ -195,7 +200,7 @@ class Drive:
         return re.findall(r'^\s*{ "([^"]*)"', table, re.M)
 
     def function(self, name: str) -> Function:
-        """A function of the header by its name without the prefix."""
+        """A function of the header by its name without the prefix; what it returns is o[0]."""
         found = re.search(
             rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}",
             self.text,
@@ -206,7 +211,24 @@ class Drive:
             key: (int(at), int(size or 1))
             for at, key, size in re.findall(r"^ \* +(\d+) (\w+)(?:\[(\d+)\])?", found[1], re.M)
         }
-        return Function(name, CODE.read_body(found[2]), table)
+        body = re.sub(r"if \(q\[(\d+)\] != q\[\1\]\) (?=q\[\1\] = )", "", found[2])
+        return Function(name, CODE.read_body(re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)), table)
+
+    def design(
+        self, name: str, rng: Random, symbols: list[str], filled: tuple[str, ...] = ()
+    ) -> tuple[Machine, Reader]:
+        """A function of a design system at random q (parameters, share of the path) and y; rates are those along y."""
+        base = CODE.machine(self.header, "eval", rng, True)
+        names = [*self.parameters, "path"]
+        random = {"path": Number(rng.randrange(1, CODE.PRIME))}
+        values = {name: random.get(name) or base.inputs[f"p[{k}]"] for k, name in enumerate(names)}
+        inputs = {f"q[{k}]": values[name] for k, name in enumerate(names) if name not in filled}
+        for k, symbol in enumerate(symbols):
+            rates = tuple(int(j == k) for j in range(len(symbols)))
+            number = Number(rng.randrange(1, CODE.PRIME), rates, {f"{name} {k}": Fraction(1)})
+            inputs[f"y[{k}]"] = values[symbol] = number
+        machine = Machine(inputs, self.function(name), None, base.circle)
+        return machine, Reader(self.named, values, machine)
 
     def run(self, name: str, rng: Random, letter: str, symbols: list[str]) -> tuple[Machine, Reader]:
         """A function at random inputs, and the description at the same; rates are those along its own arguments."""
@@ -251,6 +273,20 @@ def check_rules(drive: Drive, number: int, rng: Random) -> None:
     same(run.value(f"p[{place}]"), Reader(drive.named, values, run)(value), f"derive: rule {number} for {target}")
 
 
+def check_unit(drive: Drive, number: int) -> None:
+    """What a parameter is multiplied by when it is read: a fraction, times the circle's number or not."""
+    entry = drive.description["keys"][number]
+    name, factor = entry["symbol"]["name"], entry["factor"]
+    table = re.search(r"_parameter_names\[\] = {\n(.*?)\n};", drive.text, re.DOTALL)[1]
+    found = re.search(rf'^\s*{{ "{re.escape(name)}", .*", ([\d.e-]+), \S+, \S+ }}', table, re.M)
+    require(found, f"the header has no parameter {name}")
+    exact = Fraction(1)
+    for part in factor[1:] if isinstance(factor, list) and factor[0] == "*" else [factor]:
+        exact *= part if isinstance(part, int) else CODE.PI_ENCLOSED if part == ["pi"] else Fraction(*part[1:])
+    apart = abs(Fraction(float(found[1])) - exact)
+    require(apart <= abs(exact) * Fraction(1, 2**52), f"the unit of {name} is not that of the description")
+
+
 def given_rules(drive: Drive) -> list[tuple[str, object]]:
     defaults = [(key["symbol"]["name"], key["default"]) for key in drive.description["keys"]]
     return [pair for pair in defaults if pair[1] is not None] + [tuple(rule) for rule in drive.description["rules"]]
@@ -293,6 +329,112 @@ def check_start(drive: Drive, name: str, key: str, number: int, rng: Random) -> 
     same(run.value(found), reader(expected), f"{name}: {found}")
 
 
+def check_system(drive: Drive, system: dict, name: str, key: object, rng: Random) -> None:
+    """One output of one function of a design system, rows with their derivatives."""
+    symbols = [unknown["name"] for unknown in system["unknowns"]]
+    known = name in ("eval", "fill", "watch")
+    run, reader = drive.design(
+        f"{system['name']}_{name}", rng, symbols if known else [], tuple(system["fills"]) if name == "fill" else ()
+    )
+    reader = reader.at({symbol: reader(value) for symbol, value in system["fixed"].items()})
+    words = f"{system['name']}_{name}: {key}"
+    match name:
+        case "guess":
+            same(run.value(f"y[{key}]"), reader(system["guess"][symbols[key]]), words)
+        case "scale":
+            same(run.value(f"y[{key}]"), reader(system["unknowns"][key]["scale"]), words)
+        case "fill":
+            same(run.value(f"q[{drive.parameters.index(key)}]"), reader(system["fills"][key]), words)
+        case "eval":
+            expected = reader(system["residual"][key])
+            same(run.value(f"R[{key}]"), expected, words)
+            for j in range(len(symbols)):
+                same(run.value(f"J[{key * len(symbols) + j}]"), rate(expected, j), f"{words} by {symbols[j]}")
+        case "watch":
+            regular = system["regular"]
+            places = {q["name"]: k for k, q in enumerate(regular["surface"]["parameters"])}
+            along = {symbol: tuple(int(j == k) for j in range(len(places))) for symbol, k in places.items()}
+            here = {symbol: reader(symbol) for symbol in places}
+            reader = reader.at({s: Number(n.value, along[s], n.form) for s, n in here.items()})
+            expected = CODE.multiply(reader(regular["sign"]), singular(Surface(reader, regular["surface"], []), places))
+            same(run.value("o[0]"), expected, words)
+
+
+def check_open(drive: Drive, system: dict) -> None:
+    """What counts a system's open parameters counts those that it fills in."""
+    body = CODE.body_of(drive.text, f"{drive.prefix}_{system['name']}_open")
+    counted = {drive.parameters[int(k)] for k in re.findall(r"\(p\[(\d+)\] != p\[\1\]\)", body)}
+    require(counted == set(system["fills"]), f"{system['name']}_open counts other parameters than it fills in")
+
+
+DIVISOR = re.compile(r"a division by zero: (?:(sin|cos)\((\w+)\)|(\w+)) must not be 0")
+
+
+def check_guard(drive: Drive, number: int, rng: Random) -> None:
+    """A guard by its place: the description's come first, then divisors, of which the square must be positive."""
+    function, tested = drive.header.guards
+    base = CODE.machine(drive.header, "eval", rng, True)
+    inputs = {key: entry for key, entry in base.inputs.items() if key[0] == "p"}
+    run = Machine(inputs, function, None, base.circle)
+    values = {name: inputs[f"p[{k}]"] for k, name in enumerate(drive.parameters)}
+    reader, guards = Reader(drive.named, values, run), drive.description["guards"]
+    require(number in tested, f"setup: guard {number} is not tested")
+    if number < len(guards):
+        expected = reader(guards[number]["positive"])
+    else:
+        function, operand, name = DIVISOR.search(guard_texts(drive)[number]).groups()
+        divisor = reader([function, operand] if function else name)
+        expected = CODE.multiply(divisor, divisor)
+    same(run.value(tested[number]), expected, f"setup: guard {number}")
+
+
+def guard_texts(drive: Drive) -> list[str]:
+    """Messages of the guards; those of the description stand first."""
+    table = re.search(r"_guard_texts\[\] = {\n(.*?)\n};", drive.text, re.DOTALL)[1]
+    texts = [json.loads(line.strip().rstrip(",")) for line in table.splitlines()]
+    for text, guard in zip(texts, drive.description["guards"], strict=False):
+        require(text.startswith(guard["message"]), f"setup: the message {text[:30]} stands for another guard")
+    return texts
+
+
+CHANGED = re.compile(
+    r"^    if \(known\[(\d+)\] != known\[\1\]((?: && known\[\d+\] == known\[\d+\])*)\) "
+    r"(?:{[^\n]*\n(.*?)\n    }|known\[\1\] = p\[\1\];)$",
+    re.DOTALL | re.M,
+)
+
+
+def check_changes(drive: Drive, number: int, rng: Random) -> None:
+    """What changes a default or rule, by its place: it waits for all that it reads, and is the derivative along it."""
+    given = given_rules(drive)
+    blocks = CHANGED.findall(CODE.body_of(drive.tangents, f"{drive.prefix}_derive_tangent"))
+    require(len(blocks) == len(given), f"derive_tangent: {len(blocks)} rules, the description has {len(given)}")
+    (place, waits, body), (target, value) = blocks[number], given[number]
+    words = f"derive_tangent: rule {number} for {target}"
+    require(drive.parameters[int(place)] == target, f"{words} fills in {drive.parameters[int(place)]}")
+    reads = {drive.parameters.index(name) for name in names_in(value, drive.named) if name in drive.parameters}
+    require({int(k) for k in re.findall(r"known\[(\d+)\] ==", waits)} == reads, f"{words} waits for others")
+    base = CODE.machine(drive.header, "eval", rng, True)
+    own = {key: entry for key, entry in base.inputs.items() if key[0] == "p" and key != f"p[{place}]"}
+    moved = {f"d{key}": Number(rng.randrange(1, CODE.PRIME)) for key in own}
+    run = Machine(own | moved, Function("derive_tangent", CODE.read_body(body), {}), None, base.circle)
+    values = {
+        name: Number(own[f"p[{k}]"].value, (moved[f"dp[{k}]"].value,), own[f"p[{k}]"].form)
+        for k, name in enumerate(drive.parameters)
+        if f"p[{k}]" in own
+    }
+    expected = Reader(drive.named, values, run)(value)
+    run.inputs[f"p[{place}]"] = Number(expected.value, (), expected.angle)
+    same(run.value(f"dp[{place}]") if body else Number(0), rate(expected, 0), words)
+
+
+def names_in(e: object, named: Mapping[str, object]) -> set[str]:
+    """The names that an expression rests on, definitions followed."""
+    if isinstance(e, str):
+        return names_in(named[e], named) if e in named else {e}
+    return set().union(*(names_in(operand, named) for operand in e[1:])) if isinstance(e, list) else set()
+
+
 class Surface:
     """A surface of the description at one input."""
 
@@ -302,10 +444,208 @@ class Surface:
         self.point = reader.carried(self.motion, reader.vector(surface["point"]))
 
     @property
+    def outward(self) -> list[Number]:
+        """A normal of any length."""
+        return self.reader.carried(self.motion, self.reader.vector(self.surface["normal"]), free=True)
+
+    @property
     def normal(self) -> list[Number]:
-        normal = self.reader.carried(self.motion, self.reader.vector(self.surface["normal"]), free=True)
-        length = CODE.root(inner(normal, normal))
-        return [CODE.divide(component, length) for component in normal]
+        return unit(self.outward)
+
+    def tangents(self, places: Mapping[str, int]) -> list[list[Number]]:
+        """Derivatives of the point by the surface's parameters."""
+        return [[rate(number, places[q["name"]]) for number in self.point] for q in self.surface["parameters"]]
+
+    def slopes(self, places: Mapping[str, int]) -> list[list[Number]]:
+        """Derivatives of each implicit condition by the surface's parameters."""
+        conditions = map(self.reader, self.surface["conditions"])
+        return [[rate(c, places[q["name"]]) for q in self.surface["parameters"]] for c in conditions]
+
+    def second_form(self, places: Mapping[str, int], basis: list[list[Number]]) -> list[Number]:
+        """(II11, II12, II22) with [II l] [tangents; slopes] = -(changes of the normal), solved for its rows."""
+        outward = self.outward
+        length = CODE.root(inner(outward, outward))
+        turned = [[rate(n, places[q["name"]]) for n in outward] for q in self.surface["parameters"]]
+        tangents, slopes = self.tangents(places), self.slopes(places)
+        lines = [[*(inner(e, t) for e in basis), *(s[k] for s in slopes)] for k, t in enumerate(tangents)]
+        (a, b), (c, d) = (
+            solved(lines, [CODE.divide(inner(e, change), length) for change in turned])[:2] for e in basis
+        )
+        half = pow(2, -1, CODE.PRIME)
+        return [Number(-a % CODE.PRIME), Number(-half * (b + c) % CODE.PRIME), Number(-d % CODE.PRIME)]
+
+
+def unit(vector: list[Number]) -> list[Number]:
+    length = CODE.root(inner(vector, vector))
+    return [CODE.divide(component, length) for component in vector]
+
+
+def cross(a: list[Number], b: list[Number]) -> list[Number]:
+    return [
+        CODE.add(CODE.multiply(a[i], b[j]), CODE.multiply(a[j], b[i]), -1) for i, j in ((1, 2), (2, 0), (0, 1))
+    ]
+
+
+def solved(lines: list[list[Number]], right: list[Number]) -> list[int]:
+    """Solution of a small linear system modulo the prime (Gauss, Jordan)."""
+    rows = [[*(n.value for n in line), r.value] for line, r in zip(lines, right, strict=True)]
+    for k in range(len(rows)):
+        pivot = next((i for i in range(k, len(rows)) if rows[i][k] % CODE.PRIME), None)
+        require(pivot is not None, "a singular system")
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        inverse = pow(rows[k][k], -1, CODE.PRIME)
+        rows[k] = [entry * inverse % CODE.PRIME for entry in rows[k]]
+        for i, row in enumerate(rows):
+            if i != k and row[k]:
+                rows[i] = [(p - row[k] * q) % CODE.PRIME for p, q in zip(row, rows[k], strict=True)]
+    return [row[-1] for row in rows]
+
+
+def determinant(rows: list[list[Number]]) -> Number:
+    """By the first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total = Number(0)
+    for k, entry in enumerate(rows[0]):
+        minor = determinant([row[:k] + row[k + 1 :] for row in rows[1:]])
+        total = CODE.add(total, CODE.multiply(entry, minor), -1 if k % 2 else 1)
+    return total
+
+
+def singular(surface: Surface, places: Mapping[str, int]) -> Number:
+    """Zero where the directions that keep the conditions fall together: the determinant of the slopes and of the
+    normal's triple products, expanded by pairs of parameters (Laplace).
+    """
+    normal, tangents, slopes = surface.outward, surface.tangents(places), surface.slopes(places)
+    total = Number(0)
+    for a in range(len(tangents)):
+        for b in range(a + 1, len(tangents)):
+            others = [k for k in range(len(tangents)) if k not in (a, b)]
+            odd = sum(o > p for o in others for p in (a, b)) % 2
+            term = inner(normal, cross(tangents[a], tangents[b]))
+            if slopes:
+                term = CODE.multiply(term, determinant([[row[k] for k in others] for row in slopes]))
+            total = CODE.add(total, term, -1 if odd else 1)
+    return total
+
+
+def at_reference(reader: Reader, entry: dict) -> Reader:
+    """The same at the body's reference point; what is differentiated by a parameter still is."""
+    there = {}
+    for symbol, value in entry["reference"].items():
+        number = reader(value)
+        there[symbol] = Number(number.value, reader.values[symbol].rates, number.form)
+    return reader.at(there)
+
+
+def regular_of(reader: Reader, entry: dict, places: Mapping[str, int]) -> Number:
+    """The singular function with its good sign, or divided by its value at the reference point."""
+    here = singular(Surface(reader, entry["surface"], []), places)
+    if entry["regular"] is not None:
+        return CODE.multiply(reader(entry["regular"]), here)
+    return CODE.divide(here, singular(Surface(at_reference(reader, entry), entry["surface"], []), places))
+
+
+def tangent_basis(normal: list[Number], tangent: list[Number]) -> list[list[Number]]:
+    along = inner(tangent, normal)
+    first = unit([CODE.add(t, CODE.multiply(along, n), -1) for t, n in zip(tangent, normal, strict=True)])
+    return [first, cross(normal, first)]
+
+
+def check_principal(found: list[Number], form: list[Number], words: str) -> None:
+    """Two curvatures by sum and product."""
+    low, high = found
+    same(CODE.add(low, high), CODE.add(form[0], form[2]), f"{words}: the sum")
+    product = CODE.add(CODE.multiply(form[0], form[2]), CODE.multiply(form[1], form[1]), -1)
+    same(CODE.multiply(low, high), product, f"{words}: the product")
+
+
+def check_curvature(drive: Drive, entry: dict, name: str, rng: Random) -> None:
+    """Tangent basis, second form and principal curvatures of a flank or region, in its body's frame."""
+    symbols = [q["name"] for q in entry["surface"]["parameters"]]
+    run, reader = drive.run(f"curvature_{name}", rng, "q", symbols)
+    places = {symbol: k for k, symbol in enumerate(symbols)}
+    surface = Surface(reader, entry["surface"], [])
+    basis = tangent_basis(surface.normal, surface.tangents(places)[0])
+    form = surface.second_form(places, basis)
+    for key, expected in (("tangent_basis", [*basis[0], *basis[1]]), ("second_form", form)):
+        for k, number in enumerate(read(run, key)):
+            same(number, expected[k], f"curvature_{name}: {key}[{k}]")
+    check_principal(read(run, "curvature"), form, f"curvature_{name}: curvature")
+
+
+def check_forms(drive: Drive, key: str, rng: Random) -> None:
+    """Tangent basis of the contact, second forms of both flanks and of the gap in it, curvatures of the gap."""
+    run, reader = drive.run("observe", rng, "x", drive.unknowns)
+    places = {name: k for k, name in enumerate(drive.unknowns)}
+    bodies = {body["name"]: body for body in drive.description["bodies"]}
+    forms = [f"second_form_{name}" for name in bodies]
+    if key == "curvature_gap":
+        check_principal(read(run, key), read(run, "second_form_gap"), f"observe: {key}")
+        return
+    if key == "second_form_gap":
+        expected = [Number(-(a.value + b.value)) for a, b in zip(*(read(run, name) for name in forms), strict=True)]
+    elif key == "tangent_basis":
+        pinion = Surface(reader, bodies["pinion"]["surface"], bodies["pinion"]["motion"])
+        first, second = tangent_basis(pinion.normal, pinion.tangents(places)[0])
+        expected = [*first, *second]
+    else:
+        body = bodies[key.removeprefix("second_form_")]
+        basis = read(run, "tangent_basis")
+        expected = Surface(reader, body["surface"], body["motion"]).second_form(places, [basis[:3], basis[3:]])
+    for k, number in enumerate(read(run, key)):
+        same(number, expected[k], f"observe: {key}[{k}]")
+
+
+def turning(reader: Reader, motion: list, place: int, point: list[Number]) -> list[Number]:
+    """Velocity of the body's point that is there, of what is carried by the motion, along one direction."""
+    columns = [reader.carried(motion, [Number(int(i == k)) for i in range(3)], free=True) for k in range(3)]
+    origin = reader.carried(motion, [Number(0)] * 3)
+    arm = [CODE.add(p, o, -1) for p, o in zip(point, origin, strict=True)]
+    local = [Number(inner(column, arm).value) for column in columns]
+    return [
+        CODE.add(rate(origin[i], place), inner([rate(column[i], place) for column in columns], local)) for i in range(3)
+    ]
+
+
+def check_arms(drive: Drive, rng: Random) -> None:
+    """Lever arms: how fast each body's own angle moves the contact point along the normal, and their quotient."""
+    run, reader = drive.run("observe", rng, "x", drive.unknowns)
+    described = drive.description
+    instant, error = described["contact"]["instant"]["name"], described["contact"]["error"]
+    moving = reader.at({
+        name: Number(reader(name).value, (int(name == instant), int(name == error)), reader(name).form)
+        for name in (*drive.unknowns, instant)
+    })  # fmt: skip
+    pinion, wheel = described["bodies"]
+    contact = Surface(reader, pinion["surface"], pinion["motion"])
+    normal, point = contact.normal, [Number(n.value) for n in contact.point]
+    arms = [inner(normal, turning(moving, body["motion"], k, point)) for k, body in enumerate((pinion, wheel))]
+    for body, arm in zip((pinion, wheel), arms, strict=True):
+        same(read(run, f"lever_arm_{body['name']}")[0], arm, f"observe: lever_arm_{body['name']}")
+    same(read(run, "instantaneous_ratio")[0], CODE.divide(*arms), "observe: instantaneous_ratio")
+
+
+def check_placement(drive: Drive, member: int, rng: Random) -> None:
+    """A motion, its rows, and the axis: what its own angle moves is direction x (point - point of the axis)."""
+    contact = drive.description["contact"]
+    run, reader = drive.run("placement", rng, "q", ["own angle of the pinion", "own angle of the wheel"])
+    own = [reader("own angle of the pinion"), reader("own angle of the wheel")]
+    there = reader.at({contact["instant"]["name"]: own[0], contact["error"]: Number(0, (), {})})
+    error = CODE.add(own[1], there(contact["wheel_angle"]), -1)
+    there = there.at({contact["error"]: Number(error.value, error.rates, error.form)})
+    body = drive.description["bodies"][member]
+    motion, name = body["motion"], body["name"]
+    columns = [there.carried(motion, [Number(int(i == k)) for i in range(3)], free=True) for k in range(3)]
+    columns.append(there.carried(motion, [Number(0)] * 3))
+    rows = [column[i] for i in range(3) for column in columns]
+    for k, number in enumerate(read(run, f"placement_{name}")):
+        same(number, rows[k], f"placement: placement_{name}[{k}]")
+    direction, through = read(run, f"axis_{name}"), read(run, f"axis_point_{name}")
+    for k, column in enumerate(columns):
+        arm = column if k < 3 else [CODE.add(c, t, -1) for c, t in zip(column, through, strict=True)]
+        for i, number in enumerate(cross(direction, arm)):
+            same(number, rate(column[i], member), f"placement: axis of the {name}")
 
 
 def margin_of(reader: Reader, margin: dict, entry: dict, places: dict[str, int]) -> Number:
@@ -321,12 +661,7 @@ def margin_of(reader: Reader, margin: dict, entry: dict, places: dict[str, int])
 
     if not margin["relative"]:
         return at(reader)
-    there = {}
-    for symbol, value in entry["reference"].items():
-        own = reader.values[symbol].rates
-        number = reader(value)
-        there[symbol] = Number(number.value, own, number.form)
-    return CODE.divide(at(reader), at(reader.at(there)))
+    return CODE.divide(at(reader), at(at_reference(reader, entry)))
 
 
 def check_observed(drive: Drive, key: str, rng: Random) -> None:
@@ -350,6 +685,11 @@ def observed(drive: Drive, reader: Reader, key: str) -> list[Number]:
             if key == f"tangent_{parameter['name']}":
                 placed = Surface(reader, body["surface"], body["motion"])
                 return [rate(number, places[parameter["name"]]) for number in placed.point]
+        if key == f"regular_{name}":
+            return [regular_of(reader, body, places)]
+        for k in range(len(body["surface"]["conditions"])):
+            if key == f"condition_{name}_{k}":
+                return Surface(reader, body["surface"], []).slopes(places)[k]
         for margin in body["margins"]:
             if key == f"margin_{name}_{margin['event']}":
                 return [margin_of(reader, margin, body, places)]
@@ -364,6 +704,7 @@ def observed_keys(drive: Drive) -> list[str]:
         name = body["name"]
         keys += [f"point_{name}_f", f"normal_{name}_f", f"point_{name}"]
         keys += [f"tangent_{q['name']}" for q in body["surface"]["parameters"]]
+        keys += [f"regular_{name}", *(f"condition_{name}_{k}" for k in range(len(body["surface"]["conditions"])))]
         keys += [f"margin_{name}_{margin['event']}" for margin in body["margins"]]
     return keys
 
@@ -381,6 +722,8 @@ def check_surface(drive: Drive, entry: dict, name: str, key: str, rng: Random) -
     surface = Surface(reader, entry["surface"], [])
     if key in ("point", "normal"):
         expected = getattr(surface, key)
+    elif key == "regular":
+        expected = [regular_of(reader, entry, {symbol: k for k, symbol in enumerate(symbols)})]
     elif key.startswith("condition_"):
         expected = [reader(entry["surface"]["conditions"][int(key[len("condition_") :])])]
     else:
@@ -404,6 +747,17 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
     described = drive.description
     for k, (target, _) in enumerate(given_rules(drive)):
         yield f"rule {k} for {target}", (check_rules, drive, k)
+        if drive.tangents:
+            yield f"changes by rule {k} for {target}", (check_changes, drive, k)
+    for system in described["design_systems"]:
+        unknowns = range(len(system["unknowns"]))
+        keys = {"guess": unknowns, "scale": unknowns, "eval": range(len(system["residual"])), "fill": system["fills"]}
+        for name, places in (keys | ({"watch": ["sign"]} if system["regular"] else {})).items():
+            for key in places:
+                yield f"{key} of {system['name']}_{name}", (check_system, drive, system, name, key)
+    for k, words in enumerate(guard_texts(drive)):
+        if k < len(described["guards"]) or DIVISOR.search(words):
+            yield f"guard {k}", (check_guard, drive, k)
     for k, entry in enumerate(described["sizes"]):
         yield f"size {entry['key']}", (check_sizes, drive, k)
     for k in range(len(described["contact"]["residual"])):
@@ -425,22 +779,53 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
     surfaces += [(region, f"{region['region']}_{region['member']}") for region in described["regions"]]
     for entry, name in surfaces:
         conditions = [f"condition_{k}" for k in range(len(entry["surface"]["conditions"]))]
-        for key in ("point", "normal", *conditions, *(f"margin_{m['event']}" for m in entry["margins"])):
+        margins = [f"margin_{m['event']}" for m in entry["margins"]]
+        for key in ("point", "normal", "regular", *conditions, *margins):
             yield f"{key} of {name}", (check_surface, drive, entry, name, key)
+        yield f"curvature of {name}", (check_curvature, drive, entry, name)
+    names = [f"second_form_{body['name']}" for body in described["bodies"]]
+    for key in ("tangent_basis", *names, "second_form_gap", "curvature_gap"):
+        yield f"{key} of the observation", (check_forms, drive, key)
+    yield "lever arms of the observation", (check_arms, drive)
+    for member, body in enumerate(described["bodies"]):
+        yield f"placement of the {body['name']}", (check_placement, drive, member)
     for entry in described["functions"]:
         for result in entry["results"]:
             yield f"{result['name']} of {entry['name']}", (check_function, drive, entry, result)
 
 
+class Flank(Random):
+    """Numbers from the system's source, and one sign of the flank."""
+
+    def __init__(self, sign: int):
+        super().__init__()
+        self.sign, self.source = sign, SystemRandom()
+
+    def randrange(self, *bounds: int) -> int:
+        return self.source.randrange(*bounds)
+
+    def choice(self, _: object) -> int:
+        return self.sign % CODE.PRIME
+
+
+def attempt(check: Callable[..., None], *arguments: object) -> None:
+    """A check on each of the two flanks; one alone would not notice where a sign of the flank is missing."""
+    for sign in (1, -1):
+        CODE.attempt(check, *arguments, source=Flank(sign))
+
+
 def check_drive(description: Path, header: Path) -> int:
     """All checks of one drive; how many were made."""
     try:
-        drive = Drive(
-            json.loads(description.read_text(encoding="utf-8")), header.read_text(encoding="utf-8")
-        )
+        text, changes = header.read_text(encoding="utf-8"), CODE.read_companion(header, "sensitivity")
+        drive = Drive(json.loads(description.read_text(encoding="utf-8")), text, changes)
+        for number in range(len(drive.description["keys"])):
+            check_unit(drive, number)
+        for system in drive.description["design_systems"]:
+            check_open(drive, system)
         checks = list(checks_of(drive))
         for _, check in checks:
-            CODE.attempt(*check)
+            attempt(*check)
     except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
         raise Rejected(f"{header.name}: {error}") from error
     return len(checks)
@@ -462,8 +847,8 @@ def main(arguments: list[str]) -> int:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
     print(
-        f"{checks} checks of {drives} drives hold: rules, sizes, residuals, start, points, normals, tangents, margins "
-        "and functions are those of the description"
+        f"{checks} checks of {drives} drives hold: rules and their changes, design systems, guards, sizes, residuals, "
+        "start, points, normals, tangents, curvatures, margins, placements and functions are those of the description"
     )
     return 0
 

@@ -321,7 +321,7 @@ static inline void MW_LANE_NAME(cylindrical_worm_za_za_setup_lanes)(const double
         const double t225 = p[20 * MW_LANES + l] * c138;
         const double t226 = t30 * t219;
         const double t227 = t206 * t212;
-        const double t228 = 2.0 * t206;
+        const double t228 = t206 * 2.0;
         const double t229 = t212 * t228;
         const double t230 = p[10 * MW_LANES + l] * t213;
         const double t231 = t10 * t230;
@@ -625,8 +625,8 @@ static inline void MW_LANE_NAME(cylindrical_worm_za_za_step_lanes)(const double 
         const double t81 = c9 * t73;
         const double t82 = MW_FNMA(t77, s[19 * MW_LANES + l], t81);
         const double t83 = x[0 * MW_LANES + l] * s[19 * MW_LANES + l];
-        const double t84 = s[1 * MW_LANES + l] * s9;
-        const double t85 = MW_FMA(c9, s[37 * MW_LANES + l], t84);
+        const double t84 = c9 * s[37 * MW_LANES + l];
+        const double t85 = MW_FMA(s[1 * MW_LANES + l], s9, t84);
         const double t28m = MW_FNMA(s[7 * MW_LANES + m], t27m, t7m);
         const double t86 = s[12 * MW_LANES + l] * t79;
         const double t87 = c9 * s[17 * MW_LANES + l];
@@ -864,8 +864,8 @@ static inline void MW_LANE_NAME(cylindrical_worm_za_za_step_lanes)(const double 
         const double t116m = t18m * t111m;
         const double t117m = MW_FMA(c29m, t102m, t114m);
         const double t118m = x[0 * MW_LANES + m] * s[19 * MW_LANES + m];
-        const double t119m = s[1 * MW_LANES + m] * s9m;
-        const double t120m = MW_FMA(c9m, s[37 * MW_LANES + m], t119m);
+        const double t119m = c9m * s[37 * MW_LANES + m];
+        const double t120m = MW_FMA(s[1 * MW_LANES + m], s9m, t119m);
         const double t121m = c9m * s[17 * MW_LANES + m];
         const double t232 = MW_FNMA(t185, t230, t231);
         const double t122m = t40m * t121m;

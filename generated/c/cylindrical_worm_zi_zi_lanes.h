@@ -894,8 +894,8 @@ static inline void MW_LANE_NAME(cylindrical_worm_zi_zi_step_lanes)(const double 
         const double t200 = MW_FMA(c123, t91, t198);
         const double t201 = MW_FMS(s123, t91, t199);
         const double t202 = MW_FNMA(s[21 * MW_LANES + l], t194, t140);
-        const double t203 = s[1 * MW_LANES + l] * s32;
-        const double t204 = MW_FMA(c32, s[36 * MW_LANES + l], t203);
+        const double t203 = c32 * s[36 * MW_LANES + l];
+        const double t204 = MW_FMA(s[1 * MW_LANES + l], s32, t203);
         const double t205 = c32 * s[18 * MW_LANES + l];
         const double t206 = t179 * t205;
         const double t73m = s[4 * MW_LANES + m] * t63m;
@@ -910,9 +910,9 @@ static inline void MW_LANE_NAME(cylindrical_worm_zi_zi_step_lanes)(const double 
         const double t211 = MW_FMA(c123, t119, t210);
         const double t212 = t166 * t181;
         const double t213 = MW_FMA(t179, t173, t212);
-        const double t214 = t164 * s[34 * MW_LANES + l];
+        const double t214 = s[34 * MW_LANES + l] * t164;
         const double t215 = MW_FMS(t181, t214, t197);
-        const double t216 = t164 * s[35 * MW_LANES + l];
+        const double t216 = s[35 * MW_LANES + l] * t164;
         const double t217 = x[2 * MW_LANES + l] * s[25 * MW_LANES + l];
         const double t218 = MW_FNMA(s[21 * MW_LANES + l], t77, t217);
         const double t219 = x[0 * MW_LANES + l] * s[20 * MW_LANES + l];
@@ -1160,8 +1160,8 @@ static inline void MW_LANE_NAME(cylindrical_worm_zi_zi_step_lanes)(const double 
         const double t202m = MW_FMA(c61m, t114m, t200m);
         const double t203m = MW_FMS(s61m, t114m, t201m);
         const double t204m = MW_FNMA(s[11 * MW_LANES + m], t197m, t145m);
-        const double t205m = s[1 * MW_LANES + m] * s66m;
-        const double t206m = MW_FMA(c66m, s[36 * MW_LANES + m], t205m);
+        const double t205m = c66m * s[36 * MW_LANES + m];
+        const double t206m = MW_FMA(s[1 * MW_LANES + m], s66m, t205m);
         const double t337 = MW_FNMA(t269, t324, t336);
         const double t207m = c66m * s[18 * MW_LANES + m];
         const double t208m = t184m * t207m;
@@ -1175,9 +1175,9 @@ static inline void MW_LANE_NAME(cylindrical_worm_zi_zi_step_lanes)(const double 
         const double t214m = MW_FNMA(s[21 * MW_LANES + m], t204m, t137m);
         const double t215m = t165m * t186m;
         const double t216m = MW_FMA(t184m, t171m, t215m);
-        const double t217m = t164m * s[34 * MW_LANES + m];
+        const double t217m = s[34 * MW_LANES + m] * t164m;
         const double t218m = MW_FMS(t186m, t217m, t199m);
-        const double t219m = t164m * s[35 * MW_LANES + m];
+        const double t219m = s[35 * MW_LANES + m] * t164m;
         const double t340 = MW_FMA(t142, t339, t338);
         const double t220m = x[2 * MW_LANES + m] * s[25 * MW_LANES + m];
         const double t221m = MW_FNMA(s[21 * MW_LANES + m], t46m, t220m);
