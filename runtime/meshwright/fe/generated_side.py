@@ -40,7 +40,8 @@ def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, fl
     values = np.linspace(*faces, _SAMPLES)
     wheel = _Wheel.of(drive, member, span, faces)
     flank, fillet = wheel.line(values), wheel.root(values)
-    wheel.ends(values)  # now, rather than when a mesh asks for it
+    wheel.ends(values)  # both now, rather than when a mesh asks for them
+    wheel.tips(values)
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),
         SectionCurves(flank.surface, _axial, lambda sections: wheel.ends(sections)[0], wheel.tips),
