@@ -12,6 +12,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.shop.balls import sizes
 from meshwright.shop.nominal import flank_words, nominal, teeth_of
@@ -97,18 +98,14 @@ def plain(size):
     fits = math.isfinite(size.centre_radius)
     return {
         "ball_mm": size.ball,
-        "centre_radius_mm": _number(size.centre_radius),
-        "size_over_balls_mm": _number(size.size),
+        "centre_radius_mm": finite_or_none(size.centre_radius),
+        "size_over_balls_mm": finite_or_none(size.size),
         "arrangement": size.arrangement or None,
-        "size_over_three_wires_mm": _number(size.wires),
-        "lowest_radius_mm": _number(size.lowest),
+        "size_over_three_wires_mm": finite_or_none(size.wires),
+        "lowest_radius_mm": finite_or_none(size.lowest),
         "contact_points_mm": size.contacts.tolist() if fits and np.isfinite(size.contacts).all() else None,
         "reason": size.reason or None,
     }
-
-
-def _number(value):
-    return value if math.isfinite(value) else None
 
 
 def _table(found):

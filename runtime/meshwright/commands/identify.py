@@ -7,10 +7,9 @@ less certain than what matters (--tolerance) is named and not estimated. Paramet
 
 import math
 
-import numpy as np
-
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
@@ -88,7 +87,7 @@ def document(parameters, found, points, warnings=()):
         "schema": "meshwright.identify/1",
         "estimates": [
             {
-                "key": _short(key), "value": _number(value), "standard_deviation": _number(deviation),
+                "key": _short(key), "value": finite_or_none(value), "standard_deviation": finite_or_none(deviation),
                 "nominal": nominal, "tolerance": float(parameters.tolerances[k]),
             }
             for k, (key, nominal, value, deviation) in enumerate(rows)
@@ -108,10 +107,10 @@ def document(parameters, found, points, warnings=()):
             }
             for k in fit.distrusted()
         ],
-        "chi_square_per_degree": _number(fit.chi_square_per_degree),
+        "chi_square_per_degree": finite_or_none(fit.chi_square_per_degree),
         "sigma_um": 1e3 * fit.sigma,
         "predicted_residual_um": {"rms": 1e3 * found.rms, "largest": 1e3 * found.largest},
-        "residuals_um": [_number(1e3 * r) for r in fit.residuals],
+        "residuals_um": [finite_or_none(1e3 * r) for r in fit.residuals],
         "warnings": list(warnings),
     }  # fmt: skip
 
@@ -119,10 +118,6 @@ def document(parameters, found, points, warnings=()):
 def _short(key):
     """A key as it may be given: those of [design] without their table."""
     return key.removeprefix("design.")
-
-
-def _number(value):
-    return float(value) if np.isfinite(value) else None
 
 
 def _corrected(parameters, found):

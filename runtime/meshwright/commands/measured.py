@@ -13,6 +13,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.pairs import Mesh
@@ -51,7 +52,7 @@ def _contact(drive, options, points):
     """Contact and ease-off of the as-measured flank."""
     flank = AsMeasured.of(drive, options.member, points, options.tooth)
     window = Mesh.of(drive).window
-    ends = (window.begin.angle, window.end.angle) if window.complete else (-0.5 * drive.pitch(), 0.5 * drive.pitch())
+    ends = (window.begin.angle, window.end.angle) if window.complete else drive.about_the_middle([-0.5, 0.5])
     separation = drive.design.value("separation_mm", "contact")
     return flank.tca(common.angles_of(options, drive)), flank.ease_off(*sorted(ends), separation)
 
@@ -61,11 +62,11 @@ def _plain(tca, ease_off):
         "points": [
             {
                 "pinion_angle_deg": float(np.degrees(tca.angles[k])), "status": tca.status[k],
-                "transmission_error_arcsec": _number(tca.errors[k] / ARCSEC),
-                "nominal_transmission_error_arcsec": _number(tca.nominal[k] / ARCSEC),
+                "transmission_error_arcsec": finite_or_none(tca.errors[k] / ARCSEC),
+                "nominal_transmission_error_arcsec": finite_or_none(tca.nominal[k] / ARCSEC),
                 "contact_point_mm": _row(tca.points[k]), "contact_normal": _row(tca.normals[k]),
                 "first_contact": tca.kinds[k] and {
-                    "kind": tca.kinds[k], "transmission_error_arcsec": _number(tca.first[k] / ARCSEC),
+                    "kind": tca.kinds[k], "transmission_error_arcsec": finite_or_none(tca.first[k] / ARCSEC),
                 },
             }
             for k in range(len(tca.angles))
@@ -74,10 +75,6 @@ def _plain(tca, ease_off):
         "pattern_share": ease_off.pattern,
         "separation_mm": ease_off.separation,
     }  # fmt: skip
-
-
-def _number(value):
-    return float(value) if math.isfinite(value) else None
 
 
 def _row(values):

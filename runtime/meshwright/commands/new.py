@@ -61,7 +61,7 @@ def run(options):
 
 def _first_look(drive):
     """What the flanks do over the pitch about the middle, in a line."""
-    result = drive.tca(np.linspace(-0.5, 0.5, 5) * drive.pitch() + drive.design.reference_angle)
+    result = drive.tca(drive.about_the_middle(np.linspace(-0.5, 0.5, 5)))
     result = not_first(result, drive.first_contact(result.angles, result))
     for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):
         word = next((flag for flag in flags if impossible(flag)), None if status in TOUCHING else status)

@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.commands.shown import shown
 from meshwright.contact.analysis import status_text
@@ -60,14 +61,14 @@ def document(drive, found, angles, friction=None):
         "impossible": list(found.impossible),
         "begin": _event(found.begin),
         "end": _event(found.end),
-        "contact_ratio": _number(found.contact_ratio),
+        "contact_ratio": finite_or_none(found.contact_ratio),
         "average_contact_teeth": {
-            "over_one_pitch": _number(found.average_over_pitch),
-            "begin_to_end": _number(found.average_begin_to_end),
+            "over_one_pitch": finite_or_none(found.average_over_pitch),
+            "begin_to_end": finite_or_none(found.average_begin_to_end),
         },
         "contact_teeth": [_teeth(found.mesh, angle) for angle in angles],
         "transmission_error": _transmission(found),
-        "backlash_arcsec": _number(found.backlash / ARCSEC),
+        "backlash_arcsec": finite_or_none(found.backlash / ARCSEC),
         "efficiency": _efficiency(mean_efficiency(found.mesh, friction)),
     }
 
@@ -76,22 +77,23 @@ def _efficiency(mean):
     """Means over one pitch; None where they do not exist."""
     if mean is None:
         return dict.fromkeys(("pinion_drives", "wheel_drives", "self_locking_friction"))
-    locking = [_number(value) for value in mean.self_locking]
+    locking = [finite_or_none(value) for value in mean.self_locking]
     return {
-        "pinion_drives": _number(mean.pinion_drives), "wheel_drives": _number(mean.wheel_drives),
+        "pinion_drives": finite_or_none(mean.pinion_drives), "wheel_drives": finite_or_none(mean.wheel_drives),
         "self_locking_friction": {"least": locking[0], "largest": locking[1]},
     }  # fmt: skip
 
 
 def _event(event):
-    return {"pinion_angle_deg": _number(math.degrees(event.angle)), "event": event.reason, "member": event.member}
+    angle = finite_or_none(math.degrees(event.angle))
+    return {"pinion_angle_deg": angle, "event": event.reason, "member": event.member}
 
 
 def _teeth(mesh, angle):
     entry = {"pinion_angle_deg": math.degrees(angle), "teeth": None, "separations_mm": []}
     if mesh.window.complete:
         entry["teeth"] = mesh.teeth_in_contact(angle)
-        entry["separations_mm"] = [_number(pair.separation) for pair in mesh.pairs(angle)]
+        entry["separations_mm"] = [finite_or_none(pair.separation) for pair in mesh.pairs(angle)]
     return entry
 
 
@@ -104,13 +106,13 @@ def _transmission(ratio):
     if found is None:
         return dict.fromkeys(keys)
     values = (
-        _number(found.pair_peak_to_peak / ARCSEC),
-        _number(found.envelope_peak_to_peak / ARCSEC),
+        finite_or_none(found.pair_peak_to_peak / ARCSEC),
+        finite_or_none(found.envelope_peak_to_peak / ARCSEC),
         found.envelope,
-        _number(found.other_envelope_peak_to_peak / ARCSEC),
-        _number(found.envelope_with_edges_peak_to_peak / ARCSEC),
+        finite_or_none(found.other_envelope_peak_to_peak / ARCSEC),
+        finite_or_none(found.envelope_with_edges_peak_to_peak / ARCSEC),
         [math.degrees(a) for a in found.transfers] or None,
-        _number(math.degrees(found.vertex)),
+        finite_or_none(math.degrees(found.vertex)),
         found.rides_on_edge,
         _orders(ratio.mesh),
     )
@@ -128,10 +130,6 @@ def _orders(mesh):
         {"order": k + 1, "amplitude_arcsec": float(a / ARCSEC), "phase_deg": float(np.degrees(p))}
         for k, (a, p) in enumerate(zip(amplitudes, phases, strict=True))
     ]
-
-
-def _number(value):
-    return float(value) if math.isfinite(value) else None
 
 
 def _page(drive, found, contents):

@@ -10,10 +10,9 @@ no contact.
 
 import math
 
-import numpy as np
-
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import shown
@@ -145,11 +144,11 @@ def _state(state):
         "ground_off_mm": state.ground_off,
         "working_radius_mm": state.working,
         "status": state.status,
-        "transmission_error_arcsec": _number(state.error / ARCSEC),
-        "backlash_arcsec": _number(state.backlash / ARCSEC),
+        "transmission_error_arcsec": finite_or_none(state.error / ARCSEC),
+        "backlash_arcsec": finite_or_none(state.backlash / ARCSEC),
         "pattern": pattern and {
-            "share": pattern.share, "centre_axial_mm": _number(pattern.centre[0]),
-            "centre_radius_mm": _number(pattern.centre[1]),
+            "share": pattern.share, "centre_axial_mm": finite_or_none(pattern.centre[0]),
+            "centre_radius_mm": finite_or_none(pattern.centre[1]),
         },
         "edge_contact": [
             {"errors": edge.errors, "member": edge.member, "limits": list(edge.limits)} for edge in state.edges
@@ -165,17 +164,13 @@ def _limit(life, limit):
     }  # fmt: skip
 
 
-def _number(value):
-    return float(value) if np.isfinite(value) else None
-
-
 def _page(life, states, found):
     heads = ("ground off", "working radius", "transmission", "backlash", "pattern")
     lines = ["".join(f"{head:>{width}}" for head, width in zip(heads, WIDTHS, strict=True)) + "  edge contact"]
     lines.append(f"{'mm':>11}{'mm':>16}{'error, arcsec':>15}{'arcsec':>11}{'% flank':>10}")
     for state in states:
         share = None if state.pattern is None else 100.0 * state.pattern.share
-        angles = [_number(angle / ARCSEC) for angle in (state.error, state.backlash)]
+        angles = [finite_or_none(angle / ARCSEC) for angle in (state.error, state.backlash)]
         numbers = [state.ground_off, state.working, *angles, share]
         cells = (shown(v, round_off=ROUND_OFF) for v in numbers)
         row = "".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS, strict=True))

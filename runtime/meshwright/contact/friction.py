@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.base.plain import finite_or_none
 from meshwright.contact.velocities import velocities
 
 #: Header of a table of friction.
@@ -138,11 +139,12 @@ class Efficiency:
         """The points' part of the ``meshwright.tca/1`` document; None for what does not exist."""
         return [
             {
-                "friction": _number(self.friction[k]),
-                "self_locking_friction": _number(self.self_locking[k]),
+                "friction": finite_or_none(self.friction[k]),
+                "self_locking_friction": finite_or_none(self.self_locking[k]),
                 "self_locking": bool(self.locked[k]) if np.isfinite(self.friction[k]) else None,
                 "efficiency": {
-                    "pinion_drives": _number(self.pinion_drives[k]), "wheel_drives": _number(self.wheel_drives[k]),
+                    "pinion_drives": finite_or_none(self.pinion_drives[k]),
+                    "wheel_drives": finite_or_none(self.wheel_drives[k]),
                 },
             }
             for k in range(len(self.friction))
@@ -204,7 +206,3 @@ def mean_efficiency(mesh, friction=None):
 
 def _dot(a, b):
     return np.einsum("ni,ni->n", a, b)
-
-
-def _number(value):
-    return float(value) if np.isfinite(value) else None

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright.base.library import library, text
+from meshwright.base.plain import finite_or_none
 
 ARCSEC = np.pi / 648000.0
 
@@ -148,31 +149,27 @@ class TCA:
             "status": self.status[k],
             "message": self.messages[k],
             "iterations": int(self.iterations[k]),
-            "residual": _number(self.residual[k]),
-            "wheel_angle_deg": _number(np.degrees(self.wheel_angles[k])),
-            "transmission_error_arcsec": _number(self.error[k] / ARCSEC),
-            "transmission_error_relative_arcsec": _number(self.relative_error[k] / ARCSEC),
-            "unknowns": {name: _number(values[k]) for name, values in self.unknowns.items()} if solved else {},
+            "residual": finite_or_none(self.residual[k]),
+            "wheel_angle_deg": finite_or_none(np.degrees(self.wheel_angles[k])),
+            "transmission_error_arcsec": finite_or_none(self.error[k] / ARCSEC),
+            "transmission_error_relative_arcsec": finite_or_none(self.relative_error[k] / ARCSEC),
+            "unknowns": {name: finite_or_none(values[k]) for name, values in self.unknowns.items()} if solved else {},
             "contact_point_mm": _row(self.points[k]),
             "contact_normal": _row(self.normals[k]),
             **{f"contact_point_{name}_mm": _row(points[k]) for name, points in self.body_points.items()},
             "curvature": {
-                "relative_min_per_mm": _number(smaller),
-                "relative_max_per_mm": _number(larger),
+                "relative_min_per_mm": finite_or_none(smaller),
+                "relative_max_per_mm": finite_or_none(larger),
                 "major_direction": _row(self.major[k]),
             },
             "ellipse": {
-                "semi_major_mm": _number(self.semi_axes[k, 0]),
-                "semi_minor_mm": _number(self.semi_axes[k, 1]),
+                "semi_major_mm": finite_or_none(self.semi_axes[k, 0]),
+                "semi_minor_mm": finite_or_none(self.semi_axes[k, 1]),
             },
-            "lever_arms_mm": {name: _number(arms[k]) for name, arms in self.lever_arms.items()},
-            "instantaneous_ratio": _number(self.instantaneous_ratio[k]),
+            "lever_arms_mm": {name: finite_or_none(arms[k]) for name, arms in self.lever_arms.items()},
+            "instantaneous_ratio": finite_or_none(self.instantaneous_ratio[k]),
             "flags": list(self.flags[k]),
         }
-
-
-def _number(value):
-    return float(value) if np.isfinite(value) else None
 
 
 def _row(values):

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.base.plain import finite_or_none
 
 #: Samples around the tool, along the profile, and around the tool again on each closer look at the worst place.
 AROUND, ALONG, CLOSER, LOOKS = 720, 16, 41, 3
@@ -57,17 +58,13 @@ class Judgement:
         point = self.clearance.point.tolist()
         return {
             "clears": self.clearance.height > 0,
-            "clearance_mm": _number(self.clearance.height),
+            "clearance_mm": finite_or_none(self.clearance.height),
             "point_mm": point if all(map(math.isfinite, point)) else None,
-            "tool_angle_deg": _number(math.degrees(self.clearance.angle)),
+            "tool_angle_deg": finite_or_none(math.degrees(self.clearance.angle)),
             "tilt_deg": math.degrees(self.tilt),
-            "least_tilt_deg": _number(math.degrees(self.least.tilt)),
-            "least_tilt_change_deg": _number(math.degrees(self.least.change)),
+            "least_tilt_deg": finite_or_none(math.degrees(self.least.tilt)),
+            "least_tilt_change_deg": finite_or_none(math.degrees(self.least.change)),
         }
-
-
-def _number(value):
-    return value if math.isfinite(value) else None
 
 
 def judged(drive):

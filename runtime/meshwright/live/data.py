@@ -6,6 +6,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, text
+from meshwright.base.plain import finite_or_none
 from meshwright.contact import words
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.results import impossible
@@ -31,7 +32,7 @@ def data(drive):
         "title": description["title"],
         "name": design.tables.get("name") or "design",
         "label": design.label,
-        "given": [_number(value) for value in given],
+        "given": [finite_or_none(value) for value in given],
         "keys": [_key(k, p, design, given[k]) for k, p in enumerate(description["parameters"]) if _shown(p, given[k])],
         "fixed": _fixed(design),
         "above": _above(description),
@@ -60,10 +61,6 @@ def data(drive):
         "border": border,
         "end_on": end_on,
     }  # fmt: skip
-
-
-def _number(value):
-    return float(value) if math.isfinite(value) else None
 
 
 def _shown(parameter, given):

@@ -313,8 +313,8 @@ def leading_edge(mesh):
 def pattern(mesh):
     """The :class:`Pattern` of a drive on its wheel; None where no patch is found."""
     drive, window = mesh.drive, mesh.window
-    low, high = sorted((window.begin.angle, window.end.angle)) if window.complete else (
-        -0.5 * drive.pitch(), 0.5 * drive.pitch())  # fmt: skip
+    ends = (window.begin.angle, window.end.angle) if window.complete else drive.about_the_middle([-0.5, 0.5])
+    low, high = sorted(ends)
     tca = drive.tca(np.linspace(low, high, PATCHES))
     outlines = [_plane(patch.body_points["wheel"]) for patch in contours(drive, tca, DIRECTIONS) if patch is not None]
     flank = triangulated(drive.region("wheel"), CELLS)
