@@ -41,7 +41,7 @@ generate: setup
 audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
-	$(PY) generated/audit/check_description.py generated/audit cylindrical_worm_zn_zn spherical_convex_spur face_worm
+	$(PY) generated/audit/check_description.py
 
 # Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
 kernel: generate
