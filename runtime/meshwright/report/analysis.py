@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshwright.contact.contact_line import ContactLine, contact_line
+from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
 from meshwright.contact.placement import placements
 from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
-from meshwright.cycle.edge import not_first
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import FirstContacts
 from meshwright.cycle.pairs import Mesh
