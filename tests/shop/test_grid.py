@@ -126,8 +126,9 @@ def test_three_wires_of_the_worm_of_a_published_table():
     """Six printed figures of one column: m_x 2, α_n 20°, one thread, d 31, wires 3.3.
 
     Stock Drive Products/Sterling Instrument, Elements of Metric Gear Technology, three-wire method of worm measurement,
-    Tables 10-25 and 10-26 (the worm as an involute helical gear). The figures were written down without the page at hand;
-    the angle and the involute at the reference cylinder, which only the table prints, bind them to one another.
+    Tables 10-25 and 10-26 (the worm as an involute helical gear). The figures were written down without the page
+    at hand; the angle and the involute at the reference cylinder, which only the table prints, bind them
+    to one another.
     """
     printed = json.loads((REFERENCE / "worm-over-wires.json").read_text())["example"]
     drive = Drive.from_tables({
