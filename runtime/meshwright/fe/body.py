@@ -17,11 +17,15 @@ _MERGE_TOLERANCE = 1e-8
 
 @dataclass(frozen=True)
 class BodyMesh:
-    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore, outer cuts and cut ends."""
+    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore, outer cuts and cut ends.
+
+    rows: elements from face to face; those of a quadrilateral of the section follow one another.
+    """
 
     mesh: HexMesh
     teeth: tuple[dict[str, FaceSet], ...]
     rim: Ints
+    rows: int
 
     def nodes(self, tooth: int, name: str) -> Ints:
         """Distinct nodes of a face set of a tooth."""
@@ -66,7 +70,7 @@ def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     rim_faces = [tooth["bore"] for tooth in faces] + [faces[0]["left_cut"], faces[-1]["right_cut"]]
     rim_faces += [faces[k]["ends"] for k, tooth in enumerate(teeth) if tooth.form.cut_ends]
     rim = np.unique(np.concatenate([mesh.face_nodes(f).ravel() for f in rim_faces]))
-    return BodyMesh(mesh, faces, rim)
+    return BodyMesh(mesh, faces, rim, rows)
 
 
 def _shifted(tooth: ToothMesh, offset: int) -> dict[str, FaceSet]:
