@@ -59,7 +59,11 @@ def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     """Mesh neighbouring teeth from left to right, each graded to its own zone."""
     rows = max(face_rows(tooth.form, tooth.zone, density) for tooth in teeth)
     stations = Stations.between([section_values(tooth.form, tooth.zone, density, rows) for tooth in teeth])
-    single = [mesh_tooth(t.form, t.zone, density, at) for t, at in zip(teeth, stations, strict=True)]
+    single: list[ToothMesh] = []
+    for k, (tooth, at) in enumerate(zip(teeth, stations, strict=True)):
+        same = k > 0 and tooth.form is teeth[k - 1].form and tooth.zone is teeth[k - 1].zone
+        same = same and all(np.array_equal(a, b) for a, b in zip(at, stations[k - 1], strict=True))
+        single.append(single[-1] if same else mesh_tooth(tooth.form, tooth.zone, density, at))
     placed = [
         HexMesh(moved(place.motion, tooth.mesh.nodes), tooth.mesh.elements)
         for tooth, place in zip(single, teeth, strict=True)
