@@ -13,7 +13,7 @@ def _clipped(value, least, most):
     return sp.Min(sp.Max(value, least), most)
 
 
-def _worm():
+def worm():
     quotient = Suggestion(
         "", (_clipped(2 * a / m - z_2, 7, 20), 10 + 0 * m), name="q", decimals=4,
         why="diameter quotient: the wheel needs no profile shift at the centre distance given, else 10",
@@ -66,7 +66,7 @@ def _worm():
     )  # fmt: skip
 
 
-def _spherical():
+def spherical():
     return Outline(
         {"m": "module", "z": "teeth of the pinion : teeth of the wheel"},
         {"pinion_form": "convex", "wheel_form": "convex"},
@@ -84,7 +84,7 @@ def _spherical():
     )
 
 
-def _cylindrical():
+def cylindrical():
     return Outline(
         {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
         {},
@@ -106,7 +106,7 @@ def _cylindrical():
     )  # fmt: skip
 
 
-def _face_worm():
+def face_worm():
     size = m / sp.Rational(1334, 1000)
     share = z_2 / 60
 
@@ -133,7 +133,7 @@ def _face_worm():
     )
 
 
-def _bevel():
+def bevel():
     """A face-milled spiral bevel pair of uniform depth at 90°: crown-gear generated, the pinion crowned lengthwise."""
     degree = 180 / sp.pi
     pitch = Suggestion("", (sp.atan2(z_1, z_2),), name="delta_1")
@@ -178,13 +178,3 @@ def _bevel():
             *member("gear", cutter.symbol, -1, sp.pi / 2 - d_1),
         ),
     )  # fmt: skip
-
-
-#: By the family's name in design files.
-OUTLINES = {
-    "cylindrical-worm": _worm,
-    "spherical": _spherical,
-    "cylindrical-gears": _cylindrical,
-    "face-worm": _face_worm,
-    "bevel": _bevel,
-}
