@@ -10,6 +10,7 @@ from functools import partial
 
 import sympy as sp
 
+from derive.drives import outlines
 from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
@@ -486,6 +487,7 @@ def cylindrical_worm(worm_profile, hob_profile, condition=NEW):
         proportions=_proportions(condition),
         exchange=_exchange() if condition.new else None,
         regrind=REGRIND,
+        outline=outlines.worm,
         sources=SOURCES,
         handed="right",
         exclusive=(
