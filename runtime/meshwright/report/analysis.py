@@ -24,7 +24,7 @@ from meshwright.cycle.transmission import (
     transmission_error,
 )
 from meshwright.drive import Drive
-from meshwright.pattern.pattern import Contour, along_ellipse, contour
+from meshwright.pattern.pattern import Contour, along_ellipse, contours
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, checked_sizes, misalignments, sensitivity
@@ -238,7 +238,7 @@ def _pattern(drive, tca):
     if not solved.size:
         return ()
     chosen = solved[np.unique(np.linspace(0, solved.size - 1, CONTOURS).round().astype(int))]
-    return tuple(contour(drive, tca.angles[k], DIRECTIONS, result=tca, spacing=along_ellipse) for k in chosen)
+    return contours(drive, tca, DIRECTIONS, spacing=along_ellipse, rows=chosen)
 
 
 def _matrices(drive, tca):
