@@ -29,7 +29,7 @@ from derive.tools.involute import involute
 from derive.tools.reground import reground, working_radius
 from derive.tools.straight_blade import straight_blade
 from derive.tools.tip_rounding import tip_rounding
-from derive.tools.worm_body import WormBody
+from derive.tools.worm_body import SHEET_USED, WormBody
 
 SOURCES = (
     Source(
@@ -257,9 +257,6 @@ RULES = (
 STANDARD_ADDENDUM, STANDARD_CLEARANCE, STANDARD_ROUNDING, BEYOND_THROAT = (
     sp.Rational(n, 10) for n in (10, 2, 3, 5)
 )  # fmt: skip
-
-#: Part used of the angle about the hob over which it cuts the wheel.
-SHEET_USED = sp.Rational(6, 10)
 
 
 def _hob_end(hob):

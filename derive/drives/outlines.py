@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive.drives.cylindrical_worm import SHEET_USED
 from derive.language.choice import unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
+from derive.tools.worm_body import SHEET_USED
 
 
 def _clipped(value, least, most):
