@@ -37,7 +37,7 @@ def _outline(family):
     suggestions = [
         {
             "place": s.place, "name": s.symbol.name, "values": [prefix(v) for v in s.values], "why": s.why,
-            "decimals": s.decimals, "whole": s.whole,
+            "decimals": s.decimals, "whole": s.whole, "words": s.words,
         }
         for s in outline.suggestions
     ]  # fmt: skip
