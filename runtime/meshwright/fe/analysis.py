@@ -67,7 +67,10 @@ def prepare(
     settings: Settings,
     folder: Path,
 ) -> Prepared:
-    """Find the forces semi-analytically, build the mesh for them and write the input into ``folder``: its lock is ours."""
+    """Find the forces semi-analytically, build the mesh for them and write the input into ``folder``.
+
+    Whoever calls this holds the lock of the folder.
+    """
     loaded = loaded_contact(gear, pinion_angle, settings.pairs, load, compliance)
     forces = np.array([pair.force for pair in loaded.pairs])
     model = build_model(gear, pinion_angle, settings.pairs, load, forces, settings.density)
