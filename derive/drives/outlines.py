@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive.drives.cylindrical_worm import SHEET_USED
 from derive.language.choice import unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
+from derive.tools.worm_body import SHEET_USED
 
 
 def _clipped(value, least, most):
@@ -21,7 +21,7 @@ def _clipped(value, least, most):
 STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
 
 
-def _worm():
+def worm():
     arc = {"worm_profile": ("ZC",)}
     shift = Suggestion("", (0 * m,), name="x")
     shift_arc = replace(shift, values=(sp.Rational(1, 2) + 0 * m,), words=arc)
@@ -115,7 +115,7 @@ def _worm():
     )  # fmt: skip
 
 
-def _spherical():
+def spherical():
     return Outline(
         {"m": "module", "z": "teeth of the pinion : teeth of the wheel"},
         {"pinion_form": "convex", "wheel_form": "convex"},
@@ -141,7 +141,7 @@ def _spherical():
     )
 
 
-def _cylindrical():
+def cylindrical():
     return Outline(
         {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
         {},
@@ -163,7 +163,7 @@ def _cylindrical():
     )  # fmt: skip
 
 
-def _face_worm():
+def face_worm():
     size = m / sp.Rational(1334, 1000)
     share = z_2 / 60
 
@@ -192,7 +192,7 @@ def _face_worm():
     )
 
 
-def _bevel():
+def bevel():
     """A face-milled spiral bevel pair of uniform depth at 90°: crown-gear generated, the pinion crowned lengthwise."""
     degree = 180 / sp.pi
     pitch = Suggestion("", (sp.atan2(z_1, z_2),), name="delta_1")
@@ -237,13 +237,3 @@ def _bevel():
             *member("gear", cutter.symbol, -1, sp.pi / 2 - d_1),
         ),
     )  # fmt: skip
-
-
-#: By the family's name in design files.
-OUTLINES = {
-    "cylindrical-worm": _worm,
-    "spherical": _spherical,
-    "cylindrical-gears": _cylindrical,
-    "face-worm": _face_worm,
-    "bevel": _bevel,
-}

@@ -8,6 +8,7 @@ import numpy as np
 
 from meshwright.contact.results import ARCSEC
 from meshwright.flank.mesh import mesh
+from meshwright.flank.tooth import tooth
 from meshwright.report.style import MEMBERS
 
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
@@ -99,37 +100,30 @@ def _packed(values, kind="<f4"):
 
 def _body(analysis, name, matrices, cell):
     colour = [int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5)]
-    flip = np.array([1.0, analysis.mirror, 1.0])
     return {
         "name": name,
         "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "patches": [flank_data(*side, flip, cell) for side in _sides(analysis, name)],
+        "patches": [tooth_data(analysis.drive, name, analysis.teeth[name], analysis.mirror, cell)],
     }
 
 
-def _sides(analysis, name):
-    """The flank in contact and, if it belongs to the same design, the other side of the tooth: region, active."""
-    drive = analysis.drive
-    sides = [(drive.region(name), True)]
-    if not drive.design.description["flanks_apart"]:
-        words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
-        other = drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
-        sides.append((other.region(name), False))
-    return sides
-
-
-def flank_data(region, active, flip, cell):
-    """A flank with its border resolved, in cells of about ``cell`` mm: points, normals, corners of triangles."""
+def tooth_data(drive, member, teeth, mirror, cell):
+    """A tooth, of which a turn has so many: the flank in contact with its border resolved, in cells of about ``cell``
+    mm (points, normals, corners of triangles), and by point the angle about the axis to the far flank, with its normal.
+    """
+    region, flip = drive.region(member), np.array([1.0, mirror, 1.0])
     drawn = mesh(region, FIRST)
     if len(drawn.triangles):
         drawn = mesh(region, tuple(_finer(region, drawn, cell, axis) for axis in (0, 1)))
+    behind = tooth(drive, member, drawn, teeth)
     return {
-        "active": active,
         "points": _packed(drawn.points * flip),
         "normals": _packed(drawn.normals * flip),
         "triangles": _packed(drawn.triangles, "<u4"),
+        "across": _packed(behind.across * mirror),
+        "far": _packed(behind.normals * flip),
     }
 
 
