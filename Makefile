@@ -43,6 +43,7 @@ audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
 	$(PY) generated/audit/check_description.py
+	$(PY) generated/audit/check_bounded.py
 	$(PY) generated/audit/check_print.py
 
 # Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
