@@ -16,6 +16,9 @@ from meshwright.flank.region import solved
 #: of the distance from the axis, and what is left where a place is found, as such a part.
 CELLS, STEPS, LONGEST, FOUND = (12, 24), 30, 0.2, 1e-9
 
+#: Cells of a drawn flank's first mesh across and along the tooth, and at most.
+FIRST, MOST = (12, 24), (32, 192)
+
 #: Angle over which a tooth is drawn whose far flank the design does not determine, in pitches.
 ASSUMED = 0.5
 
@@ -41,6 +44,24 @@ def other_flank(drive):
         return None
     words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
     return drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
+
+
+def drawn_mesh(region, cell):
+    """The mesh of a region with its border resolved, in cells of about ``cell`` mm: one that is fit to be drawn."""
+    drawn = mesh(region, FIRST)
+    if len(drawn.triangles):
+        drawn = mesh(region, tuple(_finer(region, drawn, cell, axis) for axis in (0, 1)))
+    return drawn
+
+
+def _finer(region, drawn, cell, axis):
+    """How many cells of about ``cell`` mm go along one coordinate of a region, by such edges of a first mesh."""
+    corners = drawn.triangles
+    here, there = corners.ravel(), np.roll(corners, 1, axis=1).ravel()
+    across = np.abs(drawn.parameters[here] - drawn.parameters[there])[:, region.chart.free[1 - axis]]
+    along = across < 1e-6 * np.ptp(region.box[:, 1 - axis])
+    lengths = np.linalg.norm(drawn.points[here] - drawn.points[there], axis=1)[along]
+    return int(np.clip(round(FIRST[axis] * np.quantile(lengths, 0.9) / cell), FIRST[axis], MOST[axis]))
 
 
 def tooth(drive, member, near, teeth):

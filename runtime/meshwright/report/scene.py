@@ -7,15 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.contact.results import ARCSEC
-from meshwright.flank.mesh import mesh
-from meshwright.flank.tooth import tooth
+from meshwright.flank.tooth import drawn_mesh, tooth
 from meshwright.report.style import MEMBERS
 
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
 LIGHTER = 0.22
 
-#: Cells of a flank's first mesh across and along the tooth, and at most; how many go to the radius of the view.
-FIRST, MOST, CELLS_PER_RADIUS = (12, 24), (32, 192), 24.0
+#: Cells of a drawn flank that go to the radius of the view.
+CELLS_PER_RADIUS = 24.0
 
 
 @dataclass(frozen=True)
@@ -113,10 +112,7 @@ def tooth_data(drive, member, teeth, mirror, cell):
     """A tooth, of which a turn has so many: the flank in contact with its border resolved, in cells of about ``cell``
     mm (points, normals, corners of triangles), and by point the angle about the axis to the far flank, with its normal.
     """
-    region, flip = drive.region(member), np.array([1.0, mirror, 1.0])
-    drawn = mesh(region, FIRST)
-    if len(drawn.triangles):
-        drawn = mesh(region, tuple(_finer(region, drawn, cell, axis) for axis in (0, 1)))
+    flip, drawn = np.array([1.0, mirror, 1.0]), drawn_mesh(drive.region(member), cell)
     behind = tooth(drive, member, drawn, teeth)
     return {
         "points": _packed(drawn.points * flip),
@@ -125,16 +121,6 @@ def tooth_data(drive, member, teeth, mirror, cell):
         "across": _packed(behind.across * mirror),
         "far": _packed(behind.normals * flip),
     }
-
-
-def _finer(region, drawn, cell, axis):
-    """How many cells of about ``cell`` mm go along one coordinate of a region, by such edges of a first mesh."""
-    corners = drawn.triangles
-    here, there = corners.ravel(), np.roll(corners, 1, axis=1).ravel()
-    across = np.abs(drawn.parameters[here] - drawn.parameters[there])[:, region.chart.free[1 - axis]]
-    along = across < 1e-6 * np.ptp(region.box[:, 1 - axis])
-    lengths = np.linalg.norm(drawn.points[here] - drawn.points[there], axis=1)[along]
-    return int(np.clip(round(FIRST[axis] * np.quantile(lengths, 0.9) / cell), FIRST[axis], MOST[axis]))
 
 
 def _copies(analysis, name):

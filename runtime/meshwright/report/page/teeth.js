@@ -11,9 +11,10 @@ function decoded(text, Kind) {
 }
 
 /* The closed surface of a tooth: the flank in contact, the far flank, and the circles about z from border to border.
- * near, far: {points, normals}; across: the angle of each far point from its near one. Vertices that do not exist are
- * NaN. */
+ * near, far: {points, normals}; across: the angle of each far point from its near one. Where there is no far point
+ * (NaN), the tooth is as wide as at the nearest place that has one. */
 function toothPatch(near, far, across, triangles) {
+  [far, across] = widened(near, far, across);
   const count = near.points.length / 3, points = Array.from(near.points), normals = Array.from(near.normals);
   for (const c of far.points) points.push(c);
   for (const c of far.normals) normals.push(c);
@@ -34,7 +35,6 @@ function toothPatch(near, far, across, triangles) {
 
   /* from the border edge a–b of a triangle with the third corner c to its image: `steps` quadrangles */
   function rim(a, b, c) {
-    if (Number.isNaN(across[a] + across[b])) return;
     const first = points.length / 3;
     for (let k = 0; k <= steps; k++) for (const i of [a, b]) points.push(...between(i, k / steps));
     for (let k = 0; k <= steps; k++) {
@@ -60,6 +60,21 @@ function toothPatch(near, far, across, triangles) {
     const angle = Math.atan2(p[1], p[0]) + share * across[i];
     return [radius * Math.cos(angle), radius * Math.sin(angle), p[2] * (1 - share) + q[2] * share];
   }
+}
+
+function widened(near, far, across) {
+  const known = [...across.keys()].filter((i) => Number.isFinite(across[i]));
+  if (known.length === across.length || !known.length) return [far, across];
+  const filled = Float64Array.from(across), points = Float64Array.from(far.points), normals = Float64Array.from(far.normals);
+  const apart = (i, k) => [0, 1, 2].reduce((sum, c) => sum + (near.points[3 * i + c] - near.points[3 * k + c]) ** 2, 0);
+  for (let i = 0; i < across.length; i++) {
+    if (Number.isFinite(across[i])) continue;
+    filled[i] = across[known.reduce((best, k) => (apart(i, k) < apart(i, best) ? k : best))];
+    const turned = (values) => turnedAboutAxis(values.subarray(3 * i, 3 * i + 3), [filled[i]]);
+    points.set(turned(near.points), 3 * i);
+    normals.set(turned(near.normals).map((v) => -v), 3 * i);
+  }
+  return [{ points, normals }, filled];
 }
 
 /* Points turned about z, each by its own angle. */
