@@ -258,7 +258,7 @@ def check(tables, places=None):
     state = np.empty(c.ns)
     failed = c.setup(p, pointer(state))
     if failed:
-        raise _guard_error(description["guards"][failed - 1], checked)
+        raise _guard_error(description["guards"][failed - 1], checked, _by_place(description, parameters))
     parameters.flags.writeable = False
     return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked), places)
 
@@ -495,9 +495,18 @@ def _sizes(c, parameters):
     return {text(n.name): float(x) / n.factor for n, x in zip(names, numbers, strict=True)}
 
 
-def _guard_error(guard, checked):
+def _by_place(description, parameters):
+    """Completed parameters by their places, in the units of the keys."""
+    numbers = zip(description["parameters"], parameters, strict=True)
+    return {f"{p['table']}.{p['key']}": _shown(p, float(number)) for p, number in numbers}
+
+
+def _guard_error(guard, checked, completed=None):
+    """The error of a guard: with the values that the design gives its keys; if none, with those that follow."""
     given = {_full(key, checked): _given(checked, _full(key, checked)) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
+    if not shown and completed:
+        shown = {key: float(f"{completed[key]:.6g}") for key in given if isinstance(completed.get(key), float)}
     shown = dict(sorted(shown.items(), key=lambda entry: isinstance(entry[1], str)))  # numbers, then words
     first = next(iter(shown or given))
     others = ", ".join(f"{k.removeprefix('design.')} = {v}" for k, v in shown.items() if k != first)
