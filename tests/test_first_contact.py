@@ -7,7 +7,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.contact.results import ARCSEC
+from meshwright.contact.results import ARCSEC, impossible
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import pair_errors
 from meshwright.cycle.pairs import Mesh
@@ -107,8 +107,8 @@ def brute_force(drive, angle, found):
         known, _ = drive.with_(misalignment=dict.fromkeys(drive.design.given()["misalignment"], 0.0)).trace(places)
     at = mirror * angle
     here = drive.tca([angle])
-    on_both = np.isfinite(here.solutions).all() and not here.flags[0]  # else it may lie on another sheet
-    known = here.solutions[0] if on_both else known[np.isfinite(known).all(axis=1)][0]
+    on_sheet = np.isfinite(here.solutions).all() and not any(map(impossible, here.flags[0]))
+    known = here.solutions[0] if on_sheet else known[np.isfinite(known).all(axis=1)][0]
     side = np.sign(mirror * found.levers[0])
     vertices = drive.region("wheel").lattice((24, 24)).q.reshape(-1, 2)
     low, high = vertices.min(axis=0), vertices.max(axis=0)

@@ -6,6 +6,8 @@ the line with the largest one, in ever finer windows. Only positions of flanks, 
 are used.
 """
 
+from itertools import product
+
 import numpy as np
 
 from meshwright.base.library import pointer
@@ -72,8 +74,12 @@ class FirstTouch:
         miss = found.points - turned @ self.still[:3, :3].T - self.still[:3, 3]
         return np.concatenate([miss, found.conditions[:, :, 0]], axis=1)
 
-    def look(self, q, start):
-        """Wheel angle times side (N,), -inf outside any limit, and where the points meet (N, k + 1)."""
+    def look(self, places, start):
+        """Wheel angle times side (N,), -inf outside any limit, and where the points meet (N, k + 1).
+
+        ``places`` (N, 2): on its line, and the line.
+        """
+        q = np.roll(places, self.along, axis=1)
         x = self.meet(q, start)
         known = np.isfinite(x).all(axis=1)
         inside = known.copy()
@@ -85,12 +91,15 @@ class FirstTouch:
     def highest(self, box):
         """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back).
 
-        Of two searches: whole lines sampled evenly, and the surroundings of the best place ever more closely.
+        Of searches by lines along either parameter (limits that run along a line leave little of it): whole lines sampled
+        evenly, and the surroundings of the best place ever more closely.
         """
-        return self.side * max(self._search(box, closely) for closely in (False, True))
+        ways = product((False, True), (0, 1))
+        return self.side * max(self._search(box, closely, along) for closely, along in ways)
 
-    def _search(self, box, closely):
-        (a_low, b_low), (a_high, b_high) = box
+    def _search(self, box, closely, along):
+        self.along = along
+        (a_low, b_low), (a_high, b_high) = np.roll(box, -along, axis=1)
         centre, half = 0.5 * (b_low + b_high), 0.5 * (b_high - b_low)
         best, samples = -np.inf, np.linspace(a_low, a_high, SAMPLES)
         for window in range(WINDOWS[closely]):
