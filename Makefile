@@ -104,7 +104,7 @@ compilers: build
 test-fe: build solver
 	$(PY) -m pytest tests/fe -m slow
 
-# Points a second of every kernel and of the baselines, in one table.
+# Points a second of every kernel and of the baselines, and what a user waits for, in tables.
 bench: build
 	$(PY) -m tests.benchmarks.bench
 
