@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
+from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placements_at
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
@@ -157,7 +158,7 @@ class _Search:
     and ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
     """
 
-    drive: object
+    drive: DriveModel
     table: object
     kept: tuple
     work: np.ndarray

@@ -11,6 +11,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer, text
 from meshwright.contact.analysis import analyse
+from meshwright.contact.model import DriveModel
 
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
@@ -29,7 +30,7 @@ class Path:
     ``ended`` are the status words of what stopped the branch below and above; "" where the search stopped.
     """
 
-    drive: object
+    drive: DriveModel
     angles: np.ndarray
     unknowns: np.ndarray
     ended: tuple[str, str] = ("", "")
