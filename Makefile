@@ -65,9 +65,10 @@ run: setup
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
-# Style and unused names.
+# Style, unused names and types.
 lint: setup
 	$(PY) -m ruff check derive runtime tests
+	$(PY) -m mypy
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
 test: build check solver cmake

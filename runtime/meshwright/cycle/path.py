@@ -34,7 +34,7 @@ class Path:
     angles: np.ndarray
     unknowns: np.ndarray
     ended: tuple[str, str] = ("", "")
-    state: np.ndarray = field(default=None, repr=False)
+    state: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def spacing(self):
