@@ -91,8 +91,8 @@ class FirstTouch:
     def highest(self, box):
         """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back).
 
-        Of searches by lines along either parameter (limits that run along a line leave little of it): whole lines sampled
-        evenly, and the surroundings of the best place ever more closely.
+        Of searches by lines along either parameter (a limit that runs along a line leaves little of it): whole lines
+        sampled evenly, and the surroundings of the best place ever more closely.
         """
         ways = product((False, True), (0, 1))
         return self.side * max(self._search(box, closely, along) for closely, along in ways)
