@@ -1,4 +1,4 @@
-"""The identities behind cylindrical gears are proved; those of curvature and symmetry are false with one sign changed."""
+"""The identities behind cylindrical gears are proved; some are shown to be false with one sign changed."""
 
 import inspect
 from dataclasses import replace
