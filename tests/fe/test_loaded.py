@@ -241,3 +241,18 @@ def test_line_contact_is_refused(capsys):
     design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
     assert main(["loaded", *design, "--torque-nm", "1"]) == 2
     assert "design" in capsys.readouterr().err
+
+
+@pytest.mark.validate
+def test_contact_lines_of_helical_teeth_are_generators_of_the_base_helix(capsys):
+    """ISO 21771:2007: contact lines lie in the plane of action at the base helix angle, sin β_b = sin β cos α_n."""
+    status = main(["loaded", "helical-crowned", "--torque-nm", "60", "--phi-deg=2", "--json", "-"])
+    document = json.loads(capsys.readouterr().out)
+    assert status == 0
+    design = Drive.load("helical-crowned").design
+    helix = np.sin(design.value("pinion_helix_angle_deg")) * np.cos(design.value("pressure_angle_deg"))
+    for pair in document["points"][0]["pairs"]:
+        for member in ("pinion", "wheel"):
+            line = np.array(pair["line_mm"][member])
+            along = line[-1] - line[0]
+            assert abs(along[2]) / np.linalg.norm(along) == pytest.approx(np.cos(np.arcsin(helix)), abs=1e-4)

@@ -136,13 +136,14 @@ def _point(fe, gear, angle, pairs, load, compliance):
     if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
     total = sum(pair.force for pair in found.pairs)
+    lines = _lines(fe, gear, angle, found.pairs)
     return point | {
         "status": "converged",
         "message": "; ".join(_edge_note(pair) for pair in found.pairs if pair.cut_off),
         "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
-        "pairs": [_pair(pair, total) for pair in found.pairs],
+        "pairs": [_pair(pair, total) | {"line_mm": line} for pair, line in zip(found.pairs, lines, strict=True)],
     }
 
 
@@ -163,6 +164,21 @@ def _edge_note(pair):
         f"{note}, where its pressure peaks with {pair.peak_pressure:.5g} MPa; without an edge the same force gives "
         f"{pair.hertz.peak_pressure:.5g} MPa (Hertz)"
     )
+
+
+def _lines(fe, gear, angle, pairs):
+    """The line of contact of each pair in the frames of both bodies, as they stand for the reference tooth, mm."""
+    turned = {"pinion": angle, "wheel": fe.pair.unloaded_wheel_angle(gear, tuple(pair.contact for pair in pairs))}
+    return [
+        {name: _in_body(member.pose(turned[name] - pair.contact.pairs_later * member.pitch), pair.line)
+         for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel))}
+        for pair in pairs
+    ]  # fmt: skip
+
+
+def _in_body(pose, points):
+    """Points (M, 3) of the fixed frame in the frame of a body that stands at ``pose`` (4, 4), to 1e-6 mm."""
+    return np.round((points - pose[:3, 3]) @ pose[:3, :3], 6).tolist()
 
 
 def _pair(pair, total):
