@@ -18,9 +18,6 @@ from meshwright.flank.region import OPEN, Uses, region
 #: Cells of the mesh over the wheel's flank, across and along.
 CELLS = (12, 24)
 
-#: A contact further inside the other flank than this, mm, is not the first.
-OVERLAP = 1e-6
-
 #: Turn of the wheel by which its sense of rotation is read off, rad.
 TURN = 0.01
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, pointer
-from meshwright.contact import analysis
+from meshwright.contact import analysis, flags
 from meshwright.contact.results import OFF_TIP, SOLVED, impossible
-from meshwright.cycle import edge, windows
+from meshwright.cycle import windows
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.path import NODES_PER_PITCH
 from meshwright.cycle.transmission import ROUND_OFF
@@ -98,7 +98,7 @@ def solve(drive, keys, values, angles, portable=False):
         if drive_of(k).past_the_tips:
             found.status[k], found.flags[k] = analysis.status_codes("no_contact")[0], 0
             found.error[k], found.points[k] = np.nan, np.nan
-    found.flags[:] |= _bits(drive, edge.FLAG) * _on_an_edge(batch, found, angles, drive_of)
+    found.flags[:] |= _bits(drive, flags.ON_EDGE) * _on_an_edge(batch, found, angles, drive_of)
     return found
 
 
@@ -113,7 +113,7 @@ def _with_keys(drive, keys, values):
 
 def flag_names(drive):
     """The flags of a drive's points, from the lowest bit."""
-    return [*analysis.flag_names(drive.model), edge.FLAG]
+    return [*analysis.flag_names(drive.model), flags.ON_EDGE]
 
 
 def impossible_bits(drive):
@@ -148,9 +148,9 @@ def _on_an_edge(batch, found, angles, drive_of):
     within = solved & ((found.flags & ~impossible_bits(drive)) == 0)
     for k, stretch in zip(rows, _edge_stretches(batch.only(rows)), strict=True):
         if stretch is None:
-            on_edge[k] = solved[k] & edge.inside(drive_of(k).edge_window, angles)
+            on_edge[k] = solved[k] & flags.inside(drive_of(k).edge_window, angles)
         else:
-            on_edge[k] = within[k] & edge.inside(stretch, angles)
+            on_edge[k] = within[k] & flags.inside(stretch, angles)
     return on_edge
 
 
