@@ -146,7 +146,7 @@ def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force
     return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
 
 
-def _in_ellipse(grid: ContactGrid) -> Floats:
+def _in_ellipse(grid: ContactGrid) -> Bools:
     """Cells inside the Hertz ellipse that the grid was made for."""
     extent = np.abs(grid.centres).max(axis=0) + np.array([grid.half_major, grid.half_minor])
     return np.hypot(*(_REACH * grid.centres / extent).T) < 1.0
@@ -253,7 +253,7 @@ def _smooth(
 
 
 def active_set(
-    cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Floats, start: Floats, torque: float
+    cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
 ) -> tuple[Floats, float]:
     """Pressures (N,) >= 0 and rotation with gap + displacement - rotation arms >= 0, zero where p > 0, moment = torque.
 
