@@ -44,7 +44,7 @@ def add_arguments(parser):
 
 
 def run(options):
-    fe = loading.finite_elements()
+    fe = loading.finite_elements("analysis", "pictures")
     drive = loading.checked_drive(options)
     angles = common.angles(options.phi_deg)
     density = fe.grading.MeshDensity().refined(options.refine)
