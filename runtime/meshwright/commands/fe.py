@@ -27,8 +27,8 @@ def add_arguments(parser):
         type=common.positive,
         default=1800.0,
         metavar="S",
-        help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, and the mesh "
-        "of each angle, some seconds",
+        help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, and the "
+        "mesh of each angle, some seconds",
     )
     parser.add_argument(
         "--threads", type=common.count, default=1, metavar="N", help="of the solver; a second one gains little"
