@@ -81,6 +81,7 @@ def main(arguments=None):
             _replace(options.output, files)
         else:
             files = _some(_known(options.drive))
+            remove_parts(options.output)
             _replace(options.output, files)
             _list_in_manifest(options.output, files)
     except check.Rejected as error:

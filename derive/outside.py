@@ -13,6 +13,7 @@ from pathlib import Path
 
 from derive import compiler
 from derive.audit import check_code
+from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
 
@@ -58,11 +59,19 @@ def write(page, name, record, folder, log, source=None):
     """
     from meshwright.base import compile as build
 
-    open_ = {}
-    files = compiler.compile_drive(page, name, record, log, open_)
-    header = files[f"c/{name}.h"]
+    open_, made = {}, []
+
+    def kept():
+        made.append(page())
+        return made[0]
+
+    files = compiler.compile_drive(kept, name, record, log, open_)
+    header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
     with log("audit", name):
-        entry = audit_entry(json.loads(files[f"c/{name}.json"]), open_, header, source)
+        entry = audit_entry(described, open_, header, source)
+    # what the table of families says of those of the tree
+    described |= families.shared(made)
+    files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
     for path, text in files.items():
         replace_text(folder / _place(path), text)
     replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")

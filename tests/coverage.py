@@ -24,11 +24,16 @@ LISTED = Path(__file__).with_name("uncovered.txt")
 LINES, BRANCHES, PYTHON = 0.95, 0.85, 0.92
 
 SEED, INPUTS = 0, 600
+
+#: What runs under coverage.py: of the default tests those that use the runtime.
+TESTS = (
+    "-m", "not slow and not validate", "--numprocesses", "auto", "--dist", "loadfile", "--ignore=tests/prove",
+    "--ignore=tests/derive", "--ignore=tests/audit", "--ignore=tests/benchmarks",
+)  # fmt: skip
 DESIGNS = ("zk-zn-45", "zk-zn-90", "spherical-table-2-3", "helical-crowned", "face-worm-conical-concave")
 
-#: Lane sets that this processor may not have, and certified contact, which has tests of its own in Python: the calls do
-#: not go there.
-ELSEWHERE = ("certify", "lanes_avx2.c", "lanes_avx512.c")
+#: Lane sets that this processor may not have: the calls do not go there.
+ELSEWHERE = ("lanes_avx2.c", "lanes_avx512.c")
 
 
 def reached(folder):
@@ -99,7 +104,7 @@ def of_python(tests):
         settings, data = Path(place) / "settings", Path(place) / "data"
         settings.write_text(
             f"[run]\nsource = meshwright\nparallel = true\nsigterm = true\ndata_file = {data}\n"
-            "concurrency = thread,multiprocessing\n", encoding="utf-8",
+            "concurrency = thread,multiprocessing\npatch = subprocess,_exit\n", encoding="utf-8",
         )  # fmt: skip
         run = (sys.executable, "-m", "coverage")
         ended = subprocess.run((*run, "run", f"--rcfile={settings}", "-m", "pytest", *tests), cwd=ROOT).returncode
@@ -108,17 +113,32 @@ def of_python(tests):
         subprocess.run((*run, "json", f"--rcfile={settings}", "-o", out, "--quiet"), cwd=place, check=True)
         found = json.loads(out.read_text(encoding="utf-8"))
     share = found["totals"]["percent_covered"] / 100.0
-    least = sorted(found["files"].items(), key=lambda entry: entry[1]["summary"]["percent_covered"])[:15]
-    words = [f"  {Path(name).name:24} {entry['summary']['percent_covered']:5.1f} %" for name, entry in least]
+    words = [f"  {_module(name):40} {_ranges(entry['missing_lines'])}" for name, entry in sorted(found["files"].items())
+             if entry["missing_lines"]]  # fmt: skip
     words.append(f"Python runtime: lines {share:.1%} of {found['totals']['num_statements']}")
     wrong = [f"lines of the Python runtime: {share:.1%}, required {PYTHON:.0%}"] if share < PYTHON else []
     return "\n".join(words), wrong + ([f"pytest ended with status {ended}"] if ended else [])
 
 
+def _module(name):
+    return Path(name).as_posix().rpartition("meshwright/")[2]
+
+
+def _ranges(numbers):
+    """Numbers in words: 3, 7-9."""
+    found = []
+    for k in numbers:
+        if found and k == found[-1][1] + 1:
+            found[-1][1] = k
+        else:
+            found.append([k, k])
+    return ", ".join(f"{a}-{b}" if b > a else str(a) for a, b in found)
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m tests.coverage", description=__doc__.split("\n")[0])
     parser.add_argument("--only", choices=("c", "python"))
-    parser.add_argument("tests", nargs="*", default=["-m", "not slow and not validate"], help="arguments of pytest")
+    parser.add_argument("tests", nargs="*", default=TESTS, help="arguments of pytest, after --")
     given = parser.parse_args(arguments)
     wrong = []
     for name, part in (("c", of_c), ("python", lambda: of_python(given.tests))):

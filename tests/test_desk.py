@@ -1,5 +1,6 @@
 """The first minutes at the command line: designs printed, words explained, misspelt keys named."""
 
+import math
 import shutil
 import subprocess
 import sys
@@ -79,6 +80,47 @@ def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, wo
     assert drive.contact_ratio().contact_ratio > 1.0
 
 
+#: Worms of every form; steep threads and hollow flanks are those whose wheels an edge meets first.
+WORMS = [f"--m 4 --z {z} --profile {form}" for form in ("ZI", "ZN", "ZA", "ZK", "ZC") for z in ("1:30", "2:40", "4:29")]
+
+
+@pytest.mark.parametrize("words", quick(WORMS, "--m 4 --z 2:40 --profile ZC", "--m 4 --z 4:29 --profile ZN"))
+@pytest.mark.parametrize("flank", quick(["right", "left"], "right"))
+def test_no_edge_of_a_first_worm_wheel_meets_the_worm_before_the_flanks(tmp_path, monkeypatch, capsys, words, flank):
+    monkeypatch.chdir(tmp_path)
+    setting = ["--set", f"flank={flank}", "--out", "first.toml"]
+    assert main(["new", "cylindrical-worm", *words.split(), *setting]) == 0
+    assert "the flanks touch, and nothing else before them" in capsys.readouterr().out
+    assert Drive.load("first.toml").design.tables["flank"] == flank
+
+
+@pytest.mark.parametrize("form", ["ZK", "ZC"])
+def test_the_hob_of_a_first_worm_wheel_lies_along_the_teeth_that_the_worm_meets(tmp_path, monkeypatch, form):
+    """Where hob and worm roll on the wheel, at its reference cylinder, both threads run along one tooth.
+
+    Two screws with lead angles λ, λ_h there, whose axes stand at Σ, Σ_h to that of the wheel: Σ + λ = Σ_h + λ_h.
+    """
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "3:31", "--profile", form, "--out", "first.toml"]) == 0
+    drive = Drive.load("first.toml")
+    of, sizes = drive.design.value, drive.design.sizes
+    worm_rolls, hob_rolls = (
+        of(key) - sizes["wheel_pitch_radius_mm"] for key in ("center_distance_mm", "cutting_center_distance_mm")
+    )
+    lead = math.atan2(sizes["screw_parameter_worm_mm_per_rad"], worm_rolls)
+    swivel = lead - math.atan2(sizes["screw_parameter_hob_mm_per_rad"], hob_rolls)
+    cutting = math.degrees(of("cutting_shaft_angle_deg") - of("shaft_angle_deg"))
+    assert cutting == pytest.approx(math.degrees(swivel), abs=2e-4) and cutting > 0.1
+
+
+def test_a_convex_wheel_lies_in_the_hollow_of_a_first_concave_pinion(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    words = "new spherical --m 2 --z 20:33 --profile concave:convex --out first.toml"
+    assert main(words.split()) == 0 and "the flanks touch, and nothing" in capsys.readouterr().out
+    of = Drive.load("first.toml").design.value
+    assert of("pinion_sphere_radius_mm") > of("wheel_sphere_radius_mm")
+
+
 def test_a_first_worm_pair_stands_at_the_centre_distance_asked_for(tmp_path, monkeypatch):
     """ISO/TR 10828: q = 2a/m − z2 = 10 leaves the wheel without profile shift: r1 = qm/2 = 20, a = 100."""
     monkeypatch.chdir(tmp_path)
@@ -94,6 +136,8 @@ REFUSED = {
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",
     "new spherical --m 4 --z 20:40 --a 100": "centre distance of this family follows from its teeth",
     "new cylindrical-worm --m 4 --z 2:40 --set design.wheel_tooth=40": "wheel_tooth.*unknown key",
+    "new cylindrical-worm --m 4 --z 2:40 --set hand=left": "hand.*unknown key",
+    "new cylindrical-worm --m 4 --z 2:40 --set flank=middle": "flank = 'middle'",
 }
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.drives import cylindrical_gears_keys as k
+from derive.drives import outlines
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
 from derive.drives.cylindrical_gears_rexs import EXCHANGE
 from derive.language import vectors as v
@@ -147,6 +148,7 @@ def cylindrical_gears():
             g.name: LeastTeeth(g.teeth.key, (g.tip_relief.radius.key, g.root_relief.radius.key))
             for g in (PINION, WHEEL)
         },
+        outline=outlines.cylindrical,
         sources=(
             Source("ISO", "ISO 21771, Gears: Cylindrical involute gears and gear pairs: Concepts and geometry", 2007),
             Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 13 to 16"),

@@ -10,6 +10,7 @@ from functools import partial
 
 import sympy as sp
 
+from derive.drives import outlines
 from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
@@ -28,7 +29,7 @@ from derive.tools.involute import involute
 from derive.tools.reground import reground, working_radius
 from derive.tools.straight_blade import straight_blade
 from derive.tools.tip_rounding import tip_rounding
-from derive.tools.worm_body import WormBody
+from derive.tools.worm_body import SHEET_USED, WormBody
 
 SOURCES = (
     Source(
@@ -257,9 +258,6 @@ STANDARD_ADDENDUM, STANDARD_CLEARANCE, STANDARD_ROUNDING, BEYOND_THROAT = (
     sp.Rational(n, 10) for n in (10, 2, 3, 5)
 )  # fmt: skip
 
-#: Part used of the angle about the hob over which it cuts the wheel.
-SHEET_USED = sp.Rational(6, 10)
-
 
 def _hob_end(hob):
     """Distance from the wheel's axis to the tip cylinder of the hob."""
@@ -486,6 +484,7 @@ def cylindrical_worm(worm_profile, hob_profile, condition=NEW):
         proportions=_proportions(condition),
         exchange=_exchange() if condition.new else None,
         regrind=REGRIND,
+        outline=outlines.worm,
         sources=SOURCES,
         handed="right",
         exclusive=(

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.drives import face_worm_keys as k
+from derive.drives import outlines
 from derive.language import vectors as v
 from derive.language.chain import Ry, Rz, placement, station, translation
 from derive.language.contact import contact
@@ -318,6 +319,7 @@ def face_worm():
         tools=(ToolUse("hob", "", conical_hob), ToolUse("wheel", "", head_cutter)),
         tool_clearance=ToolClearance("head_cutter", k.tilt_change.key, "head_cutter_tilt_deg"),
         loading=Loading(pairs=5, torque_on="wheel"),
+        outline=outlines.face_worm,
         sources=SOURCES,
         ascending_path=True,
         flanks_apart=True,

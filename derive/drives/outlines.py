@@ -4,33 +4,73 @@ Sources: ISO/TR 10828:2015 (worm gears), ISO 53:1998 and ISO 21771:2007 (cylindr
 gears, uniform depth); the packaged spherical and face worm designs, scaled, for the families that no standard treats.
 """
 
+from dataclasses import replace
+
 import sympy as sp
 
+from derive.language.choice import unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
+from derive.tools.worm_body import SHEET_USED
 
 
 def _clipped(value, least, most):
     return sp.Min(sp.Max(value, least), most)
 
 
-def _worm():
+#: Lead angles from which the pressure angle rises, and by how much (deg): G. Niemann, H. Winter, Maschinenelemente III.
+STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
+
+
+def worm():
+    arc = {"worm_profile": ("ZC",)}
+    shift = Suggestion("", (0 * m,), name="x")
+    shift_arc = replace(shift, values=(sp.Rational(1, 2) + 0 * m,), words=arc)
+    x = shift.symbol
     quotient = Suggestion(
-        "", (_clipped(2 * a / m - z_2, 7, 20), 10 + 0 * m), name="q", decimals=4,
-        why="diameter quotient: the wheel needs no profile shift at the centre distance given, else 10",
+        "", (_clipped(2 * a / m - z_2 - 2 * x, 7, 20), 10 + 0 * m), name="q", decimals=4,
+        why="diameter quotient: the wheel needs no further profile shift at the centre distance given, else 10",
     )  # fmt: skip
     q = quotient.symbol
     radius = Suggestion("design.worm_pitch_radius_mm", (q * m / 2,), "diameter quotient times module", "r_1", 4)
     r_1 = radius.symbol
+    lead = Suggestion("", (sp.atan2(m * z_1 / 2, r_1),), name="lambda_1")
+    lam = lead.symbol
+    pressure = Suggestion(
+        "design.pressure_angle_deg", (20 + sum(by * unit_step(lam - sp.rad(above)) for above, by in STEEPER),),
+        "20 up to a lead angle of 15°, 22.5 up to 25°, 25 up to 35°, then 30", "alpha_deg",
+    )  # fmt: skip
+    alpha = sp.rad(pressure.symbol)
+    shaft = Suggestion("design.shaft_angle_deg", (sp.Integer(90),), name="Sigma_deg")
+    normal = m * sp.cos(lam)
+    r_2 = normal * z_2 / (2 * sp.sin(sp.rad(shaft.symbol) + lam))
     hob = Suggestion(
         "design.hob_pitch_radius_mm", (r_1 * sp.Rational(105, 100),),
         "5 % larger than the worm: an oversize hob gives contact in a point, an equal one along a line", "r_h", 3,
     )  # fmt: skip
-    distance = Suggestion("", (a, m * (q + z_2) / 2), name="A")
+    hob_arc = replace(
+        hob, values=(r_1 * sp.Rational(110, 100),), words=arc,
+        why="10 % larger than the worm: flanks that nestle touch in a point only if the hob is well oversize",
+    )  # fmt: skip
+    threads = Suggestion("design.hob_threads", (z_1,), name="z_h", whole=True)
+    distance = Suggestion("design.center_distance_mm", (r_1 + r_2,), "sum of the reference radii", "A", 4)
+    distance_arc = replace(
+        distance, values=(r_1 + r_2 + x * m,), why="reference radii and a profile shift of half a module", words=arc
+    )
+    distance_asked = replace(distance, values=(a,), why="as asked for", decimals=None)
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
-    backlash = m / 50
+    cutting = Suggestion(
+        "design.cutting_center_distance_mm", (A + hob.symbol - r_1 - m / (100 * sp.sin(alpha)),),
+        "the hob goes deeper than contact without backlash by what leaves 0.02 modules of normal backlash", "A_gen", 4,
+    )  # fmt: skip
+    hob_screw = hob.symbol * sp.tan(sp.asin(normal * threads.symbol / (2 * hob.symbol)))
+    worm_rolls, hob_rolls = A - r_2, cutting.symbol - r_2
+    swivel = sp.atan2(m * z_1 / 2, worm_rolls) - sp.atan2(hob_screw, hob_rolls)
     throat = Suggestion(
         "blank.wheel_throat_radius_mm", (A - r_1 + m,), "one module above the worm's reference cylinder", "throat", 3
     )
+    chord = 2 * m * (sp.Rational(1, 2) + sp.sqrt(2 * r_1 / m + 1))
+    sheet = sp.atan2(sp.tan(alpha), sp.sin(lam))
+    land = sp.pi * normal / 2 - sp.Rational(12, 5) * m * sp.tan(alpha)
     return Outline(
         {"m": "axial module", "z": "threads of the worm : teeth of the wheel", "a": "centre distance"},
         {"worm_profile": "ZI", "hob_profile": ""},
@@ -38,17 +78,20 @@ def _worm():
             Suggestion("design.axial_module_mm", (m,)),
             Suggestion("design.worm_threads", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
+            shaft,
+            shift, shift_arc,
             quotient,
             radius,
-            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO/TR 10828"),
-            Suggestion("design.center_distance_mm", (a,), "as asked for"),
-            hob,
-            distance,
+            lead,
+            pressure,
+            replace(pressure, values=(sp.Integer(23),), why="usual for form C", words=arc),
+            distance, distance_arc, distance_asked,
+            hob, hob_arc,
+            threads,
+            cutting,
             Suggestion(
-                "design.cutting_center_distance_mm",
-                (A + hob.symbol - r_1 - backlash / (2 * sp.sin(sp.pi / 9)),),
-                "the hob goes deeper than contact without backlash by what leaves 0.02 modules of normal backlash",
-                decimals=4,
+                "design.cutting_shaft_angle_deg", (shaft.symbol + swivel * 180 / sp.pi,),
+                "hob and worm have one direction of the thread where they roll on the wheel", decimals=4,
             ),
             Suggestion("design.grinding_wheel_radius_mm", (sp.Integer(250),), "a wheel of 500 mm"),
             Suggestion("design.profile_arc_radius_mm", (6 * m,), "six modules", decimals=2),
@@ -57,16 +100,22 @@ def _worm():
             throat,
             Suggestion("blank.wheel_tip_radius_mm", (throat.symbol + m / 2,), "half a module beyond it", decimals=3),
             Suggestion(
-                "blank.wheel_face_width_mm", (2 * m * (sp.Rational(1, 2) + sp.sqrt(q + 1)) * sp.Rational(4, 5),),
-                "four fifths of the chord of the worm's tip circle", decimals=1,
+                "blank.wheel_face_width_mm",
+                (sp.Min(chord * sp.Rational(4, 5), 2 * r_1 * sp.sin(SHEET_USED * sheet)),),
+                "four fifths of the chord of the worm's tip circle, at most what the hob's flank reaches",
+                decimals=1,
             ),
             Suggestion("blank.hob_tip_addendum_mm", (sp.Rational(6, 5) * m,), "cuts the root clearance", decimals=3),
-            Suggestion("blank.hob_tip_rounding_mm", (m / 5,), "the root fillet", decimals=3),
+            Suggestion(
+                "blank.hob_tip_rounding_mm",
+                (sp.Min(m / 5, land * sp.Rational(4, 9) * sp.cos(alpha) / (1 - sp.sin(alpha))),),
+                "the root fillet, at most what fits on the hob's tip", decimals=3,
+            ),
         ),
     )  # fmt: skip
 
 
-def _spherical():
+def spherical():
     return Outline(
         {"m": "module", "z": "teeth of the pinion : teeth of the wheel"},
         {"pinion_form": "convex", "wheel_form": "convex"},
@@ -75,16 +124,24 @@ def _spherical():
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
             Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53"),
-            Suggestion(
-                "design.pinion_sphere_radius_mm", (m * z_1 / 2,), "the pitch radius: contact in a point", decimals=4
+            *(
+                suggestion
+                for own, mate, z, z_mate in (("pinion", "wheel", z_1, z_2), ("wheel", "pinion", z_2, z_1))
+                for suggestion in (
+                    Suggestion(f"design.{own}_sphere_radius_mm", (m * z / 2,), "the pitch radius", decimals=4),
+                    Suggestion(
+                        f"design.{own}_sphere_radius_mm", (m * z_mate,),
+                        f"twice that of the {mate}, which lies in the hollow: contact in a point", decimals=4,
+                        words={f"{own}_form": ("concave",)},
+                    ),
+                )
             ),
-            Suggestion("design.wheel_sphere_radius_mm", (m * z_2 / 2,), "the pitch radius", decimals=4),
             Suggestion("design.face_width_mm", (4 * m,), "four modules", decimals=2),
         ),
     )
 
 
-def _cylindrical():
+def cylindrical():
     return Outline(
         {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
         {},
@@ -106,7 +163,7 @@ def _cylindrical():
     )  # fmt: skip
 
 
-def _face_worm():
+def face_worm():
     size = m / sp.Rational(1334, 1000)
     share = z_2 / 60
 
@@ -127,13 +184,15 @@ def _face_worm():
             scaled("design.gear_inner_radius_mm", "38.53"),
             scaled("design.gear_outer_radius_mm", "52.5"),
             Suggestion("design.profile_angle_deg", (sp.Integer(10),)),
-            Suggestion("design.plunge_mm_per_rad2", (sp.Rational(3, 1000) * size,), "crowning along the path"),
-            Suggestion("design.blade_parabola_per_mm", (sp.Rational(1, 100) / size,), "crowning across it"),
+            Suggestion(
+                "design.plunge_mm_per_rad2", (sp.Rational(3, 1000) * size,), "crowning along the path", decimals=5
+            ),
+            Suggestion("design.blade_parabola_per_mm", (sp.Rational(1, 100) / size,), "crowning across it", decimals=5),
         ),
     )
 
 
-def _bevel():
+def bevel():
     """A face-milled spiral bevel pair of uniform depth at 90°: crown-gear generated, the pinion crowned lengthwise."""
     degree = 180 / sp.pi
     pitch = Suggestion("", (sp.atan2(z_1, z_2),), name="delta_1")
@@ -178,13 +237,3 @@ def _bevel():
             *member("gear", cutter.symbol, -1, sp.pi / 2 - d_1),
         ),
     )  # fmt: skip
-
-
-#: By the family's name in design files.
-OUTLINES = {
-    "cylindrical-worm": _worm,
-    "spherical": _spherical,
-    "cylindrical-gears": _cylindrical,
-    "face-worm": _face_worm,
-    "bevel": _bevel,
-}

@@ -10,6 +10,7 @@ from functools import partial
 
 import sympy as sp
 
+from derive.drives import outlines
 from derive.drives import spherical_keys as k
 from derive.drives.spherical_keys import PINION, WHEEL, Gear
 from derive.language import vectors as v
@@ -123,6 +124,7 @@ def spherical(pinion_form, wheel_form):
             for gear, form in ((PINION, pinion_form), (WHEEL, wheel_form))
         ),
         loading=Loading(pairs=3, torque_on="pinion"),
+        outline=outlines.spherical,
         sources=SOURCES,
         functions=tuple(function for tooth in teeth for function in (*_undercut(tooth), _solid(tooth))),
         least_teeth={

@@ -9,7 +9,6 @@ JSON Schema and errors offer from it what is derived and compiled on first use.
 
 import json
 
-from derive.drives.outlines import OUTLINES
 from derive.emit import metadata
 from derive.exchange import rexs
 from derive.language.description import prefix
@@ -24,20 +23,24 @@ def table(drives):
     for name, listed in members.items():
         parameters = []
         described = [_drive(drive, parameters) for drive in listed]
+        common = shared(listed)
         families[name] = {
-            "parameters": parameters, "exchange": rexs.table(listed), "drives": described, "outline": _outline(name),
+            "parameters": parameters, "exchange": common["exchange"], "drives": described, "outline": common["outline"],
         }  # fmt: skip
     return {"schema": "meshwright.families/1", "families": families}
 
 
-def _outline(family):
-    if family not in OUTLINES:
-        return None
-    outline = OUTLINES[family]()
+def shared(drives):
+    """What the drives of a family have in common: ``exchange`` and ``outline``, None where none declares it."""
+    outline = next((drive.outline for drive in drives if drive.outline), None)
+    return {"exchange": rexs.table(drives), "outline": outline and _outline(outline())}
+
+
+def _outline(outline):
     suggestions = [
         {
             "place": s.place, "name": s.symbol.name, "values": [prefix(v) for v in s.values], "why": s.why,
-            "decimals": s.decimals, "whole": s.whole,
+            "decimals": s.decimals, "whole": s.whole, "words": s.words,
         }
         for s in outline.suggestions
     ]  # fmt: skip

@@ -1,5 +1,6 @@
 """What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -8,6 +9,7 @@ import sympy as sp
 from derive.language.chain import Motion
 from derive.language.definitions import Definitions
 from derive.language.functions import Function, LeastTeeth, ToolClearance
+from derive.language.outline import Outline
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.language.tool import Tool
@@ -217,7 +219,7 @@ class Drive:
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
     contact itself leaves them open. ``loading`` says how it is usually loaded, ``regrind`` how a resharpened tool
     enters, ``sources`` what its page follows, ``exchange`` what of it a neutral file holds
-    (:class:`~derive.exchange.rexs.Exchange`).
+    (:class:`~derive.exchange.rexs.Exchange`), ``outline`` the function that says how a first design is made.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     ``least_teeth``, by member, says how the least number of teeth without undercut is sought; ``tool_clearance`` what
@@ -266,6 +268,7 @@ class Drive:
     loading: Loading | None = None
     regrind: Regrind | None = None
     exchange: object = None
+    outline: Callable[[], Outline] | None = None
     sources: tuple[Source, ...] = ()
 
     @property

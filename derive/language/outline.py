@@ -4,7 +4,7 @@ Suggestions are made in order; each may use the options and the suggestions befo
 takes part in analysis: the file that is written gives its numbers like any other.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy as sp
 
@@ -19,7 +19,8 @@ class Suggestion:
     """``place`` ("table.key") takes the first of ``values`` that is a number, in the unit of the key; none: it is open.
 
     Without a place it only has a ``name`` by which later suggestions use it. ``decimals`` round it, ``whole`` makes it
-    an integer. ``why`` becomes the comment in the file.
+    an integer. ``why`` becomes the comment in the file. ``words`` are those of the drives that it is for ("key" →
+    words), if not for all; of two suggestions for one place or name, the later counts if it is a number.
     """
 
     place: str
@@ -28,6 +29,7 @@ class Suggestion:
     name: str = ""
     decimals: int | None = None
     whole: bool = False
+    words: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def symbol(self):

@@ -4,7 +4,7 @@ Values are nodes of a tape; a routine says which of them it computes, how and in
 it reads is what it does not compute.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from derive.program.tape import Tape
@@ -47,7 +47,14 @@ class Routine:
         return (i for i in used if i not in computed)
 
 
-def routine(tape, outputs, known=frozenset(), later=(), name="") -> Routine:
+def routine(
+    tape: Tape,
+    outputs: Iterable[int],
+    known: Iterable[int] = frozenset(),
+    later: Iterable[int] = (),
+    name: str = "",
+) -> Routine:
     """The routine that computes ``outputs`` as the tape has them."""
-    steps = tuple((i, Operation(tape.nodes[i].op, tape.nodes[i].args)) for i in tape.needed(outputs, known))
-    return Routine(tape, tuple(outputs), frozenset(known), steps, tuple(later), name)
+    results, read = tuple(outputs), frozenset(known)
+    steps = tuple((i, Operation(tape.nodes[i].op, tape.nodes[i].args)) for i in tape.needed(results, read))
+    return Routine(tape, results, read, steps, tuple(later), name)

@@ -10,6 +10,9 @@ from derive.language.surface import Surface
 from derive.language.symbols import Quantity, Rule
 from derive.language.tool import Datum
 
+#: Part used of the angle about the hob over which it cuts the wheel.
+SHEET_USED = sp.Rational(6, 10)
+
 
 @dataclass(frozen=True)
 class WormBody:

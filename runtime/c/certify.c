@@ -7,6 +7,7 @@
 #include "kernels.h"
 #include "lanes.h"
 #include "mw_certify.h"
+#include "solver/basics.h"
 
 /* Boxes begin at this share of the natural sizes; steps that shape them; the share beyond which none is tried. */
 static const double FIRST_BOX = 5.9604644775390625e-8, WIDEST_BOX = 0.25;
@@ -14,7 +15,13 @@ enum { SHAPING_STEPS = 30, REFINING_STEPS = 3, NARROWING_STEPS = 8 };
 
 static const mw_certified *tables_of(const mw_model *m)
 {
-    return m->kernels ? m->kernels->certified : NULL;
+    return mwi_usable(m) && m->kernels ? m->kernels->certified : NULL;
+}
+
+/* A radius that is none bounds nothing. */
+static mw_wide bounded(mw_wide w)
+{
+    return mwc_wide_where(w.radius >= 0.0, w);
 }
 
 const char *mw_reason_word(int reason)
@@ -33,7 +40,7 @@ const char *mw_reason_text(int reason)
 
 int mw_encloses(const mw_model *m)
 {
-    return tables_of(m) && mwc_arithmetic() && m->nx <= MW_MAX_UNKNOWNS;
+    return tables_of(m) && mwc_arithmetic();
 }
 
 int mw_enclosed_slots(const mw_model *m)
@@ -210,7 +217,7 @@ int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
     double open[MW_MAX_PARAMETERS];
     if (!mw_encloses(m) || m->np + 1 > MWC_ARGUMENTS || m->np > MW_MAX_PARAMETERS) return 1 + m->nsystems;
     for (int i = 0; i < m->np; i++)
-        if (p[i].hi == p[i].hi) p[i] = mwc_wide_mul(p[i], t->factors[i]);
+        if (p[i].hi == p[i].hi) p[i] = mwc_wide_mul(bounded(p[i]), t->factors[i]);
     apply_rules(t, p);
     for (int k = 0; k < m->nsystems; k++) {
         for (int i = 0; i < m->np; i++) open[i] = p[i].hi;
@@ -238,7 +245,7 @@ static void set_instant(const mw_certified *t, mw_wide *s, mw_wide phi)
 {
     mw_wide arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
     memcpy(arguments, s, sizeof(mw_wide) * (size_t)t->slots);
-    arguments[t->slots] = phi;
+    arguments[t->slots] = bounded(phi);
     mwc_run_wide(&t->instant, t->instant.instructions, arguments, registers);
     for (int i = t->design_slots; i < t->slots; i++) s[i] = registers[t->instant.output[i - t->design_slots]];
 }
@@ -336,7 +343,7 @@ int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int 
     problem p;
     solution found;
     nothing(c);
-    for (int i = 0; i < m->nx; i++)
+    for (int i = 0; mw_encloses(m) && i < m->nx; i++)
         if (x[i] != x[i]) return ended(c, MW_UNKNOWN, MW_REASON_CONTACT);
     int reason = posed(m, s, phi, &p, sizes);
     if (reason != MW_REASON_NONE) return ended(c, MW_UNKNOWN, reason);
@@ -407,7 +414,7 @@ static void certify_alone(const mw_model *m, mw_wide *s, mw_wide phi, const doub
 {
     mw_certificate c;
     *unique = mw_certify(m, s, phi, x, 0, &c) == MW_UNIQUE;
-    *error = *unique ? mwc_of_wide(c.x[m->error]) : mwc_make(x[m->error], HUGE_VAL);
+    *error = *unique ? mwc_of_wide(c.x[m->error]) : mwc_make(mwi_usable(m) ? x[m->error] : NAN, HUGE_VAL);
 }
 
 size_t mw_certify_many(const mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, size_t n,

@@ -86,6 +86,7 @@ static int walked(const mw_model *m, const mw_edge_system *edge, mwi_way *way, d
         if (next == phi) return 1;
         step *= 2.0;
     }
+    if (info->status >= 0) info->status = MW_DIVERGED; /* a solution, but not of this edge's branch */
     return 0;
 }
 

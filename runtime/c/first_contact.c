@@ -789,7 +789,7 @@ static void flood(const search *h, const place *known, place *at, unsigned char 
             }
         if (seed == mesh->vertices) return;
         tried[seed] = AT_MOST;
-        if (!lead(h, known, seed, 1.0 / FINEST_WALK, at)) continue;
+        if (!lead(h, known, seed, 1.0 / (double)FINEST_WALK, at)) continue;
         for (int grown = 1; grown;) {
             grown = 0;
             for (size_t t = 0; t < 3 * mesh->triangles; t++) {

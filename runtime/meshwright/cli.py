@@ -30,17 +30,22 @@ def parser(names=None):
 
 def _named(words):
     """The command that is named, as a list: it waits for no other's imports. None where all are to answer."""
-    known = commands.MODULES
-    if not any(word in known for word in words):
-        known = commands.every()
-    named = [word for word in words if word in known][:1]
-    return named if named and not _asks_for_help(words, named[0]) else None
+    word = _first(words)
+    known = word in commands.MODULES or word in commands.every()
+    return [word] if known else None
 
 
-def _asks_for_help(words, command):
-    """Whether help is asked for before the command, which is help on all commands."""
-    before = words[: words.index(command)]
-    return "-h" in before or "--help" in before
+def _first(words):
+    """The first word that is neither a global option nor the value of one; None where help is asked for before it."""
+    rest = iter(words)
+    for word in rest:
+        if word == "--drives":
+            next(rest, None)
+        elif word in ("-h", "--help"):
+            return None
+        elif not word.startswith("-"):
+            return word
+    return None
 
 
 class _Version(argparse.Action):

@@ -1,7 +1,7 @@
 """Every packaged design, both members: what is exported keeps to the blank, is within 1 µm of the flank and closed.
 
-A solid's triangles and its B-spline faces are made from different points; their volumes agree. Three teeth stand for all
-of them, since they are copies.
+A solid's triangles and its B-spline faces are made from different points; their volumes agree. Three teeth stand for
+all of them, since they are copies.
 """
 
 import struct

@@ -10,9 +10,9 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import spline_weights, tooth_compliance
-from meshwright.fe.elastic import assemble, factorise
+from meshwright.fe.elastic import assemble, flexibility
 from meshwright.fe.gap import contact_grid
-from meshwright.fe.halfspace import influence_matrix, mean_displacement, rectangle_displacement
+from meshwright.fe.halfspace import equal_cells, mean_displacement, rectangle_displacement
 from meshwright.fe.hexahedra import nodal_areas
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.material import Material
@@ -48,10 +48,12 @@ def test_mean_displacement_of_a_loaded_square():
     assert mean[0] == pytest.approx(0.95, abs=0.005)
 
 
-def test_influence_is_symmetric():
-    centres = np.random.default_rng(1).uniform(-1, 1, (20, 2))
-    matrix = influence_matrix(centres, 0.1, 0.05, 1e5)
-    assert np.abs(matrix - matrix.T).max() < 1e-20
+def test_equal_cells_are_a_table_of_what_one_rectangle_does():
+    """The displacement two cells along and one across is that of the rectangle at that distance."""
+    table = equal_cells(3, 0.1, 0.05, 1e5)
+    single = rectangle_displacement(np.array([0.4]), np.array([0.1]), 0.1, 0.05, 1e5)
+    assert table[2, 1] == pytest.approx(single[0], rel=1e-14)
+    assert table[0, 0] == table.max()
 
 
 def test_elements_pass_the_patch_test():
@@ -71,10 +73,10 @@ def test_cantilever():
     block = Block(points)
     mesh = block.mesh()
     nodes, areas = nodal_areas(mesh.nodes, mesh.face_nodes(block.side("i1")))
-    loads = np.zeros((len(mesh.nodes), 3, 1))
-    loads[nodes, 1, 0] = force * areas[:, 0] / areas[:, 0].sum()
-    body = factorise(mesh, steel, np.unique(mesh.face_nodes(block.side("i0"))))
-    deflection = body.displacements(loads)[nodes, 1, 0].mean()
+    loads = np.zeros((len(nodes), 3, 1))
+    loads[:, 1, 0] = force * areas[:, 0] / areas[:, 0].sum()
+    held = np.unique(mesh.face_nodes(block.side("i0")))
+    deflection = flexibility(mesh, steel, held, 2, nodes, loads)[0, 0] / force
     shear = 1.2 * force * length / (steel.youngs_modulus / 2.6 * side**2)
     assert deflection == pytest.approx(force * length**3 / (3 * steel.youngs_modulus * side**4 / 12) + shear, rel=0.01)
 

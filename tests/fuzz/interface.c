@@ -19,7 +19,7 @@
 #define MW_EACH
 #endif
 
-enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = 17 };
+enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = 22 };
 
 static MW_EACH unsigned long long calls, inputs, successes, ended[16];
 static MW_EACH uint64_t all;     /* digest of the results of all inputs */
@@ -323,6 +323,14 @@ static void trace(reader *r, fuzzed *f, int analyse)
     }
     if (count != good) fail("the successes are not as many as was said");
     if (analyse || good == 0) return;
+    for (size_t k = 0; k < n; k++) {
+        if (info[k].status < 0) continue;
+        m->set_phi(f->s, phi[k]);
+        if (mw_contact_at(m, f->s, x + k * nx, o, contact) < 0) fail("a contact whose geometry is none");
+        must_be_flagged(m, o, contact);
+        calls++;
+        break;
+    }
     mw_contacts(m, f->s, phi, n, x, info, o, contact);
     for (size_t k = 0; k < n; k++)
         if (info[k].status >= 0) must_be_flagged(m, o + k * no, contact + k);
@@ -336,10 +344,20 @@ static void follow(reader *r, fuzzed *f)
     double *phi = numbers(n), *x = numbers(n * nx), *x0 = start(r, f), at = number(r, f->from->phi);
     mw_info *info = room(n, sizeof *info);
     angles(r, phi, n);
+    if (byte(r) < 64) phi[0] = at;
     const size_t good = mw_follow(m, f->s, at, x0, phi, n, x, info);
     calls++;
     if (good < n && info[good].status >= 0) fail("a branch that ends without a reason");
     for (size_t k = 0; k < good; k++) judge(r, m, f->s, phi[k], x + k * nx, info[k].status);
+    double *o = numbers(n * (size_t)m->no);
+    int *node = room(n, sizeof *node);
+    for (size_t k = 0; k < n; k++) node[k] = byte(r) % 2 ? -1 : 0;
+    const size_t each = mw_from_nodes(m, f->s, &at, x0, node, phi, n, x, info);
+    size_t count = 0;
+    for (size_t k = 0; k < n; k++) count += info[k].status >= 0;
+    if (count != each) fail("the points of a branch are not as many as was said");
+    if (mw_observe(m, f->s, phi, x, n, o) == MW_BAD_INPUT) fail("a table that is refused");
+    calls += 2;
 }
 
 static void arc(reader *r, fuzzed *f)
@@ -437,11 +455,14 @@ static void words(reader *r, fuzzed *f)
     mw_flag(f->m, any), mw_flag(f->m, some);
     if (mw_model_at(any) && (any < 0 || any >= mw_model_count())) fail("a model that is none");
     if (mw_abi() != MW_MODEL_ABI) fail("another version");
+    if (!mw_reason_word(any) || !mw_reason_text(any) || !*mw_reason_text((int)((unsigned)some % MW_REASON_END))) fail("no reason");
     mw_model_at(some), mw_find(""), mw_lanes(any), mw_lanes(some);
     if (mw_find("no such drive")) fail("a drive of another name");
     note(r, &none, sizeof none);
-    calls += 12;
+    calls += 15;
 }
+
+#include "proofs.h"
 
 /* A table of another version, or larger than the solver's arrays: refused by all. */
 static void foreign(reader *r, fuzzed *f)
@@ -465,10 +486,17 @@ static void foreign(reader *r, fuzzed *f)
     refused += mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
     refused += mw_complete(&other, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
     refused += mw_follow(&other, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    refused += mw_from_nodes(&other, f->s, &phi, x, &(int){0}, &phi, 1, x, &info) == 0;
+    refused += mw_observe(&other, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
     refused += mw_arclength(&other, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
     refused += mw_trace(&other, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
-    if (refused != 12) fail("a foreign table is not refused");
-    calls += 12;
+    if (refused != 14) fail("a foreign table is not refused");
+    calls += 14;
+    without_proofs(r, f, &other);
+    other = *f->m;
+    other.kernels = NULL; /* the header alone */
+    without_proofs(r, f, &other);
+    if (mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) != MW_BAD_INPUT) fail("tangents of a header alone");
 }
 
 static void first(reader *r, fuzzed *f)
@@ -552,6 +580,11 @@ static uint64_t run(const uint8_t *data, size_t size)
             case 13: words(&r, &f); break;
             case 14: foreign(&r, &f); break;
             case 15: entries(&r, &f); break;
+            case 16: edges(&r, &f); break;
+            case 17: bounds(&r, &f); break;
+            case 18: certificate(&r, &f); break;
+            case 19: certificates(&r, &f); break;
+            case 20: path(&r, &f); break;
             default: first(&r, &f); break;
             }
         }

@@ -16,6 +16,7 @@ import numpy as np
 
 from meshwright import Drive
 from meshwright.base.compile import DRIVE_UNITS
+from meshwright.base.library import ffi, library, pointer
 from meshwright.cycle import first_contact
 from meshwright.design import design
 
@@ -96,17 +97,39 @@ def _seed(name, k, drive):
         _array(f"{own}_given", design.given_vector(drive.design)), _array(f"{own}_complete", drive.design.parameters),
         _array(f"{own}_x", x),
     ]  # fmt: skip
+    edges = _edges(drive)
+    lines += [_array(f"{own}_edge_{n}", start) for n, (_, _, start) in enumerate(edges)]
+    if edges:
+        entries = (f"{{ {{ {a}, {b} }}, {_number(at)}, {own}_edge_{n} }}" for n, ((a, b), at, _) in enumerate(edges))
+        lines.append(f"static const edge_seed {own}_edges[] = {{ {', '.join(entries)} }};")
     found = _search(drive) if k % 2 == 0 else None
     if found is not None:
         lines += _first(own, *found)
     compiled = drive.design.description["name"]
     lines.append(f"int fuzz_alone_{compiled}(double *s, double phi, double *x, mw_info *info); /* {name} */")
     lines.append(f"int fuzz_casadi_{compiled}(int which, const double **arg, double **res, double *w);")
+    first, all_edges = f"&{own}_first" if found is not None else "NULL", f"{own}_edges" if edges else "NULL"
     listed = (
         f'{{ "{compiled}", {own}_given, {own}_complete, {own}_x, 0.05, fuzz_alone_{compiled}, fuzz_casadi_{compiled}, '
-        f"{f'&{own}_first' if found is not None else 'NULL'} }},"
+        f"{first}, {all_edges}, {len(edges)} }},"
     )
     return lines, listed
+
+
+def _edges(drive, most=4):
+    """Up to ``most`` contacts of edges: ((margin of pinion, of wheel), angle, unknowns)."""
+    m, lib, info, found = drive.model, library(), ffi.new("mw_info *"), []
+    angles, sign = drive.pitch() * np.linspace(-1.5, 1.5, 13), drive.design.mirror.sign
+    traced = drive.tca(angles)
+    for margins in np.ndindex(m.bodies[0].margins + 1, m.bodies[1].margins + 1):
+        margins = tuple(k - 1 for k in margins)
+        edge = lib.mw_edge(m, *margins)
+        for k in np.flatnonzero(traced.solved) if edge >= 0 and len(found) < most else ():
+            x, s = traced.solutions[k].copy(), drive.state(sign * float(angles[k]))
+            if lib.mw_edge_solve(m, edge, pointer(s), pointer(x), info) >= 0:
+                found.append((margins, sign * float(angles[k]), x))
+                break
+    return found
 
 
 def _search(drive):
@@ -170,6 +193,13 @@ typedef struct first_seed {{
     const double *start;
 }} first_seed;
 
+/* The contact of an edge: the margins, of pinion and wheel, that are zero there. */
+typedef struct edge_seed {{
+    int margin[2];
+    double phi;
+    const double *x;
+}} edge_seed;
+
 typedef struct seed {{
     const char *drive;
     const double *given, *complete, *x;
@@ -177,6 +207,8 @@ typedef struct seed {{
     int (*solve)(double *s, double phi, double *x, mw_info *info);
     int (*entry)(int which, const double **arg, double **res, double *w);
     const first_seed *first;
+    const edge_seed *edges;
+    int nedges;
 }} seed;
 
 {arrays}

@@ -1,5 +1,6 @@
 """The live page: the bits of the native solver in WebAssembly, one file that needs nothing, a browser that drags."""
 
+import base64
 import functools
 import importlib.util
 import math
@@ -16,6 +17,7 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.design.design import given_vector, is_real
 from meshwright.live import module
+from meshwright.live.teeth import teeth
 from tests.live.browser import CHROMIUM, Browser
 
 DESIGNS = ("recess-action-full", "face-worm-conical-convex", "spherical-table-2-2-concave-14-5")
@@ -123,6 +125,21 @@ def test_a_cycle_solved_in_one_call_has_the_bits_of_single_solutions(name):
         assert bits(row[21 : 21 + drive.model.nx]) == bits(native_solve(drive.model, drive.design.parameters, phi)[1])
 
 
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_flanks_that_are_drawn_have_the_bits_of_the_native_ones(name):
+    drive = Drive.load(name).with_(design={"hand": "left"}) if name.startswith("recess") else Drive.load(name)
+    wasm = Wasm(drive)
+    wasm.write("parameters", given_vector(drive.design))
+    assert wasm("complete") == 0
+    for member, body in enumerate(teeth(drive)["bodies"]):
+        flank = drive.flank(body["name"])
+        places = np.frombuffer(base64.b64decode(body["places"])).reshape(-1, len(flank.parameters))
+        wasm.write("places", places)
+        assert wasm("flank", member, len(places)) == len(flank.parameters)
+        drawn, found = wasm.read("shape", 6 * len(places)).reshape(-1, 6), flank(places)
+        assert bits(drawn) == bits(np.hstack([found.points, found.normals]))
+
+
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory):
     folder, made = tmp_path_factory.mktemp("live"), {}
@@ -150,6 +167,18 @@ def test_without_the_compiler_the_remedy_is_named(monkeypatch):
         live.compiled("face_worm", SHIPPED)
 
 
+#: Of either drawn tooth, how many edges of triangles do not lie between two of them, places taken to 1 nm.
+OPEN_EDGES = """solids.view.scene.bodies.map(({patches: [{points, triangles}]}) => {
+  const place = k => [0, 1, 2].map(i => Math.round(points[3 * k + i] * 1e6)).join(), edges = new Map();
+  for (let t = 0; t < triangles.length; t += 3)
+    for (let e = 0; e < 3; e++) {
+      const [a, b] = [place(triangles[t + e]), place(triangles[t + (e + 1) % 3])].sort();
+      if (a !== b) edges.set(a + b, (edges.get(a + b) ?? 0) + 1);
+    }
+  return [...edges.values()].filter(count => count % 2).length;
+})"""
+
+
 def _table(browser, table):
     script = f"[...document.querySelectorAll('#{table} td.number')].map(e => [e.dataset.name, e.textContent])"
     return dict(browser.value(script))
@@ -170,6 +199,9 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
         browser.wait(f"Number({key}) !== 0 && !pending")
         value, after = float(browser.value(key)), _table(browser, "numbers")
         index = int(browser.value("document.getElementById('position').value"))
+        browser.value("document.getElementById('view').scrollIntoView({block: 'center'})")
+        browser.wait("solids.view !== null && shownState === state")
+        assert browser.value(OPEN_EDGES) == [0, 0]
         assert not browser.complaints
     finally:
         browser.close()

@@ -12,8 +12,9 @@ import pytest
 
 from meshwright import Drive
 from meshwright.base import compile as build
-from meshwright.base import drives
+from meshwright.base import drives, first_use
 from meshwright.base.errors import DesignError, LibraryError
+from meshwright.cli import main
 from meshwright.design import design
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -65,6 +66,13 @@ def test_a_drive_of_one_file_is_solved_by_every_way_to_name_its_folder(folder, c
     assert np.abs(_errors("tca", plain, *angles, MESHWRIGHT_DRIVES=str(folder)) - straight).max() < 1e-9
     bent = _errors("--drives", folder, "tca", crowned(0.002), *angles) - straight
     assert np.ptp(bent) > 1e-3
+
+
+def test_a_folder_may_be_called_like_a_command(folder, crowned, tmp_path, monkeypatch, capsys):
+    (tmp_path / "drives").symlink_to(folder)
+    monkeypatch.chdir(tmp_path)
+    assert main(["--drives", "drives", "tca", str(crowned(0.001)), "--phi-deg", "0", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["points"][0]["status"] == "converged"
 
 
 def test_the_python_package_takes_a_folder_of_drives(folder, crowned):
@@ -132,7 +140,7 @@ def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is
 
 def test_without_derive_the_remedy_is_named(tmp_path, monkeypatch):
     monkeypatch.setenv(drives.CACHE, str(tmp_path))
-    monkeypatch.setattr(drives.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(first_use.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(LibraryError, match=r"meshwright\[derive\]"):
         drives.folder_of("spherical_spur_convex")
 

@@ -8,7 +8,7 @@ import pytest
 from meshwright import Drive
 from meshwright.pattern.pattern import along_ellipse
 from meshwright.report import analyse
-from meshwright.report.scene import flank_data, scene
+from meshwright.report.scene import scene, tooth_data
 
 from .conftest import DESIGNS, quiet
 
@@ -62,7 +62,7 @@ def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
 def test_drawn_flanks_keep_within_the_blank(name):
     """Also where the surface has a pole beyond the tip: no vertex past tip or face."""
     drive = Drive.load(name)
-    data = flank_data(drive.region("wheel"), True, np.ones(3), 0.5)
+    data = tooth_data(drive, "wheel", drive.design.value("wheel_teeth"), 1, 0.5)
     points = unpacked(data["points"], -1, 3)
     corners = np.frombuffer(base64.b64decode(data["triangles"]), dtype="<u4").reshape(-1, 3)
     assert len(corners) > 500 and corners.max() < len(points)

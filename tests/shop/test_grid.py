@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from meshwright.cli import main
 from meshwright.shop.balls import sizes
 from meshwright.shop.nominal import nominal
 from meshwright.shop.tables import read_csv
+
+REFERENCE = Path(__file__).resolve().parents[1] / "reference"
 
 
 @pytest.fixture(scope="module")
@@ -119,25 +122,37 @@ def test_size_over_balls_of_involute_gears(design, member, gear):
     assert found.size == pytest.approx(size, abs=1e-9)
 
 
-def test_three_wires_of_the_single_threaded_worm_of_a_handbook():
-    """m_x 2, α_n 20°, one thread, d 31, wires 3.3: 80.2959° at the wire's centre, M = 35.3345 mm.
+def test_three_wires_of_the_worm_of_a_published_table():
+    """Six printed figures of one column: m_x 2, α_n 20°, one thread, d 31, wires 3.3.
 
-    The figures are those of Stock Drive Products, Elements of Metric Gear Technology, section 10 (three-wire method of
-    worms), quoted from memory: the page itself was not at hand when this was written.
+    Stock Drive Products/Sterling Instrument, Elements of Metric Gear Technology, three-wire method of worm measurement,
+    Tables 10-25 and 10-26 (the worm as an involute helical gear). The figures were written down without the page
+    at hand; the angle and the involute at the reference cylinder, which only the table prints, bind them
+    to one another.
     """
+    printed = json.loads((REFERENCE / "worm-over-wires.json").read_text())["example"]
     drive = Drive.from_tables({
         "drive": "cylindrical-worm",
         "design": {
-            "axial_module_mm": 2.0, "worm_threads": 1, "wheel_teeth": 30, "worm_pitch_radius_mm": 15.5,
-            "pressure_angle_deg": 20.0, "worm_profile": "ZI", "hob_pitch_radius_mm": 16.0,
+            "axial_module_mm": printed["axial_module_mm"], "worm_threads": printed["threads"], "wheel_teeth": 30,
+            "worm_pitch_radius_mm": printed["reference_diameter_mm"] / 2,
+            "pressure_angle_deg": printed["normal_pressure_angle_deg"],
+            "worm_profile": "ZI", "hob_pitch_radius_mm": 16.0,
         },
         "blank": {"worm_tip_radius_mm": 17.5, "worm_root_radius_mm": 13.0},
     })  # fmt: skip
-    (found,) = sizes(drive, "pinion", [3.3])
-    lead = math.atan(2.0 / 31.0)
-    base = 15.5 * math.cos(math.atan(math.tan(math.radians(20.0)) / math.sin(lead)))
-    assert math.degrees(math.acos(base / found.centre_radius)) == pytest.approx(80.2959, abs=5e-5)
-    assert found.wires == pytest.approx(35.3345, abs=5e-5)
+    (found,) = sizes(drive, "pinion", [printed["wire_diameter_mm"]])
+
+    lead_angle = math.atan(printed["axial_module_mm"] * printed["threads"] / printed["reference_diameter_mm"])
+    transverse = math.atan(math.tan(math.radians(printed["normal_pressure_angle_deg"])) / math.sin(lead_angle))
+    at_wire = math.acos(printed["reference_diameter_mm"] / 2 * math.cos(transverse) / found.centre_radius)
+    assert math.degrees(lead_angle) == pytest.approx(printed["lead_angle_deg"], abs=5e-7)
+    assert math.degrees(transverse) == pytest.approx(printed["transverse_pressure_angle_deg"], abs=5e-6)
+    assert _involute(transverse) == pytest.approx(printed["involute_of_transverse_pressure_angle"], abs=5e-7)
+    # The table goes on from rounded figures here: one unit of its last place.
+    assert _involute(at_wire) == pytest.approx(printed["involute_at_wire_centre"], abs=1e-6)
+    assert math.degrees(at_wire) == pytest.approx(printed["angle_at_wire_centre_deg"], abs=5e-5)
+    assert found.wires == pytest.approx(printed["measurement_over_wires_mm"], abs=5e-5)
 
 
 def test_balls_of_a_single_thread_lie_half_an_axial_pitch_apart():

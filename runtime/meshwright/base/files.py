@@ -5,12 +5,16 @@ import errno
 import io
 import json
 import os
+import re
 import sys
 import time
 from contextlib import contextmanager
 from pathlib import Path
 
 from meshwright.base.errors import UsageError
+
+#: Name of a file on its way to another's place.
+_PART = re.compile(r"\..+\.[0-9a-f]{16}")
 
 
 def write_text(place, content):
@@ -68,6 +72,13 @@ def replaced(path):
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def remove_parts(folder):
+    """Remove what killed processes left of :func:`replaced` in ``folder``; for whoever holds the folder's lock."""
+    for part in folder.glob(".*"):
+        if _PART.fullmatch(part.name):
+            part.unlink(missing_ok=True)
 
 
 def _to_disk(path):

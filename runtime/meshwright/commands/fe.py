@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.files import write_json, write_text
+from meshwright.base.files import locked, write_json, write_text
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
@@ -51,7 +51,8 @@ def run(options):
     ccx = fe.solver.find_ccx()
     folder = Path(options.folder or f"{Path(options.design).stem}-fe")
     positions = []
-    with progress(2 * len(angles) + 3) as step:
+    _make(folder)
+    with locked(folder, "finite-element run"), progress(2 * len(angles) + 3) as step:
         gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
         _check_touches(fe, gear, angles, pairs)
         if ccx is None:
@@ -71,6 +72,13 @@ def run(options):
         _picture_of_cycle(fe, positions, folder)
     _write(options, gear, positions)
     return 0 if all(_accepted(position) for position in positions) else 1
+
+
+def _make(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"--folder {folder}: cannot be made ({error.strerror}); name another folder") from error
 
 
 def _check_touches(fe, gear, angles, pairs):

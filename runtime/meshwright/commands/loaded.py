@@ -19,8 +19,8 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
+from meshwright.contact.flags import not_first
 from meshwright.contact.results import ARCSEC
-from meshwright.cycle.edge import not_first
 from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"

@@ -14,8 +14,8 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import options as common
+from meshwright.contact.flags import not_first
 from meshwright.contact.results import TOUCHING, impossible
-from meshwright.cycle.edge import not_first
 from meshwright.design import description, outline
 from meshwright.design import design as designs
 from meshwright.drive import Drive

@@ -11,15 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
+from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placements_at
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
 
 #: Cells of the mesh over the wheel's flank, across and along.
 CELLS = (12, 24)
-
-#: A contact further inside the other flank than this, mm, is not the first.
-OVERLAP = 1e-6
 
 #: Turn of the wheel by which its sense of rotation is read off, rad.
 TURN = 0.01
@@ -160,7 +158,7 @@ class _Search:
     and ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
     """
 
-    drive: object
+    drive: DriveModel
     table: object
     kept: tuple
     work: np.ndarray

@@ -18,16 +18,18 @@ class FirstDesign:
 def first_design(family, name, words, given, own):
     """The :class:`FirstDesign` of a :class:`~meshwright.design.description.Family`.
 
-    ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" that replace
-    suggestions or stand beside them.
+    ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" (or "key", above the
+    tables) that replace suggestions or stand beside them.
     """
     usable = _places(family, words)
     symbols, chosen = dict(given), {}
     for suggestion in family.outline["suggestions"]:
         place = suggestion["place"]
-        if place and place not in usable:
+        if place and place not in usable or not _meant(suggestion, words):
             continue
         number = _number(suggestion, symbols)
+        if suggestion["name"] in symbols and math.isnan(number):
+            continue
         if place in own and isinstance(own[place], int | float):
             number = own[place]
         symbols[suggestion["name"]] = number
@@ -35,7 +37,9 @@ def first_design(family, name, words, given, own):
             chosen[place] = number, suggestion["why"]
     written = chosen | {place: (number, "as given") for place, number in own.items()}
     flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
-    lines = [f'drive = "{family.name}"', f"name = {_toml(name)}", f'flank = "{next(iter(flank))}"']
+    above = {"drive": family.name, "name": name, "flank": next(iter(flank))}
+    above |= {key: number for key, (number, _) in written.items() if "." not in key}
+    lines = [f"{key} = {_toml(number)}" for key, number in above.items()]
     tables = dict.fromkeys(["design", *(place.partition(".")[0] for place in written if "." in place)])
     for table in tables:
         lines += ["", f"[{table}]"]
@@ -53,6 +57,11 @@ def _places(family, words):
     """The keys ("table.key") that the drive of these words has: those of the family and those of the tools named."""
     chosen = {*words.values()}
     return {f"{p['table']}.{p['key']}" for p in family.parameters if not p["tools"] or chosen & {*p["tools"]}}
+
+
+def _meant(suggestion, words):
+    """Whether a suggestion is for the drive of these words."""
+    return all(words.get(key) in meant for key, meant in suggestion["words"].items())
 
 
 def _number(suggestion, symbols):

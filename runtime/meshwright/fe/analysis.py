@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshwright.base.files import write_json, write_text
+from meshwright.base.files import remove_parts, write_json, write_text
 from meshwright.fe import stress
 from meshwright.fe.compliance import ToothCompliance
 from meshwright.fe.deck import write
@@ -67,12 +67,16 @@ def prepare(
     settings: Settings,
     folder: Path,
 ) -> Prepared:
-    """Find the forces semi-analytically, build the mesh for them and write the input into ``folder``."""
+    """Find the forces semi-analytically, build the mesh for them and write the input into ``folder``.
+
+    Whoever calls this holds the lock of the folder.
+    """
     loaded = loaded_contact(gear, pinion_angle, settings.pairs, load, compliance)
     forces = np.array([pair.force for pair in loaded.pairs])
     model = build_model(gear, pinion_angle, settings.pairs, load, forces, settings.density)
     text = write(model.deck)
     folder.mkdir(parents=True, exist_ok=True)
+    remove_parts(folder)
     prepared = Prepared(gear, loaded, model, folder, hashlib.sha256(text.encode()).hexdigest())
     write_text(prepared.input_file, text)
     return prepared
@@ -91,8 +95,8 @@ def solve(
     prepared: Prepared, ccx: Path, settings: Settings, progress: Callable[[str], None] = lambda line: None
 ) -> dict:
     """Run the solver, judge what it returns, and keep it, with fields and pictures, if it is accepted."""
-    for stale in (".frd", ".dat"):
-        prepared.input_file.with_suffix(stale).unlink(missing_ok=True)
+    for stale in (prepared.folder / _RESULT, *map(prepared.input_file.with_suffix, (".frd", ".dat"))):
+        stale.unlink(missing_ok=True)
     run = run_ccx(ccx, prepared.input_file, settings.time_limit, settings.threads, progress)
     document, solution = judge(prepared, run)
     document["message"] = _ending(run, prepared.input_file)

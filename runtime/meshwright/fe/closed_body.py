@@ -98,14 +98,14 @@ def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thicknes
     """
     whole, _ = drive.design.with_whole_blank()
     drive = Drive(whole, drive.backend)
-    with _whole(member):
-        sizes = solid_sizes(drive, member)
-        make = _thread if "tip_radius" in sizes else _gear
-        tooth, count = make(drive, member, sizes, rim_thickness)
+    sizes, count = solid_sizes(drive, member), _teeth(drive, member)
+    make = _thread if "tip_radius" in sizes else _gear
     if make is _thread and teeth not in (None, count):
         raise UsageError(f"--teeth {teeth}: the {member} is one body with {count} threads; leave --teeth out")
     if teeth is not None and not 1 <= teeth <= count:
         raise UsageError(f"--teeth {teeth}: the {member} has {count} teeth; choose from 1 to {count}")
+    with _whole(member):
+        tooth = make(drive, member, sizes, rim_thickness)
     flip = drive.design.mirror.flip if drive.design.mirror.sign < 0 else None
     return Body(tooth, teeth or count, count, flip)
 
@@ -121,9 +121,8 @@ def _whole(member: str) -> Iterator[None]:
         raise DesignError("blank", None, f"the {member} has no whole teeth: {error}", "change its blank") from error
 
 
-def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> tuple[Tooth, int]:
-    """The tooth of a gear from the regions of its flank and fillet, and their number."""
-    count = _teeth(drive, member)
+def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The tooth of a gear from the regions of its flank and fillet."""
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
     sides, sections = [], Sections.of(drive.flank(member))
     for one in (drive, other_flank(drive)):
@@ -133,7 +132,7 @@ def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None)
             regions = [of and of.in_sections(sections) for of in regions]
         sides.append(RegionSide.of(*regions))
     faces = min(s.reach[0] for s in sides), max(s.reach[1] for s in sides)
-    return _between(drive, member, sides, faces, count, sizes, rim), count
+    return _between(drive, member, sides, faces, _teeth(drive, member), sizes, rim)
 
 
 def _of_blank(flank: Region, member: str) -> Sections:
@@ -161,8 +160,8 @@ def _teeth(drive: Drive, member: str) -> int:
     return round(count if member == "pinion" else count / drive.ratio)
 
 
-def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> tuple[Tooth, int]:
-    """The thread of a member, along its axis as far as what contact uses of its flanks, and the number of threads."""
+def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The thread of a member, along its axis as far as what contact uses of its flanks."""
     if rim is not None:
         check_rim(rim, {member: sizes["root_radius"]})
     used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in (drive, other_flank(drive))])
@@ -176,8 +175,7 @@ def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | Non
         return bore(at)[..., 0]
 
     low, high, _ = _in_order(member, sides, ends)
-    pitch = drive.pitch()
-    return between(member, low, high, 0.0, pitch, ends, 1.0, height), round(2.0 * np.pi / pitch)
+    return between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height)
 
 
 def _between(

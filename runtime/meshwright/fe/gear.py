@@ -28,8 +28,9 @@ _TIP_SAMPLES = 33
 def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """The teeth of a member.
 
-    rim_thickness: in mm from the root to a bore, not deeper than 0.8 radii; of a tooth along the radius, from the
-    lowest root to the plane back of the gear. Raises DesignError where a flank is undercut below its tip.
+    rim_thickness: in mm from the root to a bore, not deeper than 0.8 radii; of an internal gear to its outside; of a
+    tooth along the radius, from the lowest root to the plane back of the gear. Raises DesignError where a flank is
+    undercut below its tip.
     """
     sizes = solid_sizes(drive, member)
     faces = (sizes["face_first"], sizes["face_last"])
@@ -37,8 +38,12 @@ def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     lie = _LIES[body_of(drive, member)["lengthwise"]]
     sides = {name: _side(one, member, lie.section) for name, one in flank_pair(drive).items()}
     own: SideName = "left" if drive.design.flank > 0 else "right"
+    if lie is _LIES["axial"] and _points_inwards(sides[own], faces):
+        lie = _INTERNAL
     if "middle" in sizes:
         _set_apart(sides, own, faces, pitch, sizes["middle"])
+    elif lie is _INTERNAL:
+        _of_one_tooth(sides, own, faces, pitch)
     back = lie.back(sides, faces, sizes, rim_thickness)
     form = ToothForm.repeated(sides["left"], sides["right"], faces, about_z(lie.right * pitch), back)
     return Teeth(lambda angle: form, own)
@@ -75,11 +80,30 @@ def _set_apart(
     """Turn the other side so that tooth and space are equally wide at ``middle``; the flank in hand keeps its place."""
     at = np.array([0.5 * (faces[0] + faces[1])])
     thickness = _azimuth(sides["right"], at, middle) - _azimuth(sides["left"], at, middle)
+    _turn_other(sides, own, 0.5 * pitch - thickness)
+
+
+def _of_one_tooth(sides: dict[SideName, ToothSide], own: SideName, faces: tuple[float, float], pitch: float) -> None:
+    """Turn the other side by pitches, from the flank across the space to that across the tooth."""
+    at = np.array([0.5 * (faces[0] + faces[1])])
+    left, right = (_azimuth(sides[name], at, float(sides[name].flank.last(at)[0])) for name in ("left", "right"))
+    _turn_other(sides, own, -pitch * np.floor((right - left) / pitch))
+
+
+def _turn_other(sides: dict[SideName, ToothSide], own: SideName, angle: float) -> None:
+    """Turn the other side about the axis by an angle in rad, which widens a tooth with its right side further on."""
     other: SideName = "right" if own == "left" else "left"
-    angle = (0.5 * pitch - thickness) * (1.0 if other == "right" else -1.0)
+    angle = angle if other == "right" else -angle
     side = sides[other]
     curves = (SectionCurves(turned(c.surface, angle), c.section, c.first, c.last) for c in (side.fillet, side.flank))
     sides[other] = ToothSide(*curves)
+
+
+def _points_inwards(side: ToothSide, faces: tuple[float, float]) -> bool:
+    """Whether the tip lies nearer the axis than the root, as of an internal gear."""
+    at, flank = np.array([0.5 * (faces[0] + faces[1])]), side.flank
+    root, tip = (_radius(flank.points(at, end(at)[:, None]))[0, 0] for end in (flank.first, flank.last))
+    return bool(tip < root)
 
 
 def _azimuth(side: ToothSide, sections: Floats, profile: float) -> float:
@@ -100,6 +124,12 @@ def _bore(
     sides: dict[SideName, ToothSide], faces: tuple[float, float], sizes: dict[str, float], rim_thickness: float
 ) -> Cut:
     return bored(bore_radius(sizes["root_radius"], rim_thickness))
+
+
+def _outside(
+    sides: dict[SideName, ToothSide], faces: tuple[float, float], sizes: dict[str, float], rim_thickness: float
+) -> Cut:
+    return bored(sizes["root_radius"] + rim_thickness)
 
 
 def _plane_back(
@@ -126,3 +156,4 @@ class _Lie:
 
 
 _LIES = {"axial": _Lie(_axial, -1, _bore), "radius": _Lie(_radius, 1, _plane_back)}
+_INTERNAL = _Lie(_axial, 1, _outside)

@@ -113,6 +113,8 @@ class RegionSide:
 
     def _stepped(self) -> bool:
         """Whether flank and fillet end beside each other in all sections, not further apart than a modification."""
+        if self.fillet is None:
+            return False
         values = np.linspace(*self.reach, PLACES_ALONG)
         flank, fillet = self.flank.at(values), self.fillet.at(values)
         flank = self._up_to(flank, fillet)
@@ -150,8 +152,7 @@ class RegionSide:
         if not apart.any():
             return flank, fillet
         crossing = self._crossing(_some(flank, apart), _some(fillet, apart))
-        parts = ((flank, not self.tip), (fillet, not self.land))
-        return tuple(_ending(one, upper, apart, q) for (one, upper), q in zip(parts, crossing, strict=True))
+        return _ending(flank, not self.tip, apart, crossing[0]), _ending(fillet, not self.land, apart, crossing[1])
 
     def _up_to(self, flank: Lines, fillet: Lines) -> Lines:
         """The flank up to the fillet's joint where that lies on it: a tool's profile may go on beyond its rounding."""

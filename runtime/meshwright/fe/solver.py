@@ -93,7 +93,7 @@ def run_ccx(
             reader.join()
             process.stdout.close()
     if log.failure is not None:
-        raise log.failure
+        raise OSError(log.failure.errno, log.failure.strerror, str(input_file.with_suffix(".log"))) from log.failure
     if stopped == _TIME:
         stopped = f"the solver was stopped at its time limit of {time_limit:g} s"
     elif log.full.is_set():

@@ -118,7 +118,8 @@ class Grid:
         """What lies between root land and tip on both sides, from the land upwards: kind and points (K, J, 3)."""
         found = [("flank", self.low[1], self.high[1])]
         if any(side.has_step for side in self.tooth.sides):
-            found.insert(0, ("step", *(np.stack([s[0][:, -1], s[1][:, 0]], axis=1) for s in (self.low, self.high))))
+            low, high = (np.stack([side[0][:, -1], side[1][:, 0]], axis=1) for side in (self.low, self.high))
+            found.insert(0, ("step", low, high))
         if self.tooth.sides[0].has_fillet:
             found.insert(0, ("fillet", self.low[0], self.high[0]))
         return found

@@ -5,6 +5,7 @@ triangles miss. A line is a piece of a section of the tooth where the drive says
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -53,7 +54,7 @@ class Lines:
     profile's parameter; NaN where a line misses the region.
     """
 
-    region: object
+    region: Any  # a meshwright.flank.region.Region, which finds its lines here
     along: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
@@ -271,7 +272,8 @@ def _ended(region, along, profile, near):
     first, last = _longest_runs(inside)
     # what has one value on a line does not end it
     with np.errstate(invalid="ignore"):
-        spread = np.nanmax(np.where(inside[:, :, None], np.abs(values - values[first, np.arange(count)]), 0.0), axis=(0, 1))
+        off = np.where(inside[:, :, None], np.abs(values - values[first, np.arange(count)]), 0.0)
+        spread = np.nanmax(off, axis=(0, 1))
     across = ~(spread < ROUNDING)
     ends = [_end(region, across, q, profile, along, number, way) for number, way in ((first, -1), (last, 1))]
     missed = ~inside.any(axis=0)

@@ -39,18 +39,18 @@ class Patch:
 def triangulated(patches: list[Patch]) -> tuple[Floats, Ints]:
     """Points (N, 3) and triangles (M, 3), counter-clockwise seen from outside, of patches whose edges are shared."""
     points = np.concatenate([p.points.reshape(-1, 3) for p in patches])
-    triangles, first, rim = [], 0, []
+    parts, first, rims = [], 0, []
     for patch in patches:
         n, m, _ = patch.points.shape
         number = first + np.arange(n * m).reshape(n, m)
         a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-        triangles += [np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
-        rim.append(np.concatenate([number[0], number[-1], number[:, 0], number[:, -1]]))
+        parts += [np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
+        rims.append(np.concatenate([number[0], number[-1], number[:, 0], number[:, -1]]))
         first += n * m
     label = np.arange(len(points))
-    rim = np.unique(np.concatenate(rim))
+    rim = np.unique(np.concatenate(rims))
     label[rim] = rim[_first_of_each(points[rim])]
-    triangles = label[np.concatenate(triangles)]
+    triangles = label[np.concatenate(parts)]
     flat = np.sort(triangles, axis=1)
     triangles = triangles[(np.diff(flat, axis=1) > 0).all(axis=1)]
     used, numbered = np.unique(triangles, return_inverse=True)

@@ -64,8 +64,8 @@ class _Edges:
     def of(cls, patches: list[Patch]) -> _Edges:
         corners = np.array([[p.points[i, j] for i, j in ((0, 0), (-1, 0), (-1, -1), (0, -1))] for p in patches])
         middles = np.array([[_middle(line) for line in _sides(p.points)] for p in patches])
-        same = [_same(of.reshape(-1, 3)).reshape(len(patches), 4) for of in (corners, middles)]
-        return cls(corners.reshape(-1, 3), *same)
+        corner, side = (_same(of.reshape(-1, 3)).reshape(len(patches), 4) for of in (corners, middles))
+        return cls(corners.reshape(-1, 3), corner, side)
 
     def face(self, number: int, spline: Spline):
         from OCP.BRep import BRep_Builder

@@ -13,6 +13,7 @@ from meshwright.contact.results import impossible
 from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.design.design import given_vector, is_real
 from meshwright.design.schema import bounds
+from meshwright.live.teeth import teeth
 
 #: Positions of a mesh cycle.
 POSITIONS = 200
@@ -58,6 +59,8 @@ def data(drive):
                   for name in flag_names(drive.model)],
         "equations": {name: description["equations_of"].get(name, []) for name in ("eval", "observe", "derive")},
         "sources": description["sources"],
+        "teeth": teeth(drive),
+        "coordinates": [len(body["parameters"]) for body in description["bodies"]],
         "border": border,
         "end_on": end_on,
     }  # fmt: skip

@@ -17,7 +17,7 @@ def page(drive):
         "STYLE": _part("live.css"),
         "DATA": json.dumps(contents, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
         "MODULE": base64.b64encode(compiled(contents["drive"], drive.design.description["folder"])).decode("ascii"),
-        "SCRIPT": "\n".join(_part(f"{name}.js") for name in ("solver", "plots", "live")),
+        "SCRIPT": "\n".join(map(_part, ("solver.js", "teeth.js", "plots.js", "solids.js", "live.js"))),
     }
     text = _part("live.html")
     pieces = text.split("%%")
@@ -25,4 +25,5 @@ def page(drive):
 
 
 def _part(name):
-    return resources.files("meshwright.live").joinpath("page", name).read_text(encoding="utf-8")
+    package = "meshwright.report" if name == "teeth.js" else "meshwright.live"
+    return resources.files(package).joinpath("page", name).read_text(encoding="utf-8")

@@ -13,7 +13,10 @@ from meshwright.base.errors import LibraryError, UsageError
 SOURCE = Path(__file__).parent / "page" / "live.c"
 
 #: Functions that the page calls; ``live.c`` says what each does.
-EXPORTS = ("parameters", "sizes", "angles", "rows", "row_length", "most_angles", "complete", "cycle")
+EXPORTS = (
+    "parameters", "sizes", "angles", "rows", "row_length", "most_angles", "complete", "cycle",
+    "places", "shape", "flank",
+)  # fmt: skip
 
 #: No product is contracted into a sum, so that every number has the bits of the native objects.
 FLAGS = (

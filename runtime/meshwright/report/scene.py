@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.contact.results import ARCSEC
-from meshwright.flank.mesh import mesh
+from meshwright.flank.tooth import drawn_mesh, tooth
 from meshwright.report.style import MEMBERS
 
 #: How much lighter surfaces are than lines of the same member, 0 … 1.
 LIGHTER = 0.22
 
-#: Cells of a flank's first mesh across and along the tooth, and at most; how many go to the radius of the view.
-FIRST, MOST, CELLS_PER_RADIUS = (12, 24), (32, 192), 24.0
+#: Cells of a drawn flank that go to the radius of the view.
+CELLS_PER_RADIUS = 24.0
 
 
 @dataclass(frozen=True)
@@ -99,48 +99,28 @@ def _packed(values, kind="<f4"):
 
 def _body(analysis, name, matrices, cell):
     colour = [int(MEMBERS[name][k : k + 2], 16) for k in (1, 3, 5)]
-    flip = np.array([1.0, analysis.mirror, 1.0])
     return {
         "name": name,
         "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "patches": [flank_data(*side, flip, cell) for side in _sides(analysis, name)],
+        "patches": [tooth_data(analysis.drive, name, analysis.teeth[name], analysis.mirror, cell)],
     }
 
 
-def _sides(analysis, name):
-    """The flank in contact and, if it belongs to the same design, the other side of the tooth: region, active."""
-    drive = analysis.drive
-    sides = [(drive.region(name), True)]
-    if not drive.design.description["flanks_apart"]:
-        words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
-        other = drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
-        sides.append((other.region(name), False))
-    return sides
-
-
-def flank_data(region, active, flip, cell):
-    """A flank with its border resolved, in cells of about ``cell`` mm: points, normals, corners of triangles."""
-    drawn = mesh(region, FIRST)
-    if len(drawn.triangles):
-        drawn = mesh(region, tuple(_finer(region, drawn, cell, axis) for axis in (0, 1)))
+def tooth_data(drive, member, teeth, mirror, cell):
+    """A tooth, of which a turn has so many: the flank in contact with its border resolved, in cells of about ``cell``
+    mm (points, normals, corners of triangles), and by point the angle about the axis to the far flank, with its normal.
+    """
+    flip, drawn = np.array([1.0, mirror, 1.0]), drawn_mesh(drive.region(member), cell)
+    behind = tooth(drive, member, drawn, teeth)
     return {
-        "active": active,
         "points": _packed(drawn.points * flip),
         "normals": _packed(drawn.normals * flip),
         "triangles": _packed(drawn.triangles, "<u4"),
+        "across": _packed(behind.across * mirror),
+        "far": _packed(behind.normals * flip),
     }
-
-
-def _finer(region, drawn, cell, axis):
-    """How many cells of about ``cell`` mm go along one coordinate of a region, by such edges of a first mesh."""
-    corners = drawn.triangles
-    here, there = corners.ravel(), np.roll(corners, 1, axis=1).ravel()
-    across = np.abs(drawn.parameters[here] - drawn.parameters[there])[:, region.chart.free[1 - axis]]
-    along = across < 1e-6 * np.ptp(region.box[:, 1 - axis])
-    lengths = np.linalg.norm(drawn.points[here] - drawn.points[there], axis=1)[along]
-    return int(np.clip(round(FIRST[axis] * np.quantile(lengths, 0.9) / cell), FIRST[axis], MOST[axis]))
 
 
 def _copies(analysis, name):

@@ -38,9 +38,10 @@ SCREW = 1e-9
 class Size:
     """A ball of diameter ``ball`` in a space of a member, mm; NaN where it does not rest there, and why.
 
-    ``centre_radius`` is the distance of its centre from the axis, ``size`` what is measured over two such balls,
-    ``wires`` over three wires between parallel anvils (threads alone), ``arrangement`` how the balls lie,
-    ``lowest`` the radius of the ball's lowest point. ``contacts`` (2, 3) are where it touches, body frame.
+    ``centre_radius`` is the distance of its centre from the axis, ``size`` what is measured over two such balls, of an
+    internal gear between them, ``wires`` over three wires between parallel anvils (threads alone), ``arrangement`` how
+    the balls lie, ``lowest`` the radius of the ball's point nearest to the root. ``contacts`` (2, 3) are where it
+    touches, body frame.
     """
 
     ball: float
@@ -53,15 +54,21 @@ class Size:
     reason: str
 
 
-def sizes(drive, member, balls):
-    """The :class:`Size` for every ball diameter (mm) in the spaces of a member."""
+def sizes(drive, member, balls, step=lambda text: None):
+    """The :class:`Size` for every ball diameter (mm) in the spaces of a member; ``step(text)`` is called before each,
+    and once before all.
+    """
     if drive.design.description["flanks_apart"]:
         raise UsageError(
             "--over-balls: each flank of this drive is a design of its own, so that no design describes a whole space "
             "between teeth; measure points instead: --lines NxM --csv FILE"
         )
-    space = _Space.of(drive, member)
-    return [space.size(float(ball)) for ball in balls]
+    step(f"space between the teeth of the {member}")
+    space, found = _Space.of(drive, member), []
+    for ball in balls:
+        step(f"ball of {ball:g} mm")
+        found.append(space.size(float(ball)))
+    return found
 
 
 @dataclass(frozen=True)
@@ -122,16 +129,21 @@ class _Space:
             return Size(ball, nothing, nothing, nothing, "", nothing, np.full((2, 3), nothing), found)
         centre, contacts = found
         radius = float(np.hypot(centre[0], centre[1]))
-        size, arrangement = self._over_two(radius, ball)
+        # where the flanks push the ball towards the axis, the teeth point there too, and it is measured between balls
+        ball_out = math.copysign(ball, (centre - contacts.mean(axis=0))[:2] @ centre[:2])
+        size, arrangement = self._over_two(radius, ball_out)
         wires = 2.0 * radius + ball if self._thread(radius) else math.nan
-        return Size(ball, radius, size, wires, arrangement, radius - 0.5 * ball, contacts, "")
+        return Size(ball, radius, size, wires, arrangement, radius - 0.5 * ball_out, contacts, "")
 
     def _thread(self, radius):
         """Whether the teeth are threads, by their lead angle at this radius."""
         return abs(self.pitch) < radius * math.tan(STEEPEST_THREAD)
 
     def _over_two(self, radius, ball):
-        """Size over two balls, and how they lie: in the two spaces, or turns of one, that face each other best."""
+        """Size over two balls, and how they lie: in the two spaces, or turns of one, that face each other best.
+
+        A negative diameter is one on either side inside the centres.
+        """
         if self.teeth % 2 == 0:
             return 2.0 * radius + ball, "opposite spaces"
         if self._thread(radius):

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
-from meshwright.base.files import locked, write_bytes
+from meshwright.base.files import locked, remove_parts, write_bytes
 from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, SOLVED
 from meshwright.design import design as designs
@@ -205,8 +205,7 @@ def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lamb
     identity = plan.identity
     with locked(folder, "sweep"):
         _claim(plan, identity, drive, folder, form)
-        for left_by_a_killed_process in (*folder.glob(".slice-*"), *folder.glob(f".{MARK}.*")):
-            left_by_a_killed_process.unlink(missing_ok=True)
+        remove_parts(folder)
         try:
             if scheduler is None:
                 _on_threads(plan, identity, folder, form, threads or os.cpu_count(), advance)

@@ -9,15 +9,21 @@
 #define X(name) JOIN(LIVE_DRIVE, name)
 #define EXPORT __attribute__((visibility("default")))
 
+/* Most places of a flank at once; numbers of a place, the most that a flank writes for it, and what is kept of that. */
+enum { MOST_PLACES = 4096, MOST_COORDINATES = 3, MOST_WRITTEN = 64, KEPT = 6 };
+
 /* Most angles in a cycle; numbers of a row before unknowns x[NX], observation o[NO] and placement. */
 enum { MOST_ANGLES = 1024, HEAD = 21, MOST_PLACEMENT = 64, ROW = HEAD + X(NX) + X(NO) + MOST_PLACEMENT };
 
 static double parameters[X(NP)], sizes[X(ND) + 1], angles[MOST_ANGLES], rows[MOST_ANGLES * ROW];
+static double places[MOST_PLACES * MOST_COORDINATES], shape[MOST_PLACES * KEPT];
 
 EXPORT double *live_parameters(void) { return parameters; }
 EXPORT double *live_sizes(void) { return sizes; }
 EXPORT double *live_angles(void) { return angles; }
 EXPORT double *live_rows(void) { return rows; }
+EXPORT double *live_places(void) { return places; }
+EXPORT double *live_shape(void) { return shape; }
 EXPORT int live_row_length(void) { return ROW; }
 EXPORT int live_most_angles(void) { return MOST_ANGLES; }
 
@@ -99,4 +105,20 @@ EXPORT int live_cycle(int n)
     for (int k = first; k < n; k++) count += solved(&pair, angles[k], rows + (size_t)k * ROW);
     for (int k = first - 1; k >= 0; k--) count += solved(&pair, angles[k], rows + (size_t)k * ROW);
     return count;
+}
+
+/* Points and unit normals out of the material, body frame, of the completed design's flank of a member (0 pinion, 1
+ * wheel) at n places, given by all its parameters. Returns how many numbers a place has, −1 for a design or a number that
+ * cannot be. */
+EXPORT int live_flank(int member, int n)
+{
+    double s[X(NS)], o[MOST_WRITTEN];
+    const mw_body *const body = &X(model).bodies[member];
+    const int k = body->parameters;
+    if (n > MOST_PLACES || k > MOST_COORDINATES || body->outputs > MOST_WRITTEN || X(setup)(parameters, s)) return -1;
+    for (int i = 0; i < n; i++) {
+        body->flank(s, places + (size_t)i * (size_t)k, o);
+        for (int j = 0; j < KEPT; j++) shape[i * KEPT + j] = o[j];
+    }
+    return k;
 }

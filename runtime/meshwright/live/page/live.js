@@ -9,7 +9,7 @@ const shown = v => Number.isFinite(v) ? Number(v.toPrecision(DIGITS)).toString()
 /* Half of a slider's way: a fifth of the value, or this much about 0. */
 const WAY = { mm: 0.5, deg: 0.5 }, STEPS = 200;
 
-let solver, fields, state, pending = false;
+let solver, fields, state, solids = null, shownState = null, pending = false;
 
 function bytes(base64) { return Uint8Array.from(atob(base64.trim()), c => c.charCodeAt(0)); }
 
@@ -177,6 +177,7 @@ function draw() {
   table("totals", [["peak-to-peak", "transmission error, peak to peak", errors.length ? Math.max(...errors) - Math.min(...errors) : NaN, "arcsec"],
     ...data.sizes.map((s, k) => ["size", s.name, state.sizes[k] / s.factor, s.factor === 1 ? s.unit : "deg"])]);
   pictures(row, separation);
+  teeth();
 }
 
 function pictures(row, separation) {
@@ -196,6 +197,14 @@ function pictures(row, separation) {
   plots.axes.vertical(x(row));
   plots.axes.end();
   path(row, separation);
+}
+
+/* The teeth, where they can be seen; new flanks only for new keys. */
+function teeth() {
+  const canvas = element("view"), place = canvas.getBoundingClientRect();
+  if (!solids || state.faults.length || place.bottom < 0 || place.top > window.innerHeight) return;
+  if (shownState !== state) { shownState = state; solids.show(state); }
+  else solids.view?.redraw();
 }
 
 function outline(row, separation) {
@@ -256,6 +265,17 @@ function begin(module) {
     ask();
   });
   window.addEventListener("resize", () => draw());
+  window.addEventListener("scroll", () => { if (shownState !== state) teeth(); }, { passive: true });
+  if (data.teeth) {
+    element("teeth").hidden = false;
+    element("view-apart").hidden = data.teeth.bodies.every(body => body.far);
+    const ticked = name => element(`view-${name}`).checked;
+    solids = new Solids(solver, data, element("view"), {
+      position: () => Number(position.value), shown: ticked, open: () => ticked("cut"), seeThrough: () => ticked("see-through"), drawn: () => {},
+    });
+    element("view-reset").addEventListener("click", () => { solids.view?.reset(); solids.view?.redraw(); });
+    for (const box of element("view-controls").querySelectorAll("input")) box.addEventListener("change", () => solids.view?.redraw());
+  }
   explain();
   solve();
   draw();

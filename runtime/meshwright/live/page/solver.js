@@ -32,6 +32,16 @@ class Solver {
     return rows;
   }
 
+  /* Points and normals of the flank of a member of the design completed last, at places. */
+  flank(member, places) {
+    this._view(this.c.live_places(), places.length).set(places);
+    const count = places.length / this.data.coordinates[member];
+    if (this.c.live_flank(member, count) < 0) return { points: new Float64Array(3 * count).fill(NaN), normals: new Float64Array(3 * count) };
+    const shape = this._view(this.c.live_shape(), 6 * count), points = new Float64Array(3 * count), normals = new Float64Array(3 * count);
+    for (let i = 0; i < count; i++) for (let j = 0; j < 3; j++) { points[3 * i + j] = shape[6 * i + j]; normals[3 * i + j] = shape[6 * i + 3 + j]; }
+    return { points, normals };
+  }
+
   _row(angle, row) {
     const n = this.data.counts, x = HEAD.unknowns, o = x + n.unknowns, place = o + n.observation;
     return { angle, row, x: row.subarray(x, o), o: row.subarray(o, place), place: row.subarray(place),
