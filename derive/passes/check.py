@@ -93,6 +93,12 @@ def _leaf(tape, i):
 
 def residues(program):
     """Values of a routine's outputs modulo the prime, at the inputs' random residues."""
+    if "residues" not in program.found:
+        program.found["residues"] = _computed(program)
+    return program.found["residues"]
+
+
+def _computed(program):
     p, values = _prime(), {}
 
     def value(i):

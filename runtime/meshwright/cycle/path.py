@@ -50,15 +50,16 @@ class Path:
     def start(cls, drive):
         """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
         tried, reference = TRIED * drive.pitch(), drive.design.reference_angle
+        angles = reference + np.stack([tried, -tried], axis=1).ravel()[1:]
         first = None
-        for angle in reference + np.stack([tried, -tried], axis=1).ravel()[1:]:
-            found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
-            (status,) = found.status
-            if status == "converged":
-                return cls.through(drive, angle, found.solutions[0]), status
-            if status == "line_contact":
-                return None, status
-            first = first or status
+        for part in (angles[:1], angles[1:]):  # nearly always the first angle is enough
+            found = analyse(drive, drive.design.mirror.sign * part)
+            for angle, status, unknowns in zip(part, found.status, found.solutions, strict=True):
+                if status == "converged":
+                    return cls.through(drive, angle, unknowns), status
+                if status == "line_contact":
+                    return None, status
+                first = first or status
         return None, first
 
     def extended(self, to):
