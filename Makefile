@@ -68,9 +68,10 @@ run: setup
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
-# Style and unused names.
+# Style, unused names and types.
 lint: setup
 	$(PY) -m ruff check derive runtime tests
+	$(PY) -m mypy
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
 test: build check solver cmake
@@ -107,7 +108,7 @@ compilers: build
 test-fe: build solver
 	$(PY) -m pytest tests/fe -m slow
 
-# Points a second of every kernel and of the baselines, in one table.
+# Points a second of every kernel and of the baselines, and what a user waits for, in tables.
 bench: build
 	$(PY) -m tests.benchmarks.bench
 

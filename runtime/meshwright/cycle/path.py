@@ -11,6 +11,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer, text
 from meshwright.contact.analysis import analyse
+from meshwright.contact.model import DriveModel
 
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
@@ -29,11 +30,11 @@ class Path:
     ``ended`` are the status words of what stopped the branch below and above; "" where the search stopped.
     """
 
-    drive: object
+    drive: DriveModel
     angles: np.ndarray
     unknowns: np.ndarray
     ended: tuple[str, str] = ("", "")
-    state: np.ndarray = field(default=None, repr=False)
+    state: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def spacing(self):
@@ -49,15 +50,16 @@ class Path:
     def start(cls, drive):
         """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
         tried, reference = TRIED * drive.pitch(), drive.design.reference_angle
+        angles = reference + np.stack([tried, -tried], axis=1).ravel()[1:]
         first = None
-        for angle in reference + np.stack([tried, -tried], axis=1).ravel()[1:]:
-            found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
-            (status,) = found.status
-            if status == "converged":
-                return cls.through(drive, angle, found.solutions[0]), status
-            if status == "line_contact":
-                return None, status
-            first = first or status
+        for part in (angles[:1], angles[1:]):  # nearly always the first angle is enough
+            found = analyse(drive, drive.design.mirror.sign * part)
+            for angle, status, unknowns in zip(part, found.status, found.solutions, strict=True):
+                if status == "converged":
+                    return cls.through(drive, angle, unknowns), status
+                if status == "line_contact":
+                    return None, status
+                first = first or status
         return None, first
 
     def extended(self, to):

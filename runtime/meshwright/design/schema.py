@@ -98,7 +98,7 @@ def _real(place: str, value: object) -> float:
     try:
         number = float(value)
     except OverflowError:  # a whole number of more than three hundred digits
-        number = math.copysign(1e308, int(value))
+        number = math.copysign(1e308, 1.0 if value >= 0 else -1.0)  # type: ignore[operator]
     if not math.isfinite(number):
         raise DesignError(place, value, "not a finite number", "give a finite number")
     return number
@@ -228,15 +228,15 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
         if isinstance(entries := tables.get(table), dict):
             _refuse_unknown(entries, keys, f"{table}.")
     _refuse_unknown(tables, known.loose | known.tables, "")
-    result = {name: _given(tables, name, name, key) for name, key in known.loose.items()}
+    checked_tables: dict[str, object] = {name: _given(tables, name, name, key) for name, key in known.loose.items()}
     for table, keys in known.tables.items():
         if table not in tables and known.needed(table):
             raise DesignError(table, None, "the key is missing", "add it to the design")
         entries = tables.get(table, {})
         if not isinstance(entries, dict):
             raise DesignError(table, entries, "must be a table", f"write its keys below [{table}]")
-        result[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
-    return result
+        checked_tables[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
+    return checked_tables
 
 
 def _refuse_unknown(entries: dict, known: dict, before: str) -> None:

@@ -93,7 +93,7 @@ def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: i
     order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
     body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _density(shape, per_patch))
 
-    def corners(later: int) -> Floats:
+    def corners(later: int) -> Ints:
         flank = body.teeth[order.index(later)][f"flank_{member.working}"]
         return _by_patch(body.mesh.face_nodes(flank), shape, per_patch)
 

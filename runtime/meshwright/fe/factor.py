@@ -98,8 +98,8 @@ def _add(front: Floats, remainder: Floats, places: Ints) -> None:
     """Add the lower triangle of a remainder at ascending places of its nodes."""
     breaks = np.flatnonzero(np.diff(places) != 1) + 1
     if len(breaks) >= _PIECES:
-        at = _freedoms(places)
-        front[np.ix_(at, at)] += remainder
+        freedoms = _freedoms(places)
+        front[np.ix_(freedoms, freedoms)] += remainder
         return
     pieces = [(3 * low, 3 * high, 3 * int(places[low])) for low, high in pairwise([0, *breaks.tolist(), len(places)])]
     for k, (low, high, at) in enumerate(pieces):

@@ -129,7 +129,7 @@ class _Wheel:
         middle = flank.at(kept)
         outward = np.sign(_azimuthal(middle.points, middle.normals))
 
-        def cut_away(place: Floats) -> tuple[Floats, Floats]:
+        def cut_away(place: Floats) -> tuple[Floats, Bools]:
             points = flank.at(place).points
             turn, beside = fillet.at_radius(np.hypot(points[:, 0], points[:, 1]))
             return turn, outward * _azimuthal(points, points - beside) > 0.0

@@ -23,7 +23,7 @@ def rectangle_displacement(x: Floats, y: Floats, half_x: float, half_y: float, m
         (_corner(x + half_x, y - half_y), -1.0),
         (_corner(x - half_x, y - half_y), 1.0),
     )
-    return sum(sign * value for value, sign in corners) / (np.pi * modulus)
+    return np.sum([sign * value for value, sign in corners], axis=0) / (np.pi * modulus)
 
 
 def _corner(x: Floats, y: Floats) -> Floats:

@@ -61,6 +61,16 @@ class LoadedPair:
         return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & self._area_and_around))
 
     @property
+    def line(self) -> Floats:
+        """Where the pressure is highest across the contact area, (M, 3) from end to end of it on the pinion's flank:
+        the line of contact under load, fixed frame.
+        """
+        side = math.isqrt(len(self.pressures))
+        rows = self.pressures.reshape(side, side)
+        highest = side * np.arange(side) + rows.argmax(axis=1)
+        return self.grid.points[highest[rows.max(axis=1) > 0.0]]
+
+    @property
     def _area_and_around(self) -> Bools:
         return _and_around(self.pressures > 0.0)
 
@@ -136,7 +146,7 @@ def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force
     return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
 
 
-def _in_ellipse(grid: ContactGrid) -> Floats:
+def _in_ellipse(grid: ContactGrid) -> Bools:
     """Cells inside the Hertz ellipse that the grid was made for."""
     extent = np.abs(grid.centres).max(axis=0) + np.array([grid.half_major, grid.half_minor])
     return np.hypot(*(_REACH * grid.centres / extent).T) < 1.0
@@ -243,7 +253,7 @@ def _smooth(
 
 
 def active_set(
-    cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Floats, start: Floats, torque: float
+    cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
 ) -> tuple[Floats, float]:
     """Pressures (N,) >= 0 and rotation with gap + displacement - rotation arms >= 0, zero where p > 0, moment = torque.
 

@@ -18,6 +18,7 @@ from meshwright.cycle.path import NODES_PER_PITCH
 from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.design import description as metadata
 from meshwright.design import design as designs
+from meshwright.drive import Drive
 
 #: Width of the lanes that give the same bits on every machine.
 PORTABLE_WIDTH = 2
@@ -33,7 +34,7 @@ class Batch:
     A row of NaN is no design; its points are bad input.
     """
 
-    drive: object
+    drive: Drive
     parameters: np.ndarray
     lanes: object
 

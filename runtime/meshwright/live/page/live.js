@@ -26,7 +26,7 @@ function allowed(key, value) {
 function field(key) {
   const way = key.value !== 0 ? 0.2 * Math.abs(key.value) : WAY[key.unit] ?? 1;
   const box = made("div", { className: "key" }), id = `key-${key.place}`;
-  const number = made("input", { type: "number", step: "any", id, value: String(key.value) });
+  const number = made("input", { type: "number", step: "any", id, value: shown(key.value) });
   const slider = made("input", { type: "range", min: -STEPS, max: STEPS, step: 1, value: 0, id: `slide-${key.place}` });
   slider.setAttribute("aria-label", key.key);
   box.append(made("label", { htmlFor: id }, key.key.replaceAll("_", "_\u200b")), number, made("span", { className: "unit" }, key.unit.replaceAll("_", "_\u200b")), slider,
@@ -34,18 +34,20 @@ function field(key) {
   const it = { key, box, number, slider, value: key.value };
   slider.addEventListener("input", () => {
     const at = Number(slider.value);
-    number.value = at === 0 ? String(key.value) : String(Number((key.value + way * at / STEPS).toPrecision(DIGITS)));
-    changed(it);
+    const value = at === 0 ? key.value : Number((key.value + way * at / STEPS).toPrecision(DIGITS));
+    number.value = shown(value);
+    changed(it, value);
   });
   number.addEventListener("input", () => {
     slider.value = Math.round((Number(number.value) - key.value) / way * STEPS);
-    changed(it);
+    changed(it, number.value === "" ? NaN : Number(number.value));
   });
   return it;
 }
 
-function changed(it) {
-  it.value = it.number.value === "" ? NaN : Number(it.number.value);
+/* The value of a key, all its digits; its box shows those that there is room for. */
+function changed(it, value) {
+  it.value = value;
   ask();
 }
 
@@ -123,14 +125,18 @@ const WHAT = [
   ["iterations", "steps", "Newton steps of the last solution at this angle."],
   ["peak-to-peak", "transmission error, peak to peak", "Largest less smallest transmission error of this pair over the cycle."],
   ["size", "derived sizes", "What follows from the keys by the drive's rules."],
+  ["contact", "contact equations", "Both flanks have one place and one normal."],
 ];
+
+/* What the contact equations are solved for, unknowns apart. */
+const SOLVED = ["transmission-error", "wheel-angle", "contact-point"];
 
 function table(id, listed) {
   const body = element(id).tBodies[0];
   body.replaceChildren(...listed.map(([what, name, value, unit]) => {
     const row = made("tr"), first = made("td"), number = made("td", { className: "number" }, shown(value));
     number.dataset.name = name;
-    first.append(made("a", { href: `#what-${what}` }, name));
+    first.append(made("a", { href: `#what-${what}` }, name.replaceAll("_", "_\u200b")));
     row.append(first, number, made("td", {}, unit));
     return row;
   }));
@@ -235,12 +241,14 @@ function path(row, separation) {
 }
 
 function explain() {
-  const listed = [...WHAT, ...data.unknowns.filter((u, k) => k !== data.error).map(u => [`unknown-${u.name}`, u.name, `${u.meaning} (unknown of the contact equations)`])];
+  const listed = [...WHAT, ...data.unknowns.filter((u, k) => k !== data.error).map(u => [`unknown-${u.name}`, u.name, `${u.meaning}; an unknown.`])];
   for (const [what, name, words] of listed) {
-    const from = what === "size" ? data.equations.derive : what.startsWith("unknown") || ["transmission-error", "wheel-angle", "contact-point"].includes(what) ? data.equations.eval : [];
-    element("what").append(made("dt", { id: `what-${what}` }, name), made("dd", {}, words + (from.length ? ` Statements of the audit record: ${from.join(", ")}.` : "")));
+    const proved = { size: data.equations.derive, contact: data.equations.eval }[what] ?? [], says = made("dd", {}, words);
+    if (proved.length) says.append(` Statements of the audit record: ${proved.join(", ")}.`);
+    if (what.startsWith("unknown") || SOLVED.includes(what)) says.append(" Solved from the ", made("a", { href: "#what-contact" }, "contact equations"), ".");
+    element("what").append(made("dt", { id: `what-${what}` }, name), says);
   }
-  for (const s of data.sources) element("sources").append(made("li", {}, `${s.author}, ${s.title}, ${s.year}, ${s.where}`));
+  for (const s of data.sources) element("sources").append(made("li", {}, [s.author, s.title, s.year, s.where].filter(part => part !== null).join(", ")));
 }
 
 const axis = data.end_on ? ["x on the wheel, mm", "y on the wheel, mm"] : ["axial position on the wheel, mm", "radius on the wheel, mm"];
@@ -261,7 +269,7 @@ function begin(module) {
   position.value = Math.floor(data.positions / 2);
   position.addEventListener("input", draw);
   element("reset").addEventListener("click", () => {
-    for (const it of fields) { it.number.value = String(it.key.value); it.slider.value = 0; it.value = it.key.value; }
+    for (const it of fields) { it.number.value = shown(it.key.value); it.slider.value = 0; it.value = it.key.value; }
     ask();
   });
   window.addEventListener("resize", () => draw());
