@@ -724,6 +724,7 @@ static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_
     h->nw = w->parameters;
     h->bound = mesh->bound;
     if (h->nk > MAX_K || h->nw > MAX_K || h->nk != 2 + p->conditions || h->nw != 2 + w->conditions) return 0;
+    if (w->conditions ? h->bound < 0 || h->bound >= h->nw : h->bound != -1) return 0;
     if (p->outputs > MAX_OUTPUTS || w->outputs > MAX_OUTPUTS || limit_count(h) > MAX_LIMITS) return 0;
     for (int i = 0, k = 0; i < h->nw; i++)
         if (i != h->bound && k < 2) h->free_[k++] = i;
