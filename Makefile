@@ -37,11 +37,13 @@ cmake: setup
 generate: setup
 	$(PY) -m derive $(DRIVES)
 
-# Prove everything anew, write generated/audit/index.html and re-check record and code with their own checkers.
+# Prove everything anew, write generated/audit/index.html and re-check record, code and descriptions with checkers of
+# their own.
 audit: generate
 	$(PY) generated/audit/check.py
 	$(PY) generated/audit/check_code.py
-	$(PY) generated/audit/check_description.py generated/audit cylindrical_worm_zn_zn spherical_convex_spur face_worm
+	$(PY) generated/audit/check_description.py
+	$(PY) generated/audit/check_print.py
 
 # Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
 kernel: generate
@@ -65,9 +67,10 @@ run: setup
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
-# Style and unused names.
+# Style, unused names and types.
 lint: setup
 	$(PY) -m ruff check derive runtime tests
+	$(PY) -m mypy
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
 test: build check solver cmake
@@ -106,7 +109,7 @@ compilers: build
 test-fe: build solver
 	$(PY) -m pytest tests/fe -m slow
 
-# Points a second of every kernel and of the baselines, in one table.
+# Points a second of every kernel and of the baselines, and what a user waits for, in tables.
 bench: build
 	$(PY) -m tests.benchmarks.bench
 

@@ -7,7 +7,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.contact.results import ARCSEC
+from meshwright.contact.results import ARCSEC, impossible
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import pair_errors
 from meshwright.cycle.pairs import Mesh
@@ -77,6 +77,9 @@ DESIGNS = {
     "bevel, crowned lengthwise": packaged("bevel-crowned-lengthwise", -7.0, misalignment={"shaft_angle_deg": -0.1}),
     "bevel, crowned in profile": packaged("bevel-crowned-profile", 14.0, misalignment={"gear_axial_mm": -0.15}),
     "bevel, Formate": packaged("bevel-formate", -14.0, misalignment={"offset_mm": -0.3, "pinion_axial_mm": 0.1}),
+    "bevel, Formate, at the undercut that begins contact": packaged("bevel-formate", -20.3232),
+    "bevel, Formate, undercut and tip": packaged("bevel-formate", -21.3051),
+    "bevel, Formate, past its undercut": packaged("bevel-formate", -27.8505),
     "hypoid": packaged("bevel-hypoid", 20.0, misalignment={"shaft_angle_deg": 0.15, "gear_axial_mm": 0.1}),
     "helical, tilted": packaged("helical-crowned", 3.0, misalignment={"horizontal_deg": 0.08}),
     "helical, past its face": packaged("helical-crowned", -19.5, misalignment={"vertical_deg": 0.03}),
@@ -103,8 +106,9 @@ def brute_force(drive, angle, found):
     if not np.isfinite(known).all(axis=1).any():  # only the aligned drive has a tangency
         known, _ = drive.with_(misalignment=dict.fromkeys(drive.design.given()["misalignment"], 0.0)).trace(places)
     at = mirror * angle
-    here = drive.tca([angle]).solutions
-    known = here[0] if np.isfinite(here).all() else known[np.isfinite(known).all(axis=1)][0]
+    here = drive.tca([angle])
+    on_sheet = np.isfinite(here.solutions).all() and not any(map(impossible, here.flags[0]))
+    known = here.solutions[0] if on_sheet else known[np.isfinite(known).all(axis=1)][0]
     side = np.sign(mirror * found.levers[0])
     vertices = drive.region("wheel").lattice((24, 24)).q.reshape(-1, 2)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
@@ -168,14 +172,14 @@ def test_the_report_says_what_touches_before_a_tangency():
 
 @pytest.mark.parametrize("name", ["face-worm-conical-convex", "plain-zc", "bevel-formate"])
 def test_first_contact_of_a_pair_is_continuous(name):
-    """Over a pair's window and a quarter of a pitch past its end, nothing jumps to another tooth or is lost.
+    """Over a pair's window and a quarter of a pitch past either end, nothing jumps to another tooth or is lost.
 
     Errors of neighbours a thousandth of a pitch apart differ by less than a tooth could turn the wheel by then.
     """
     mesh = Mesh.of(Drive.load(name))
     first, pitch = pair_errors(mesh), mesh.drive.pitch()
     low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
-    places = np.linspace(low + 0.05 * pitch, high + 0.25 * pitch, 21)
+    places = np.linspace(low - 0.25 * pitch, high + 0.25 * pitch, 25)
     here, there = first(places), first(places + 1e-3 * pitch)
     assert np.isfinite(here).all() and np.isfinite(there).all()
     assert np.abs(there - here).max() < 1e-3 * mesh.drive.ratio * pitch
@@ -187,6 +191,17 @@ def _toml(tables):
         if isinstance(table, dict):
             lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
     return "\n".join(lines) + "\n"
+
+
+def test_a_pair_whose_contact_begins_at_an_undercut_touches_there_on_the_undercut_line():
+    """From the very begin of contact on and before it: where the tangency goes over the line that ends the flank."""
+    drive = Drive.load("bevel-formate")
+    begin, pitch = Mesh.of(drive).window.begin, drive.pitch()
+    assert (begin.reason, begin.member) == ("undercut", "pinion")
+    found = drive.first_contact(begin.angle + pitch * np.array([-0.02, -0.005, 0.0, 0.005, 0.02]))
+    assert found.kinds[:2] == ("edge", "edge") and found.kinds[3:] == ("tangency", "tangency")
+    assert found.limits[:2] == (("undercut",), ("undercut",)) and found.members[:2] == ("pinion", "pinion")
+    assert np.abs(found.errors).max() < 0.05 * ARCSEC and found.unresolved.max() <= 1e-4
 
 
 def test_an_aligned_drive_touches_first_where_its_tangency_is():

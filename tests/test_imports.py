@@ -1,6 +1,7 @@
 """Modules import one way: no cycle among those that are imported when a module is, in the runtime and in derive."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = {"meshwright": ROOT / "runtime" / "meshwright", "derive": ROOT / "derive"}
 
 
+@cache
 def imported(package):
     """Module → modules of its package that it imports when it is imported itself."""
     folder = PACKAGES[package]

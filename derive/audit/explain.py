@@ -74,7 +74,7 @@ def _carried(generated: Path, equation: str) -> list[str]:
 
 
 def _objects(folder: Path) -> dict[str, dict]:
-    objects = {}
+    objects: dict[str, dict] = {}
     for name in ("ledger.jsonl", "certificates.jsonl"):
         try:
             text = (folder / name).read_text(encoding="utf-8")

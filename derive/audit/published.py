@@ -27,7 +27,7 @@ class Comparison:
 FACE_WORM = "001_d957fec2e26e51c5.txt"
 
 #: Tables 1 and 2: keys that differ from the sample design (Table 1, convex side), and the printed mean radius.
-_TABLES = (
+_TABLES: tuple[tuple[str, dict, str], ...] = (
     ("Table 1, conical worm", {}, "24.398 mm"),
     (
         "Table 2, cylindrical worm",
@@ -35,7 +35,7 @@ _TABLES = (
         "23.105 mm",
     ),
 )
-_SIDES = ({}, {"flank": -1, "profile_angle_deg": 30, "plunge_mm_per_rad2": "-0.003"})
+_SIDES: tuple[dict, ...] = ({}, {"flank": -1, "profile_angle_deg": 30, "plunge_mm_per_rad2": "-0.003"})
 _RULES = (("P in the section L", 0), ("P where the pitch cones touch", 1))
 
 _RADIUS_REASON = (

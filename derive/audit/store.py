@@ -11,11 +11,14 @@ from derive.audit.check import equations_named
 from derive.audit.ledger import Ledger
 from derive.prove.tree import canonical
 
-CHECKERS = tuple(Path(__file__).with_name(name) for name in ("check.py", "check_code.py", "check_description.py"))
+CHECKERS = tuple(
+    Path(__file__).with_name(name)
+    for name in ("check.py", "check_code.py", "check_description.py", "check_print.py", "printed.txt")
+)
 
 
 def record_files(ledger: Ledger) -> dict[str, str]:
-    """File name -> text: the ledger, the certificates and the checkers."""
+    """File name -> text: the ledger, the certificates and the checkers with what they read."""
     certificates = [item for item in ledger.objects.values() if item["object"] == "certificate"]
     others = [item for item in ledger.objects.values() if item["object"] != "certificate"]
     return {

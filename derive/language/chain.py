@@ -7,6 +7,7 @@ axis through a rotation about it, so that only the angles that geometry needs re
 
 from dataclasses import dataclass, replace
 from functools import reduce
+from typing import ClassVar
 
 import sympy as sp
 
@@ -54,7 +55,7 @@ class Translation:
     """Translation by ``offset``."""
 
     offset: tuple
-    rests_on = ("derivation/translation",)
+    rests_on: ClassVar[tuple[str, ...]] = ("derivation/translation",)
 
     def direction(self, a):
         return a
@@ -80,7 +81,7 @@ class Station(Translation):
     there: what remains are small displacements. Where two chains meet, their stations cancel as symbols.
     """
 
-    rests_on = ("derivation/translation", "derivation/swing")
+    rests_on: ClassVar[tuple[str, ...]] = ("derivation/translation", "derivation/swing")
 
     def inverse(self):
         return Station(v.scale(-1, self.offset))

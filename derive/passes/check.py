@@ -13,6 +13,7 @@ from functools import cache
 import sympy as sp
 
 from derive.program.routine import routine
+from derive.program.tape import Tape
 
 _SOURCE = random.Random(secrets.randbits(128))
 
@@ -67,7 +68,7 @@ _APPLY = {
 
 
 #: Of each tape the residues of its nodes that were needed so far.
-_TAPES = weakref.WeakKeyDictionary()
+_TAPES: weakref.WeakKeyDictionary[Tape, dict[int, int]] = weakref.WeakKeyDictionary()
 
 
 def _residue(tape, i):
@@ -92,6 +93,12 @@ def _leaf(tape, i):
 
 def residues(program):
     """Values of a routine's outputs modulo the prime, at the inputs' random residues."""
+    if "residues" not in program.found:
+        program.found["residues"] = _computed(program)
+    return program.found["residues"]
+
+
+def _computed(program):
     p, values = _prime(), {}
 
     def value(i):

@@ -11,6 +11,8 @@ def reciprocals(routine: Routine) -> Routine:
     """The routine with products for quotients whose divisor's reciprocal is at hand."""
     tape, readable = routine.tape, routine.known
     factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
+    if not factors:
+        return routine
     steps = []
     for i in tape.needed(routine.outputs, readable, factors):
         node = tape.nodes[i]

@@ -3,11 +3,14 @@
 A constant of a program is printed as the double nearest to it; certified arithmetic needs to know how far that is off.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 
 import mpmath
+import sympy as sp
 
 #: Decimal digits of the numbers that come from outside, and binary digits of roots: far beyond any double's.
 DIGITS, ROOT_BITS = 80, 256
@@ -21,12 +24,12 @@ class Enclosure:
     high: Fraction
 
     @classmethod
-    def of(cls, value):
+    def of(cls, value: Enclosure | Fraction | int | float) -> Enclosure:
         """The enclosure of an exact fraction or double."""
-        return value if isinstance(value, cls) else cls(Fraction(value), Fraction(value))
+        return value if isinstance(value, Enclosure) else cls(Fraction(value), Fraction(value))
 
     @classmethod
-    def of_symbol(cls, symbol):
+    def of_symbol(cls, symbol: sp.Expr) -> Enclosure:
         """The enclosure of a SymPy number such as π, from its digits; a SymPy float is the double that it holds."""
         if symbol.is_Float:
             return cls.of(float(symbol))
@@ -36,31 +39,31 @@ class Enclosure:
         return cls((digits - 1) * unit, (digits + 2) * unit)
 
     @property
-    def exact(self):
+    def exact(self) -> bool:
         return self.low == self.high
 
-    def hull(self, other):
+    def hull(self, other: Enclosure) -> Enclosure:
         return Enclosure(min(self.low, other.low), max(self.high, other.high))
 
-    def __neg__(self):
+    def __neg__(self) -> Enclosure:
         return Enclosure(-self.high, -self.low)
 
-    def __add__(self, other):
+    def __add__(self, other: Enclosure) -> Enclosure:
         return Enclosure(self.low + other.low, self.high + other.high)
 
-    def __sub__(self, other):
+    def __sub__(self, other: Enclosure) -> Enclosure:
         return self + (-other)
 
-    def __mul__(self, other):
+    def __mul__(self, other: Enclosure) -> Enclosure:
         products = [a * b for a in (self.low, self.high) for b in (other.low, other.high)]
         return Enclosure(min(products), max(products))
 
-    def sqrt(self):
+    def sqrt(self) -> Enclosure:
         unit = 1 << ROOT_BITS
         scaled = [k.numerator * unit * unit // k.denominator for k in (self.low, self.high)]
         return Enclosure(Fraction(isqrt(scaled[0]), unit), Fraction(isqrt(scaled[1]) + 1, unit))
 
-    def parts(self):
+    def parts(self) -> tuple[float, float, float]:
         """(high, low, radius), doubles: the constant is within ``radius`` of ``high + low``."""
         middle = (self.low + self.high) / 2
         high = float(middle)
@@ -69,7 +72,7 @@ class Enclosure:
         return high, low, _upwards(rest)
 
 
-def _upwards(value):
+def _upwards(value: Fraction) -> float:
     """A double not below a fraction."""
     near = float(value)
     return near if Fraction(near) >= value else near * (1 + 2.0**-50)

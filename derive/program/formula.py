@@ -2,6 +2,8 @@
 
 from fractions import Fraction
 
+from derive.program.tape import Lowering, Tape
+
 #: Longest formula shown in full; of longer ones the innermost parts are left out.
 LONGEST = 100
 
@@ -9,7 +11,7 @@ _LEVEL = {"add": 1, "sub": 1, "neg": 2, "mul": 3, "div": 3}
 _SIGN = {"add": " + ", "sub": " − ", "mul": "·", "div": "/"}
 
 
-def formula(tape, node, lower):
+def formula(tape: Tape, node: int, lower: Lowering) -> str:
     """The text of a node; a definition is shown by its value at the top, by its name within."""
     names = lower.names()
     text = ""
@@ -23,7 +25,7 @@ def formula(tape, node, lower):
     return text
 
 
-def _text(tape, i, names, depth, top=False):
+def _text(tape: Tape, i: int, names: dict[int, str], depth: int, top: bool = False) -> tuple[str, int]:
     node = tape.nodes[i]
     if node.op == "const":
         exact = node.value
@@ -39,9 +41,7 @@ def _text(tape, i, names, depth, top=False):
     parts = [_text(tape, a, names, depth - 1) for a in node.args]
     if level is None:
         return f"{node.op}({', '.join(text for text, _ in parts)})", 9
-    shown = [
-        text if own > level or (own == level and k == 0) else f"({text})" for k, (text, own) in enumerate(parts)
-    ]
+    held = [text if own > level or (own == level and k == 0) else f"({text})" for k, (text, own) in enumerate(parts)]
     if node.op == "neg":
-        return "−" + shown[0], level
-    return _SIGN[node.op].join(shown), level
+        return "−" + held[0], level
+    return _SIGN[node.op].join(held), level

@@ -4,8 +4,8 @@ Values are nodes of a tape; a routine says which of them it computes, how and in
 it reads is what it does not compute.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 
 from derive.program.tape import Tape
 
@@ -25,7 +25,7 @@ class Operation:
 class Routine:
     """``steps`` (node, operation) in an order of evaluation that leads to ``outputs``; ``known`` are nodes to be read.
 
-    ``later`` are outputs of a routine that goes on from this one.
+    ``later`` are outputs of a routine that goes on from this one. ``found`` keeps what passes found out about it.
     """
 
     tape: Tape
@@ -34,6 +34,7 @@ class Routine:
     steps: tuple[tuple[int, Operation], ...]
     later: tuple[int, ...] = ()
     name: str = ""
+    found: dict[str, list[int]] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @property
     def operations(self) -> int:
@@ -47,7 +48,14 @@ class Routine:
         return (i for i in used if i not in computed)
 
 
-def routine(tape, outputs, known=frozenset(), later=(), name="") -> Routine:
+def routine(
+    tape: Tape,
+    outputs: Iterable[int],
+    known: Iterable[int] = frozenset(),
+    later: Iterable[int] = (),
+    name: str = "",
+) -> Routine:
     """The routine that computes ``outputs`` as the tape has them."""
-    steps = tuple((i, Operation(tape.nodes[i].op, tape.nodes[i].args)) for i in tape.needed(outputs, known))
-    return Routine(tape, tuple(outputs), frozenset(known), steps, tuple(later), name)
+    results, read = tuple(outputs), frozenset(known)
+    steps = tuple((i, Operation(tape.nodes[i].op, tape.nodes[i].args)) for i in tape.needed(results, read))
+    return Routine(tape, results, read, steps, tuple(later), name)

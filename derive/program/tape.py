@@ -5,19 +5,25 @@ nodes in which each value occurs once. Every printer reads the same tape. Nodes 
 are first needed, so that the same drive gives the same text on every machine.
 """
 
+from __future__ import annotations
+
 import math
 import operator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from enum import IntEnum
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import sympy as sp
 
 from derive.language.choice import excess, unit_step
 from derive.language.definitions import Definitions
-from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT
+from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT, Origin
 from derive.program.enclosure import Enclosure
+
+Exact = Fraction | int | float
+"""What a constant of a tape is: exact where rational, else a float."""
 
 
 class Stage(IntEnum):
@@ -34,7 +40,7 @@ class Node(NamedTuple):
 
     op: str
     args: tuple[int, ...] = ()
-    value: object = None
+    value: Any = None
 
 
 _COMMUTATIVE = {"add", "mul"}
@@ -49,27 +55,27 @@ class Tape:
     ``origins`` holds the :class:`~derive.language.origin.Origin` of every operation that is not defined everywhere.
     """
 
-    def __init__(self):
-        self.nodes = []
-        self.origins = {}
-        self._within = None
-        self.stages = []
-        self._index = {}
-        self._constants = {}
-        self._exact = {}
-        self._enclosures = {}
-        self._derivatives = {}
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self.origins: dict[int, Origin] = {}
+        self._within: Origin | None = None
+        self.stages: list[Stage] = []
+        self._index: dict[Node, int] = {}
+        self._constants: dict[Exact, int] = {}
+        self._exact: dict[int, Exact] = {}
+        self._enclosures: dict[int, Enclosure] = {}
+        self._derivatives: dict[tuple[int, int], int] = {}
 
     # -- building ---------------------------------------------------------------------------------------------
 
     @contextmanager
-    def within(self, origin):
+    def within(self, origin: Origin | None) -> Iterator[None]:
         """New partial operations are of this :class:`~derive.language.origin.Origin`; None: each of its own kind."""
         before, self._within = self._within, origin
         yield
         self._within = before
 
-    def _new(self, op, args=(), value=None, stage=None):
+    def _new(self, op: str, args: tuple[int, ...] = (), value: object = None, stage: Stage | None = None) -> int:
         if op in _COMMUTATIVE and args[0] > args[1]:
             args = args[1], args[0]
         node = Node(op, args, value)
@@ -82,60 +88,62 @@ class Tape:
                 self.origins[i] = self._within or PARTIAL[op]
         return i
 
-    def constant(self, value, bounds=None):
+    def constant(self, value: Exact, bounds: Enclosure | None = None) -> int:
         """A constant: exact where rational, else a float that stands for the number within ``bounds``, an
         :class:`~derive.program.enclosure.Enclosure`; without them for itself.
         """
-        i = self._constants.get(value)
-        new = i is None
-        if new:
+        known = self._constants.get(value)
+        if known is None:
             exact = Fraction(value) if isinstance(value, int) else value
             i = self._constants[value] = self._new("const", value=exact)
             self._exact[i] = exact
+        else:
+            i = known
         if bounds is not None and bounds != Enclosure.of(value):
             if value in (0, 1, -1):
                 raise ValueError(f"a constant that is not {value} would be taken for it")
-            self._enclosures[i] = bounds if new else bounds.hull(self.enclosure(i))
+            before = None if known is None else self.enclosure(i)
+            self._enclosures[i] = bounds if before is None else bounds.hull(before)
         return i
 
-    def enclosure(self, i):
+    def enclosure(self, i: int) -> Enclosure | None:
         """What a constant stands for, an :class:`~derive.program.enclosure.Enclosure`; None if the node is none."""
         if i in self._enclosures:
             return self._enclosures[i]
         return Enclosure.of(self._exact[i]) if i in self._exact else None
 
-    def _folded(self, apply, *args):
+    def _folded(self, apply: Callable[..., Any], *args: int) -> int:
         """The constant ``apply`` makes of constants."""
         value = apply(*[self._exact[a] for a in args])
         if not any(a in self._enclosures for a in args) and isinstance(value, Fraction | int):
             return self.constant(value)
         return self.constant(value, apply(*map(self.enclosure, args)))
 
-    def input(self, symbol, stage):
+    def input(self, symbol: sp.Symbol, stage: Stage) -> int:
         """An input that becomes known at ``stage``."""
         return self._new("input", value=symbol, stage=stage)
 
-    def const_value(self, i):
+    def const_value(self, i: int) -> Exact | None:
         """The constant at a node, or None."""
         return self._exact.get(i)
 
-    def find(self, op, *args):
+    def find(self, op: str, *args: int) -> int | None:
         """The node of this operation, or None if the tape does not have it."""
         return self._index.get(Node(op, args))
 
-    def _negated(self, i):
+    def _negated(self, i: int) -> int | None:
         """The argument if the node is a negation."""
         node = self.nodes[i]
         return node.args[0] if node.op == "neg" else None
 
-    def neg(self, a):
+    def neg(self, a: int) -> int:
         if self.const_value(a) is not None:
             return self._folded(operator.neg, a)
         if (inner := self._negated(a)) is not None:
             return inner
         return self._new("neg", (a,))
 
-    def add(self, a, b):
+    def add(self, a: int, b: int) -> int:
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
             return self._folded(operator.add, a, b)
@@ -149,7 +157,7 @@ class Tape:
             return self.sub(b, inner)
         return self._new("add", (a, b))
 
-    def sub(self, a, b):
+    def sub(self, a: int, b: int) -> int:
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
             return self._folded(operator.sub, a, b)
@@ -167,7 +175,7 @@ class Tape:
             return self.neg(opposite)
         return self._new("sub", (a, b))
 
-    def mul(self, a, b):
+    def mul(self, a: int, b: int) -> int:
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None:
             return self._folded(operator.mul, a, b)
@@ -190,7 +198,7 @@ class Tape:
             return self.mul(self.mul(a, early), late)
         return self._new("mul", (a, b))
 
-    def _early_factor(self, i):
+    def _early_factor(self, i: int) -> tuple[int, int] | None:
         """(early, late) if the node is the product of an early-bound value and a later one."""
         node = self.nodes[i]
         if node.op != "mul":
@@ -198,7 +206,7 @@ class Tape:
         early, late = sorted(node.args, key=lambda k: self.stages[k])
         return (early, late) if self.stages[early] < self.stages[late] else None
 
-    def div(self, a, b):
+    def div(self, a: int, b: int) -> int:
         p, q = self.const_value(a), self.const_value(b)
         if p is not None and q is not None and isinstance(p, Fraction) and isinstance(q, Fraction):
             return self.constant(p / q)
@@ -216,32 +224,33 @@ class Tape:
             return self.mul(a, self.div(self.constant(1), b))
         return self._new("div", (a, b))
 
-    def sqrt(self, a):
+    def sqrt(self, a: int) -> int:
         if (value := self.const_value(a)) is not None:
             root = math.isqrt(int(value))
             if root**2 == value:
                 return self.constant(root)
-            return self.constant(math.sqrt(value), self.enclosure(a).sqrt())
+            bounds = self.enclosure(a)
+            return self.constant(math.sqrt(value), bounds and bounds.sqrt())
         return self._new("sqrt", (a,))
 
-    def sin(self, a):
+    def sin(self, a: int) -> int:
         if self.const_value(a) == 0:
             return a
         if (inner := self._negated(a)) is not None:
             return self.neg(self.sin(inner))
         return self._new("sin", (a,))
 
-    def cos(self, a):
+    def cos(self, a: int) -> int:
         if self.const_value(a) == 0:
             return self.constant(1)
         if (inner := self._negated(a)) is not None:
             return self.cos(inner)
         return self._new("cos", (a,))
 
-    def atan2(self, y, x):
+    def atan2(self, y: int, x: int) -> int:
         return self._new("atan2", (y, x))
 
-    def sign(self, a):
+    def sign(self, a: int) -> int:
         """−1 below 0, else 1."""
         if (value := self.const_value(a)) is not None:
             return self.constant(-1 if value < 0 else 1)
@@ -249,7 +258,7 @@ class Tape:
             return self.neg(self.sign(inner))
         return self._new("sign", (a,))
 
-    def power(self, a, n):
+    def power(self, a: int, n: int) -> int:
         """Integer power by repeated squaring; negative powers divide."""
         if n < 0:
             return self.div(self.constant(1), self.power(a, -n))
@@ -262,7 +271,7 @@ class Tape:
                 square = self.mul(square, square)
         return self.constant(1) if result is None else result
 
-    def triple(self, a, b, c):
+    def triple(self, a: Sequence[int], b: Sequence[int], c: Sequence[int]) -> int:
         """a · (b × c) of three vectors of nodes."""
         cross = [self.sub(self.mul(b[i], c[j]), self.mul(b[j], c[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
         total = self.mul(a[0], cross[0])
@@ -272,7 +281,7 @@ class Tape:
 
     # -- differentiation --------------------------------------------------------------------------------------
 
-    def derivative(self, i, variable):
+    def derivative(self, i: int, variable: int) -> int:
         """Node of ∂(node i)/∂(input node ``variable``), by the forward chain rule."""
         stack = [i]
         while stack:
@@ -288,24 +297,24 @@ class Tape:
             stack.pop()
         return self._derivatives[i, variable]
 
-    def _rule(self, i, variable):
+    def _rule(self, i: int, variable: int) -> int:
         if not self.nodes[i].args:
             return self.constant(1 if i == variable else 0)
         return self.rule(i, {a: self._derivatives[a, variable] for a in self.nodes[i].args})
 
-    def rule(self, i, derivatives):
+    def rule(self, i: int, derivatives: Mapping[int, int]) -> int:
         """The chain rule at one node, given the derivative of each of its arguments."""
         zero, d = self._constants.get(0), [derivatives[a] for a in self.nodes[i].args]
-        if all(k == zero for k in d):
+        if zero is not None and all(k == zero for k in d):
             return zero
         if i not in self.origins:
             return self._chain(i, d)
         with self.within(self.origins[i]):
             return self._chain(i, d)
 
-    def _chain(self, i, d):
+    def _chain(self, i: int, d: Sequence[int]) -> int:
         node = self.nodes[i]
-        a, b = node.args if len(node.args) == 2 else (node.args[0], None)
+        a, b = node.args[0], node.args[-1]
         match node.op:
             case "add":
                 return self.add(*d)
@@ -331,7 +340,7 @@ class Tape:
                 return self.div(self.sub(self.mul(b, d[0]), self.mul(a, d[1])), square)
         raise AssertionError(node.op)
 
-    def substitute(self, i, replacement):
+    def substitute(self, i: int, replacement: Mapping[int, int]) -> int:
         """The node with inputs replaced by other nodes (``replacement``: index → index)."""
         done = dict(replacement)
         for k in [*self.needed([i], done), i]:
@@ -344,7 +353,12 @@ class Tape:
 
     # -- reading ----------------------------------------------------------------------------------------------
 
-    def needed(self, outputs, known=frozenset(), instead=None):
+    def needed(
+        self,
+        outputs: Iterable[int],
+        known: Iterable[int] = frozenset(),
+        instead: Mapping[int, tuple[int, ...]] | None = None,
+    ) -> list[int]:
         """Indices of the operations behind ``outputs`` in an order of evaluation, stopping at ``known``.
 
         ``instead`` holds the arguments of nodes that are computed from others than their own.
@@ -362,16 +376,25 @@ class Tape:
                     stack.extend(args[::-1])
         return order
 
-    def inputs_of(self, outputs):
+    def inputs_of(self, outputs: Collection[int]) -> set[sp.Symbol]:
         """Symbols of the inputs that ``outputs`` depend on."""
         read = {a for i in self.needed(outputs) for a in self.nodes[i].args} | set(outputs)
         return {self.nodes[i].value for i in read if self.nodes[i].op == "input"}
 
-    def evaluate(self, outputs, inputs, arithmetic=math):
+    def evaluate(
+        self,
+        outputs: Collection[int],
+        inputs: Mapping[sp.Symbol, Any],
+        arithmetic: Any = math,  # noqa: ANN401  a module or alike
+    ) -> list[Any]:
         """Values of ``outputs`` for ``inputs`` (symbol → number): see :meth:`evaluator`."""
         return self.evaluator(outputs, arithmetic)(inputs)
 
-    def evaluator(self, outputs, arithmetic=math):
+    def evaluator(
+        self,
+        outputs: Collection[int],
+        arithmetic: Any = math,  # noqa: ANN401  a module or alike
+    ) -> Callable[[Mapping[sp.Symbol, Any]], list[Any]]:
         """Function: inputs (symbol → number) → values of ``outputs``, in any arithmetic that has the functions.
 
         ``arithmetic`` is :mod:`math`, :mod:`mpmath` or alike: it supplies sqrt, sin, cos, atan2 and, where numbers
@@ -384,7 +407,7 @@ class Tape:
         constants = {i: _number(self._exact[i], make) for i in leaves if i in self._exact}
         steps = [(i, _operation(self.nodes[i].op, arithmetic), self.nodes[i].args) for i in order]
 
-        def run(inputs):
+        def run(inputs: Mapping[sp.Symbol, Any]) -> list[Any]:
             values = dict(constants)
             for i, symbol in symbols.items():
                 values[i] = inputs[symbol]
@@ -395,11 +418,11 @@ class Tape:
         return run
 
 
-def _number(exact, make):
+def _number(exact: Exact, make: Callable[[Any], Any]) -> Any:  # noqa: ANN401  of any arithmetic
     return make(exact.numerator) / exact.denominator if isinstance(exact, Fraction) else make(exact)
 
 
-_ALGEBRA = {
+_ALGEBRA: dict[str, Callable[..., Any]] = {
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
@@ -409,29 +432,31 @@ _ALGEBRA = {
 }
 
 
-def _operation(op, arithmetic):
+def _operation(op: str, arithmetic: Any) -> Callable[..., Any]:  # noqa: ANN401  a module or alike
     return getattr(arithmetic, op, None) or _ALGEBRA[op]
 
 
 class Lowering:
     """Writes SymPy expressions onto a tape, resolving definitions."""
 
-    def __init__(self, tape, inputs, definitions=None):
+    def __init__(
+        self, tape: Tape, inputs: Mapping[sp.Symbol, Stage], definitions: Definitions | None = None
+    ) -> None:
         self.tape = tape
         self.inputs = inputs
         self.definitions = definitions if definitions is not None else Definitions()
-        self._done = {}
-        self._names = {}
+        self._done: dict[sp.Expr, int] = {}
+        self._names: dict[int, str] = {}
 
-    def names(self):
+    def names(self) -> dict[int, str]:
         """Node → name of the definition whose value it is, for those that have been needed."""
         return self._names
 
-    def stand(self, symbols, nodes):
+    def stand(self, symbols: Iterable[sp.Symbol], nodes: Iterable[int]) -> None:
         """From now on these symbols stand for these nodes."""
         self._done.update(zip(symbols, nodes, strict=True))
 
-    def __call__(self, expression):
+    def __call__(self, expression: sp.Expr | int) -> int:
         """Node of an expression; its symbols are inputs, definitions or stand for nodes."""
         expression = sp.sympify(expression)
         if expression not in self._done:
@@ -440,7 +465,7 @@ class Lowering:
                 self._names.setdefault(node, str(expression))
         return self._done[expression]
 
-    def _lower(self, e):
+    def _lower(self, e: sp.Expr) -> int:
         t = self.tape
         if e.is_Rational:
             return t.constant(Fraction(int(e.p), int(e.q)))
@@ -464,7 +489,7 @@ class Lowering:
             raise TypeError(f"{e.func} has no operation on the tape")
         return function(self, *map(self, e.args))
 
-    def _sum(self, args):
+    def _sum(self, args: Iterable[sp.Expr]) -> int:
         """Sum with the earliest-bound terms first, so that they fold into one."""
         t = self.tape
         ordered = sorted(map(self, args), key=lambda i: (t.stages[i], i))
@@ -473,7 +498,7 @@ class Lowering:
             total = t.add(total, node)
         return total
 
-    def _product(self, e):
+    def _product(self, e: sp.Expr) -> int:
         t = self.tape
         top, bottom = [], []
         for factor in e.args:
@@ -493,7 +518,7 @@ class Lowering:
         value = self._multiply(top)
         return t.div(value, self._multiply(bottom)) if bottom else value
 
-    def _multiply(self, nodes):
+    def _multiply(self, nodes: Iterable[int]) -> int:
         """Product with the earliest-bound factors first, so that they fold into one."""
         t = self.tape
         ordered = sorted(nodes, key=lambda i: (t.stages[i], i))
@@ -502,7 +527,7 @@ class Lowering:
             value = t.mul(value, node)
         return value
 
-    def _power(self, e):
+    def _power(self, e: sp.Expr) -> int:
         base, exponent = e.base, e.exp
         if exponent.is_Integer:
             return self.tape.power(self(base), int(exponent))
@@ -510,34 +535,34 @@ class Lowering:
             return self.tape.power(self.tape.sqrt(self(base)), int(exponent.p))
         raise TypeError(f"power {exponent} has no operation on the tape")
 
-    def _tan(self, a):
+    def _tan(self, a: int) -> int:
         with self.tape.within(TANGENT):
             return self.tape.div(self.tape.sin(a), self.tape.cos(a))
 
-    def _atan(self, a):
+    def _atan(self, a: int) -> int:
         return self.tape.atan2(a, self.tape.constant(1))
 
-    def _complement(self, a):
+    def _complement(self, a: int) -> int:
         """√(1 − a²) without loss near |a| = 1."""
         t, one = self.tape, self.tape.constant(1)
         with t.within(ARCCOSINE):
             return t.sqrt(t.mul(t.sub(one, a), t.add(one, a)))
 
-    def _asin(self, a):
+    def _asin(self, a: int) -> int:
         return self.tape.atan2(a, self._complement(a))
 
-    def _acos(self, a):
+    def _acos(self, a: int) -> int:
         return self.tape.atan2(self._complement(a), a)
 
-    def _abs(self, a):
+    def _abs(self, a: int) -> int:
         """|a| = a·sign(a): exact, and so is its derivative, which √(a²) does not have at 0."""
         return self.tape.mul(a, self.tape.sign(a))
 
-    def _step(self, a):
+    def _step(self, a: int) -> int:
         t = self.tape
         return t.mul(t.constant(Fraction(1, 2)), t.add(t.constant(1), t.sign(a)))
 
-    _FUNCTIONS = {
+    _FUNCTIONS: ClassVar[dict[Any, Callable[..., int]]] = {
         unit_step: _step,
         excess: lambda self, a: self.tape.mul(a, self._step(a)),
         sp.Abs: _abs,

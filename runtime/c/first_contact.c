@@ -43,8 +43,8 @@ typedef struct search {
     double A[9], b[3];           /* from the wheel's frame, turned, to the pinion's */
     double turn, sense;
     int nk, nw;                  /* parameters of pinion and wheel */
-    int bound;                   /* the wheel's parameter that its condition gives, or -1 */
-    int free_[2];
+    int given;                   /* whose point is given, 0 pinion, 1 wheel: it is looked for on the other's flank */
+    int bound[2], free_[2][2];   /* parameters of each flank: that its condition gives, or -1; the others */
 } search;
 
 /* One point of the wheel's flank and where it meets the pinion's. value: sense times the wheel angle. */
@@ -96,28 +96,35 @@ static int conditions_at(const mw_body *b)
     return 7 + 3 * b->parameters + b->margins;
 }
 
-/* The wheel's flank at two of its parameters: q completed from its condition, outputs o, tangents along the surface. */
-static int on_wheel(const search *h, double *q, double *o, double tangents[2][3])
+static const double *sizes_of(const search *h, int member)
 {
-    const mw_body *w = &h->m->bodies[1];
-    const double *condition = o + conditions_at(w);
+    return member ? h->mesh->wheel_sizes : h->mesh->pinion_sizes;
+}
+
+/* The parameters that are left without the one that a condition gives. */
+static void others(int parameters, int bound, int *free_)
+{
+    for (int i = 0, k = 0; i < parameters; i++)
+        if (i != bound && k < 2) free_[k++] = i;
+}
+
+/* A flank at two of its parameters: q completed from its condition, outputs o. */
+static int on_flank(const search *h, int member, double *q, double *o)
+{
+    const mw_body *body = &h->m->bodies[member];
+    const double *condition = o + conditions_at(body);
+    const int bound = h->bound[member];
     for (int k = 0; k < NEWTON_STEPS; k++) {
-        w->flank(h->s, q, o);
-        if (h->bound < 0) break;
-        const double step = condition[0] / condition[1 + h->bound];
+        body->flank(h->s, q, o);
+        if (bound < 0) break;
+        const double step = condition[0] / condition[1 + bound];
         if (!(fabs(step) < HUGE_VAL)) return 0;
-        q[h->bound] -= step;
-        if (fabs(step) < STEP_DONE * h->mesh->wheel_sizes[h->bound]) {
-            w->flank(h->s, q, o);
+        q[bound] -= step;
+        if (fabs(step) < STEP_DONE * sizes_of(h, member)[bound]) {
+            body->flank(h->s, q, o);
             break;
         }
     }
-    for (int a = 0; a < 2; a++)
-        for (int i = 0; i < 3; i++) {
-            tangents[a][i] = o[6 + 3 * h->free_[a] + i];
-            if (h->bound >= 0)
-                tangents[a][i] -= condition[1 + h->free_[a]] / condition[1 + h->bound] * o[6 + 3 * h->bound + i];
-        }
     return 1;
 }
 
@@ -133,58 +140,78 @@ static void carried(const search *h, const double *r, double delta, double *x, d
     }
 }
 
-/* Where the wheel's point at P->q meets the pinion's flank, from P->p and P->delta on; 0 where that does not lead to a
- * place on the same sheet. */
+/* Slopes of the wheel angle by the wheel's free parameters, in natural sizes, at a place with these outputs. */
+static void slopes_at(const search *h, const double *ow, const double *op, place *P)
+{
+    const double *condition = ow + conditions_at(&h->m->bodies[1]) + 1;
+    for (int a = 0; a < 2; a++) {
+        const int number = h->free_[1][a], bound = h->bound[1];
+        double tangent[3], along[3];
+        for (int i = 0; i < 3; i++) {
+            tangent[i] = ow[6 + 3 * number + i];
+            if (bound >= 0) tangent[i] -= condition[number] / condition[bound] * ow[6 + 3 * bound + i];
+        }
+        carried(h, tangent, P->delta, along, NULL);
+        P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[number];
+    }
+}
+
+/* Where the given member's point, at P->q or P->p, meets the other one's flank, from the other parameters and P->delta on;
+ * 0 where that does not lead to a place on the same sheet. */
 static int meet(const search *h, place *P)
 {
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
-    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], tangents[2][3], x[3], rate[3], M[16], r[4];
-    const int n = h->nk + 1;
+    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], x[3], rate[3], M[16], r[4];
+    const int sought = !h->given, parameters = sought ? h->nw : h->nk, n = parameters + 1;
+    double *unknown = sought ? P->q : P->p, *known = sought ? P->p : P->q;
+    const double *size = sizes_of(h, sought);
     P->good = 0;
     P->inner = -HUGE_VAL;
-    if (!on_wheel(h, P->q, ow, tangents)) return 0;
+    if (!on_flank(h, h->given, known, h->given ? ow : op)) return 0;
     double before = HUGE_VAL, first = 0.0, moved = 0.0, from[MAX_K];
     int done = 0;
-    memcpy(from, P->p, sizeof from);
+    memcpy(from, unknown, sizeof from);
     const double delta = P->delta;
     for (int k = 0; k < NEWTON_STEPS && !done; k++) {
-        pinion->flank(h->s, P->p, op);
+        const mw_body *body = &h->m->bodies[sought];
+        double *o = sought ? ow : op;
+        body->flank(h->s, unknown, o);
         carried(h, ow, P->delta, x, rate);
+        for (int j = 0; j < parameters; j++) {
+            double tangent[3];
+            if (sought) carried(h, o + 6 + 3 * j, P->delta, tangent, NULL);
+            for (int i = 0; i < 3; i++) M[i * n + j] = sought ? -tangent[i] : o[6 + 3 * j + i];
+        }
         for (int i = 0; i < 3; i++) {
-            for (int j = 0; j < h->nk; j++) M[i * n + j] = op[6 + 3 * j + i];
-            M[i * n + h->nk] = -rate[i];
+            M[i * n + parameters] = -rate[i];
             r[i] = op[i] - x[i] - h->b[i];
         }
-        if (pinion->conditions) {
-            const double *condition = op + conditions_at(pinion);
-            for (int j = 0; j < h->nk; j++) M[3 * n + j] = condition[1 + j];
-            M[3 * n + h->nk] = 0.0;
+        if (body->conditions) {
+            const double *condition = o + conditions_at(body);
+            for (int j = 0; j < parameters; j++) M[3 * n + j] = condition[1 + j];
+            M[3 * n + parameters] = 0.0;
             r[3] = condition[0];
         }
         if (!solve(M, r, n)) return 0;
-        double largest = fabs(r[h->nk]);
-        for (int j = 0; j < h->nk; j++) largest = fmax(largest, fabs(r[j]) / h->mesh->pinion_sizes[j]);
+        double largest = fabs(r[parameters]);
+        for (int j = 0; j < parameters; j++) largest = fmax(largest, fabs(r[j]) / size[j]);
         if (k > 2 && largest > before) return 0;
         if (k == 0) first = fmin(largest, 0.5);
         const double share = largest > 0.5 ? 0.5 / largest : 1.0;
-        for (int j = 0; j < h->nk; j++) P->p[j] -= share * r[j];
-        P->delta -= share * r[h->nk];
+        for (int j = 0; j < parameters; j++) unknown[j] -= share * r[j];
+        P->delta -= share * r[parameters];
         done = largest < STEP_DONE || (largest < 1e-8 && largest > 0.5 * before);
         before = largest;
     }
     if (!done || fabs(P->delta - delta) > LARGEST_TURN) return 0;
     moved = fabs(P->delta - delta);
-    for (int j = 0; j < h->nk; j++) moved = fmax(moved, fabs(P->p[j] - from[j]) / h->mesh->pinion_sizes[j]);
+    for (int j = 0; j < parameters; j++) moved = fmax(moved, fabs(unknown[j] - from[j]) / size[j]);
     if (moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST)) return 0;
-    pinion->flank(h->s, P->p, op);
+    h->m->bodies[sought].flank(h->s, unknown, sought ? ow : op);
     carried(h, ow, P->delta, x, rate);
     P->lever = dot(op + 3, rate);
     if (!(P->lever * h->sense > 0.0)) return 0;
-    for (int a = 0; a < 2; a++) {
-        double along[3];
-        carried(h, tangents[a], P->delta, along, NULL);
-        P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[h->free_[a]];
-    }
+    slopes_at(h, ow, op, P);
     P->value = h->sense * P->delta;
     memcpy(P->point, op, sizeof P->point);
     memcpy(P->normal, op + 3, sizeof P->normal);
@@ -214,12 +241,15 @@ static double worst(const search *h, const place *P)
     return least;
 }
 
-/* A place beside another one, by (u, v) in natural sizes of the wheel's free parameters. */
+/* A place beside another one, by (u, v) in natural sizes of the given member's free parameters. */
 static int beside(const search *h, const place *from, double u, double v, place *P)
 {
+    const int *free_ = h->free_[h->given];
+    const double *sizes = sizes_of(h, h->given);
     *P = *from;
-    P->q[h->free_[0]] += u * h->mesh->wheel_sizes[h->free_[0]];
-    P->q[h->free_[1]] += v * h->mesh->wheel_sizes[h->free_[1]];
+    double *known = h->given ? P->q : P->p;
+    known[free_[0]] += u * sizes[free_[0]];
+    known[free_[1]] += v * sizes[free_[1]];
     return meet(h, P);
 }
 
@@ -264,87 +294,80 @@ static double along(int k, const double *slopes, const double *a)
     return sum;
 }
 
-/* Change of the point along a direction of the parameters. */
-static void displaced(const bent *f, const double *a, double *r)
-{
-    for (int i = 0; i < 3; i++) {
-        r[i] = 0.0;
-        for (int j = 0; j < f->k; j++) r[i] += f->o[6 + 3 * j + i] * a[j];
-    }
-}
-
-/* Implicit differentiation of the place by the wheel's free parameters: of its own condition, then of the equations by
- * which the wheel's point meets the pinion's flank. */
+/* Implicit differentiation of a place by the given member's free parameters. The equations, that both points are one and
+ * that each flank keeps its condition, have the parameters of both and the angle as unknowns z. */
 static int expand(const search *h, const place *P, model_ *q)
 {
+    enum { MOST = 2 * MAX_K + 1 };
     static const int A[3] = {0, 0, 1}, B[3] = {0, 1, 1};
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
-    const int n = h->nk + 1;
+    const int of_pinion = h->nw, of_angle = h->nw + h->nk, n = 3 + wheel->conditions + pinion->conditions;
     bent p, w;
-    double Q[2][MAX_K] = {{0.0}}, follows[3] = {0.0}, z[2][MAX_K + 1], zz[3][MAX_K + 1];
-    double M[(MAX_K + 1) * (MAX_K + 1)], rate[3], along_wheel[2][3], turned[2][3], x[3];
+    double J[(2 * MAX_K - 1) * MOST] = {0.0}, z[2][MOST], zz[3][MOST], rate[3], x[3], turned[2][3], inwards[3];
+    int follows[MOST];
     to_second_order(h, 0, P->p, &p);
     to_second_order(h, 1, P->q, &w);
-    const double *condition = w.o + conditions_at(wheel) + 1;
-    for (int a = 0; a < 2; a++) {
-        Q[a][h->free_[a]] = h->mesh->wheel_sizes[h->free_[a]];
-        if (h->bound >= 0) Q[a][h->bound] = -along(w.k, condition, Q[a]) / condition[h->bound];
-    }
-    for (int c = 0; c < 3 && h->bound >= 0; c++)
-        follows[c] = -bent_by(&w, 3 + w.limits, Q[A[c]], Q[B[c]]) / condition[h->bound];
     carried(h, w.o, P->delta, x, rate);
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < h->nk; j++) M[i * n + j] = p.o[6 + 3 * j + i];
-        M[i * n + h->nk] = -rate[i];
+    for (int j = 0; j < h->nw; j++) {
+        double tangent[3];
+        carried(h, w.o + 6 + 3 * j, P->delta, tangent, NULL);
+        for (int i = 0; i < 3; i++) J[i * MOST + j] = -tangent[i];
+        if (wheel->conditions) J[3 * MOST + j] = w.o[conditions_at(wheel) + 1 + j];
     }
-    if (pinion->conditions) {
-        for (int j = 0; j < h->nk; j++) M[3 * n + j] = p.o[conditions_at(pinion) + 1 + j];
-        M[3 * n + h->nk] = 0.0;
+    for (int j = 0; j < h->nk; j++) {
+        for (int i = 0; i < 3; i++) J[i * MOST + of_pinion + j] = p.o[6 + 3 * j + i];
+        if (pinion->conditions) J[(n - 1) * MOST + of_pinion + j] = p.o[conditions_at(pinion) + 1 + j];
     }
+    for (int i = 0; i < 3; i++) J[i * MOST + of_angle] = -rate[i];
+    const int *free_ = h->free_[h->given], first = h->given ? 0 : of_pinion;
+    for (int j = 0, k = 0; j <= of_angle; j++)
+        if (j != first + free_[0] && j != first + free_[1]) follows[k++] = j;
+    double M[(2 * MAX_K - 1) * (2 * MAX_K - 1)], r[2 * MAX_K - 1];
     for (int a = 0; a < 2; a++) {
-        double r[3], elimination[(MAX_K + 1) * (MAX_K + 1)];
-        displaced(&w, Q[a], r);
-        carried(h, r, P->delta, along_wheel[a], turned[a]);
-        memcpy(z[a], along_wheel[a], sizeof along_wheel[a]);
-        if (pinion->conditions) z[a][3] = 0.0;
-        memcpy(elimination, M, sizeof M);
-        if (!solve(elimination, z[a], n)) return 0;
+        const double size = sizes_of(h, h->given)[free_[a]];
+        for (int i = 0; i < n; i++) {
+            for (int j = 0; j < n; j++) M[i * n + j] = J[i * MOST + follows[j]];
+            r[i] = -J[i * MOST + first + free_[a]] * size;
+        }
+        if (!solve(M, r, n)) return 0;
+        for (int j = 0; j < 2; j++) z[a][first + free_[j]] = j == a ? size : 0.0;
+        for (int j = 0; j < n; j++) z[a][follows[j]] = r[j];
+        double along_wheel[3] = {0.0};
+        for (int j = 0; j < h->nw; j++)
+            for (int i = 0; i < 3; i++) along_wheel[i] += w.o[6 + 3 * j + i] * z[a][j];
+        carried(h, along_wheel, P->delta, x, turned[a]);
     }
     const double flat[3] = {-w.o[0], -w.o[1], 0.0}; /* second derivative by the angle of a point turning about z */
-    double inwards[3];
     carried(h, flat, P->delta, inwards, NULL);
     for (int c = 0; c < 3; c++) {
         const double *za = z[A[c]], *zb = z[B[c]];
-        double r[3], elimination[(MAX_K + 1) * (MAX_K + 1)];
-        for (int i = 0; i < 3; i++) {
-            r[i] = bent_by(&w, i, Q[A[c]], Q[B[c]]);
-            if (h->bound >= 0) r[i] += w.o[6 + 3 * h->bound + i] * follows[c];
-        }
-        carried(h, r, P->delta, zz[c], NULL);
+        double bends[3];
+        for (int i = 0; i < 3; i++) bends[i] = bent_by(&w, i, za, zb);
+        carried(h, bends, P->delta, x, NULL);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) M[i * n + j] = J[i * MOST + follows[j]];
         for (int i = 0; i < 3; i++)
-            zz[c][i] += turned[A[c]][i] * zb[h->nk] + turned[B[c]][i] * za[h->nk] + inwards[i] * za[h->nk] * zb[h->nk]
-                        - bent_by(&p, i, za, zb);
-        if (pinion->conditions) zz[c][3] = -bent_by(&p, 3 + p.limits, za, zb);
-        memcpy(elimination, M, sizeof M);
-        if (!solve(elimination, zz[c], n)) return 0;
-        q->second[c] = h->sense * zz[c][h->nk];
+            r[i] = x[i] + turned[A[c]][i] * zb[of_angle] + turned[B[c]][i] * za[of_angle]
+                   + inwards[i] * za[of_angle] * zb[of_angle] - bent_by(&p, i, za + of_pinion, zb + of_pinion);
+        if (wheel->conditions) r[3] = -bent_by(&w, 3 + w.limits, za, zb);
+        if (pinion->conditions) r[n - 1] = -bent_by(&p, 3 + p.limits, za + of_pinion, zb + of_pinion);
+        if (!solve(M, r, n)) return 0;
+        for (int j = 0; j < 2; j++) zz[c][first + free_[j]] = 0.0;
+        for (int j = 0; j < n; j++) zz[c][follows[j]] = r[j];
+        q->second[c] = h->sense * zz[c][of_angle];
     }
-    for (int a = 0; a < 2; a++) q->slope[a] = h->sense * z[a][h->nk];
+    for (int a = 0; a < 2; a++) q->slope[a] = h->sense * z[a][of_angle];
     for (int i = 0; i < limit_count(h); i++) {
-        const int of_wheel = i < w.limits, number = of_wheel ? i : i - w.limits;
+        const int of_wheel = i < w.limits, number = of_wheel ? i : i - w.limits, at = of_wheel ? 0 : of_pinion;
         const bent *f = of_wheel ? &w : &p;
         const double *slopes = f->slopes + number * f->k;
         q->limit[i] = P->limits[i];
         memset(q->along[i], 0, sizeof q->along[i]);
         memset(q->curve[i], 0, sizeof q->curve[i]);
         if (!(P->limits[i] < HUGE_VAL)) continue;
-        for (int a = 0; a < 2; a++) q->along[i][a] = along(f->k, slopes, of_wheel ? Q[a] : z[a]);
-        for (int c = 0; c < 3; c++) {
-            const double *da = of_wheel ? Q[A[c]] : z[A[c]], *db = of_wheel ? Q[B[c]] : z[B[c]];
-            q->curve[i][c] = bent_by(f, 3 + number, da, db);
-            if (!of_wheel) q->curve[i][c] += along(f->k, slopes, zz[c]);
-            if (of_wheel && h->bound >= 0) q->curve[i][c] += slopes[h->bound] * follows[c];
-        }
+        for (int a = 0; a < 2; a++) q->along[i][a] = along(f->k, slopes, z[a] + at);
+        for (int c = 0; c < 3; c++)
+            q->curve[i][c] = bent_by(f, 3 + number, z[A[c]] + at, z[B[c]] + at) + along(f->k, slopes, zz[c] + at);
     }
     return 1;
 }
@@ -519,12 +542,40 @@ typedef struct best_ {
     long budget;
 } best_;
 
+/* The search with points of the pinion given: where the pinion's flank ends at its singular line the wheel's points do not
+ * determine the pinion's smoothly, but the pinion's do the wheel's. Its condition gives the parameter that moves it most. */
+static search by_the_pinion(const search *h, const place *at)
+{
+    const mw_body *pinion = &h->m->bodies[0];
+    search by = *h;
+    by.given = 0;
+    by.bound[0] = -1;
+    if (pinion->conditions) {
+        double o[MAX_OUTPUTS], most = -1.0;
+        pinion->flank(h->s, at->p, o);
+        for (int i = 0; i < h->nk; i++) {
+            const double slope = fabs(o[conditions_at(pinion) + 1 + i]) * h->mesh->pinion_sizes[i];
+            if (slope > most) {
+                most = slope;
+                by.bound[0] = i;
+            }
+        }
+    }
+    others(h->nk, by.bound[0], by.free_[0]);
+    return by;
+}
+
 /* Refine from a place inside all limits and keep what is higher than the best. */
 static void refine(const search *h, const place *from, best_ *best)
 {
     place P = *from;
     int active[2];
-    const int done = climb(h, &P, active);
+    int done = climb(h, &P, active);
+    if (!done) {
+        const search by_pinion = by_the_pinion(h, from);
+        P = *from;
+        done = climb(&by_pinion, &P, active);
+    }
     const place *top = done && P.value > from->value ? &P : from;
     if (top->value > best->floor) {
         best->floor = top->value;
@@ -556,7 +607,7 @@ static double bound(const search *h, const place *T, int *edge)
 {
     double C[3][2], growth = 0.0, bend = 0.0, span = 0.0;
     for (int a = 0; a < 3; a++)
-        for (int i = 0; i < 2; i++) C[a][i] = T[a].q[h->free_[i]] / h->mesh->wheel_sizes[h->free_[i]];
+        for (int i = 0; i < 2; i++) C[a][i] = T[a].q[h->free_[1][i]] / h->mesh->wheel_sizes[h->free_[1][i]];
     *edge = 0;
     double most = -1.0;
     for (int a = 0; a < 3; a++) {
@@ -648,7 +699,7 @@ static int longest(const search *h, const place *T)
     for (int a = 0; a < 3; a++) {
         double length = 0.0;
         for (int i = 0; i < 2; i++) {
-            const int j = h->free_[i];
+            const int j = h->free_[1][i];
             const double d = (T[a].q[j] - T[(a + 1) % 3].q[j]) / h->mesh->wheel_sizes[j];
             length += d * d;
         }
@@ -669,7 +720,7 @@ static double bound_at_end(const search *h, const place *T)
         for (int b = 0; b < 3 && T[a].good && T[a].inner >= 0.0; b++) {
             double rise = 0.0;
             for (int i = 0; i < 2; i++) {
-                const int j = h->free_[i];
+                const int j = h->free_[1][i];
                 rise += T[a].slope[i] * (T[b].q[j] - T[a].q[j]) / h->mesh->wheel_sizes[j];
             }
             highest = fmax(highest, T[a].value + 2.0 * fabs(rise));
@@ -722,12 +773,12 @@ static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_
     h->turn = turn;
     h->nk = p->parameters;
     h->nw = w->parameters;
-    h->bound = mesh->bound;
+    h->given = 1;
+    h->bound[1] = mesh->bound;
     if (h->nk > MAX_K || h->nw > MAX_K || h->nk != 2 + p->conditions || h->nw != 2 + w->conditions) return 0;
     if (w->conditions ? h->bound < 0 || h->bound >= h->nw : h->bound != -1) return 0;
     if (p->outputs > MAX_OUTPUTS || w->outputs > MAX_OUTPUTS || limit_count(h) > MAX_LIMITS) return 0;
-    for (int i = 0, k = 0; i < h->nw; i++)
-        if (i != h->bound && k < 2) h->free_[k++] = i;
+    others(h->nw, h->bound[1], h->free_[1]);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             h->A[3 * i + j] = pinion[i] * wheel[j] + pinion[4 + i] * wheel[4 + j] + pinion[8 + i] * wheel[8 + j];
@@ -755,7 +806,7 @@ static double away(const search *h, size_t v, const double *q)
 {
     double sum = 0.0;
     for (int i = 0; i < 2; i++) {
-        const int j = h->free_[i];
+        const int j = h->free_[1][i];
         const double d = (h->mesh->q[(int)v * h->nw + j] - q[j]) / h->mesh->wheel_sizes[j];
         sum += d * d;
     }

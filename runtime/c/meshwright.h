@@ -57,6 +57,15 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
+/* Points of a branch that is known at nodes: point k, phi[k], as mw_follow has it from x0[node[k]*nx] at phi0[node[k]],
+ * and NaN where the branch does not reach it or node[k] is negative; x[n*nx], info[n]. s is set up. Returns the number
+ * of points that succeeded. */
+size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
+                     const double *phi, size_t n, double *x, mw_info *info);
+
+/* Observations o[n*no] of the unknowns x[n*nx] at the angles phi[n], s set up; NaN where an unknown is not a number. */
+int mw_observe(const mw_model *m, double *s, const double *phi, const double *x, size_t n, double *o);
+
 /* Kernels over several lanes for one instruction set: with vectors of the given width, or of the widest this processor
  * runs if width is 0; NULL if it runs none of that width. Width 2 gives the same bits on every machine; wider ones fuse
  * products into sums, and agree with one another to the last bit. */

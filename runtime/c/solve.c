@@ -79,6 +79,35 @@ size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, co
     return n;
 }
 
+size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
+                     const double *phi, size_t n, double *x, mw_info *info)
+{
+    size_t succeeded = 0;
+    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
+        const size_t from = node[k] < 0 ? 0 : (size_t)node[k];
+        *info = mwi_ended(MW_BAD_INPUT, 0);
+        if (node[k] >= 0 && mw_follow(m, s, phi0[from], x0 + from * (size_t)m->nx, phi + k, 1, x, info) == 1)
+            succeeded++;
+        else
+            for (int i = 0; i < m->nx; i++) x[i] = NAN;
+    }
+    return succeeded;
+}
+
+int mw_observe(const mw_model *m, double *s, const double *phi, const double *x, size_t n, double *o)
+{
+    if (!mwi_usable(m)) return MW_BAD_INPUT;
+    for (size_t k = 0; k < n; k++, x += m->nx, o += m->no) {
+        int finite = mwi_angle_in_range(phi[k]);
+        for (int i = 0; i < m->nx; i++) finite &= x[i] - x[i] == 0.0;
+        for (int i = 0; i < m->no; i++) o[i] = NAN;
+        if (!finite) continue;
+        m->set_phi(s, phi[k]);
+        m->observe(s, x, o);
+    }
+    return MW_CONVERGED;
+}
+
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant)
 {

@@ -1,4 +1,7 @@
-"""A drive ready to be analysed: a design, the compiled model that solves it, and its results."""
+"""A drive ready to be analysed: a design, the compiled model that solves it, and its results.
+
+An analysis is imported when it is first asked for: a command does not wait for those that it does not use.
+"""
 
 import math
 from dataclasses import dataclass
@@ -6,19 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright import limits
 from meshwright.base.drives import folders
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, text
-from meshwright.contact import analysis, certificate, certified_path
+from meshwright.contact import analysis, flags
 from meshwright.contact.functions import Function
-from meshwright.cycle import contact_ratio, edge, first_contact, windows
 from meshwright.design import design as designs
 from meshwright.design.design import Design
-from meshwright.flank import grids
-from meshwright.flank.region import region
 from meshwright.flank.surface import Flank
-from meshwright.pattern.used import uses
 
 
 def _compiled(design):
@@ -76,6 +74,11 @@ class Drive:
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
 
     @cached_property
+    def as_described(self):
+        """This drive, or its mirror image if that has the hand for which the drive's equations are written."""
+        return self.with_(design={"hand": self.design.description["handed"]}) if self.design.mirrored else self
+
+    @cached_property
     def model(self):
         """The model table, as a cffi pointer."""
         return BACKENDS[self.backend](self.design)
@@ -96,13 +99,18 @@ class Drive:
     @cached_property
     def past_the_tips(self):
         """Whether the teeth do not reach each other at any angle."""
-        return windows.past_the_tips(self)
+        from meshwright.cycle.windows import past_the_tips
+
+        return past_the_tips(self)
 
     @cached_property
     def edge_window(self):
         """Window of a pair that runs on an edge, where the drive's error is designed to avoid that; else None."""
-        absorbs_errors = self.design.description["absorbs_errors"]
-        return edge.edge_window(Drive(self.design)) if absorbs_errors else None
+        if not self.design.description["absorbs_errors"]:
+            return None
+        from meshwright.cycle.edge import edge_window
+
+        return edge_window(Drive(self.design))
 
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
@@ -126,12 +134,14 @@ class Drive:
         outside = result.outside_the_tips
         if outside.any() and self.past_the_tips:
             result = result.without_contact(outside)
-        return edge.flagged(result, self.edge_window)
+        return flags.flagged(result, self.edge_window)
 
     @cached_property
     def enclosed(self):
         """The design's state enclosed: :class:`~meshwright.contact.certificate.EnclosedDesign`."""
-        return certificate.EnclosedDesign.of(self.design, _compiled(self.design))
+        from meshwright.contact.certificate import EnclosedDesign
+
+        return EnclosedDesign.of(self.design, _compiled(self.design))
 
     def certify(self, angles, result=None, degrees=None):
         """Proofs of the contacts at pinion angles (rad): :class:`~meshwright.contact.certificate.Certificates`.
@@ -139,49 +149,67 @@ class Drive:
         ``result``: a TCA of these angles, if there is one. Each angle is the exact double that it is or, where
         ``degrees`` are given, exactly so many degrees (fractions).
         """
+        from meshwright.contact.certificate import certify
+
         angles = analysis.checked_angles(angles)
         result = self.tca(angles) if result is None else result
         lines = [word == "line_contact" for word in result.status]
-        return certificate.certify(self, angles, result.solutions, lines, degrees)
+        return certify(self, angles, result.solutions, lines, degrees)
 
     def certify_path(self, begin, end, **how):
         """Proof of one branch of contact from one pinion angle (rad) to another, of the right-hand drive:
         :class:`~meshwright.contact.certified_path.CertifiedPath`.
         """
-        return certified_path.certified_path(self, begin, end, **how)
+        from meshwright.contact.certified_path import certified_path
+
+        return certified_path(self, begin, end, **how)
 
     def first_contact(self, angles, result=None):
         """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:
         :class:`~meshwright.cycle.first_contact.FirstContacts`. ``result``: a TCA of these angles, if there is one.
         """
-        return first_contact.first_contacts(self, analysis.checked_angles(angles), result)
+        from meshwright.cycle.first_contact import first_contacts
+
+        return first_contacts(self, analysis.checked_angles(angles), result)
 
     def contacts(self, angle):
         """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""
-        return limits.contacts_of(self, angle)
+        from meshwright.limits import contacts_of
+
+        return contacts_of(self, angle)
 
     def limits(self, request=None):
         """Undercut, edges of regression, limit points, axes: see :class:`~meshwright.limits.results.Limits`."""
-        return limits.limits_of(self, request)
+        from meshwright.limits import limits_of
+
+        return limits_of(self, request)
 
     def contact_ratio(self):
         """Ends, teeth in contact, transmission error: :class:`~meshwright.cycle.contact_ratio.ContactRatio`."""
-        return contact_ratio.contact_ratio(self)
+        from meshwright.cycle.contact_ratio import contact_ratio
+
+        return contact_ratio(self)
 
     def surface(self, member, shape=(21, 41), region="flank", inset=0.0):
         """Points and normals over a flank, N across × M along the tooth: :class:`~meshwright.flank.grids.Grid`.
 
         ``inset`` is the share of the lengths by which the points stay off the ends of the flank.
         """
-        return grids.grid(self, member, shape, region, self.uses, inset)
+        from meshwright.flank.grids import grid
+
+        return grid(self, member, shape, region, self.uses, inset)
 
     @cached_property
     def uses(self):
         """What contact uses of the flanks: see :class:`~meshwright.flank.region.Uses`."""
+        from meshwright.pattern.used import uses
+
         return uses(self)
 
     def region(self, member, name="flank"):
         """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`."""
+        from meshwright.flank.region import region
+
         return region(self, member, name, self.uses)
 
     def trace(self, angles):

@@ -66,6 +66,27 @@ def sensitivity(drive, angles):
     )
 
 
+def on_member(drive, found, member):
+    """Derivatives (N, K, 3) of the contact point in the body frame of ``"pinion"`` or ``"wheel"``, as the
+    :class:`Sensitivity` of the drive has those in the fixed frame, mm.
+
+    The point moves with its flank parameters, and with the flank itself.
+    """
+    description, model, mirror = drive.design.description, drive.design.model, drive.design.mirror
+    number = next(k for k, body in enumerate(description["bodies"]) if body["name"] == member)
+    own = description["bodies"][number]["unknowns"]
+    names = [description["unknowns"][k]["name"] for k in own]
+    changes = np.stack([mirror.factor(name) * found.unknowns[name] for name in names], axis=2)
+    places = np.ascontiguousarray(analysis.analyse(drive, found.angles).solutions[:, own])
+    along = np.einsum("njk,nkc->njc", changes, drive.flank(member)(places).tangents)
+    formed = np.empty((len(found.keys), len(places), 3))
+    for column, direction in zip(formed, found.design.T, strict=True):
+        given = (drive.design.parameters, np.ascontiguousarray(direction), places)
+        if library().mw_flank_tangent(model, number, *map(pointer, given), len(places), pointer(column)) < 0:
+            column[:] = np.nan
+    return mirror.flip * (along + np.swapaxes(formed, 0, 1))
+
+
 def _counts(parameter, k, design):
     """Whether a parameter is a real number in effect, and not the other name of one that is given."""
     if parameter["table"] in _OUTSIDE_THE_FLANKS or not designs.is_real(parameter):

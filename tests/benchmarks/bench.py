@@ -17,7 +17,7 @@ from derive.passes.schedule import schedule
 from derive.program.tape import Stage
 from meshwright import Drive
 from meshwright.base.library import ffi, library, record
-from tests.benchmarks import baselines, calls, regeneration
+from tests.benchmarks import baselines, calls, latency, regeneration
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -234,6 +234,7 @@ def main():
     for name, unknowns, count, rate in growth:
         print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
     calls.report()
+    latency.report()
     regeneration.report(growth[0][0])
 
 

@@ -8,11 +8,12 @@ from test_solver_chain import linear_field, macneal_harder_patch
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands import loading
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import spline_weights, tooth_compliance
-from meshwright.fe.elastic import assemble, factorise
+from meshwright.fe.elastic import assemble, flexibility
 from meshwright.fe.gap import contact_grid
-from meshwright.fe.halfspace import influence_matrix, mean_displacement, rectangle_displacement
+from meshwright.fe.halfspace import equal_cells, mean_displacement, rectangle_displacement
 from meshwright.fe.hexahedra import nodal_areas
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.material import Material
@@ -48,10 +49,12 @@ def test_mean_displacement_of_a_loaded_square():
     assert mean[0] == pytest.approx(0.95, abs=0.005)
 
 
-def test_influence_is_symmetric():
-    centres = np.random.default_rng(1).uniform(-1, 1, (20, 2))
-    matrix = influence_matrix(centres, 0.1, 0.05, 1e5)
-    assert np.abs(matrix - matrix.T).max() < 1e-20
+def test_equal_cells_are_a_table_of_what_one_rectangle_does():
+    """The displacement two cells along and one across is that of the rectangle at that distance."""
+    table = equal_cells(3, 0.1, 0.05, 1e5)
+    single = rectangle_displacement(np.array([0.4]), np.array([0.1]), 0.1, 0.05, 1e5)
+    assert table[2, 1] == pytest.approx(single[0], rel=1e-14)
+    assert table[0, 0] == table.max()
 
 
 def test_elements_pass_the_patch_test():
@@ -71,10 +74,10 @@ def test_cantilever():
     block = Block(points)
     mesh = block.mesh()
     nodes, areas = nodal_areas(mesh.nodes, mesh.face_nodes(block.side("i1")))
-    loads = np.zeros((len(mesh.nodes), 3, 1))
-    loads[nodes, 1, 0] = force * areas[:, 0] / areas[:, 0].sum()
-    body = factorise(mesh, steel, np.unique(mesh.face_nodes(block.side("i0"))))
-    deflection = body.displacements(loads)[nodes, 1, 0].mean()
+    loads = np.zeros((len(nodes), 3, 1))
+    loads[:, 1, 0] = force * areas[:, 0] / areas[:, 0].sum()
+    held = np.unique(mesh.face_nodes(block.side("i0")))
+    deflection = flexibility(mesh, steel, held, 2, nodes, loads)[0, 0] / force
     shear = 1.2 * force * length / (steel.youngs_modulus / 2.6 * side**2)
     assert deflection == pytest.approx(force * length**3 / (3 * steel.youngs_modulus * side**4 / 12) + shear, rel=0.01)
 
@@ -241,3 +244,41 @@ def test_line_contact_is_refused(capsys):
     design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
     assert main(["loaded", *design, "--torque-nm", "1"]) == 2
     assert "design" in capsys.readouterr().err
+
+
+@pytest.mark.validate
+def test_contact_lines_of_helical_teeth_are_generators_of_the_base_helix(capsys, monkeypatch):
+    """ISO 21771:2007: contact lines lie in the plane of action at the base helix angle, sin β_b = sin β cos α_n."""
+    monkeypatch.setattr(loading, "compliances", lambda *_: None)
+    plain = ("design.pinion_tip_relief_um=0", "design.wheel_tip_relief_um=0", "misalignment.horizontal_deg=0")
+    settings = [word for setting in plain for word in ("--set", setting)]
+    assert main(["loaded", "helical-crowned", "--torque-nm", "60", "--phi-deg=2", "--json", "-", *settings]) == 0
+    document = json.loads(capsys.readouterr().out)
+    design = Drive.load("helical-crowned").design
+    helix = np.sin(design.value("pinion_helix_angle_deg")) * np.cos(design.value("pressure_angle_deg"))
+    carrying = [pair for pair in document["points"][0]["pairs"] if pair["share"] > 0.0]
+    assert carrying
+    for pair in carrying:
+        for member in ("pinion", "wheel"):
+            line = np.array(pair["line_mm"][member])
+            along = line[-1] - line[0]
+            assert abs(along[2]) / np.linalg.norm(along) == pytest.approx(np.cos(np.arcsin(helix)), abs=1e-4)
+
+
+@pytest.mark.validate
+def test_a_left_hand_drive_under_load_is_the_mirror_image_of_the_right_hand_one(capsys, monkeypatch):
+    """On half-spaces of rigid teeth, which is all that the hand has to do with."""
+    monkeypatch.setattr(loading, "compliances", lambda *_: None)
+
+    def at(angle, *hand):
+        words = ["loaded", "plain-za", "--torque-nm", "50", "--pairs", "1", f"--phi-deg={angle}", "--json", "-", *hand]
+        assert main(words) == 0
+        (point,) = json.loads(capsys.readouterr().out)["points"]
+        return point
+
+    right, left = at(4.0), at(-4.0, "--set", "design.hand=left")
+    assert left["loaded_transmission_error_arcsec"] == pytest.approx(-right["loaded_transmission_error_arcsec"])
+    (theirs,), (ours,) = right["pairs"], left["pairs"]
+    assert ours["peak_pressure_mpa"] == pytest.approx(theirs["peak_pressure_mpa"])
+    for member in ("pinion", "wheel"):
+        assert np.array(ours["line_mm"][member]) * [1, -1, 1] == pytest.approx(np.array(theirs["line_mm"][member]))

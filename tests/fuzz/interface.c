@@ -349,6 +349,15 @@ static void follow(reader *r, fuzzed *f)
     calls++;
     if (good < n && info[good].status >= 0) fail("a branch that ends without a reason");
     for (size_t k = 0; k < good; k++) judge(r, m, f->s, phi[k], x + k * nx, info[k].status);
+    double *o = numbers(n * (size_t)m->no);
+    int *node = room(n, sizeof *node);
+    for (size_t k = 0; k < n; k++) node[k] = byte(r) % 2 ? -1 : 0;
+    const size_t each = mw_from_nodes(m, f->s, &at, x0, node, phi, n, x, info);
+    size_t count = 0;
+    for (size_t k = 0; k < n; k++) count += info[k].status >= 0;
+    if (count != each) fail("the points of a branch are not as many as was said");
+    if (mw_observe(m, f->s, phi, x, n, o) == MW_BAD_INPUT) fail("a table that is refused");
+    calls += 2;
 }
 
 static void arc(reader *r, fuzzed *f)
@@ -475,10 +484,12 @@ static void foreign(reader *r, fuzzed *f)
     refused += mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
     refused += mw_complete(&other, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
     refused += mw_follow(&other, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    refused += mw_from_nodes(&other, f->s, &phi, x, &(int){0}, &phi, 1, x, &info) == 0;
+    refused += mw_observe(&other, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
     refused += mw_arclength(&other, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
     refused += mw_trace(&other, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
-    if (refused != 12) fail("a foreign table is not refused");
-    calls += 12;
+    if (refused != 14) fail("a foreign table is not refused");
+    calls += 14;
     without_proofs(r, f, &other);
     other = *f->m;
     other.kernels = NULL; /* the header alone */

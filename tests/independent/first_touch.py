@@ -6,6 +6,8 @@ the line with the largest one, in ever finer windows. Only positions of flanks, 
 are used.
 """
 
+from itertools import product
+
 import numpy as np
 
 from meshwright.base.library import pointer
@@ -41,28 +43,29 @@ class FirstTouch:
         self.sizes = np.append(scale[pinion["unknowns"]], 1.0)
 
     def meet(self, q, start):
-        """Pinion parameters and wheel angle (N, k + 1) at which wheel points meet the pinion's flank; NaN for none."""
-        r = self.wheel(q).points
-        x, h = start.copy(), 1e-6
+        """Pinion parameters and wheel angle (N, k + 1) at which wheel points meet the pinion's flank; NaN for none.
+
+        Newton's method with slopes from differences of positions, until a step is below 1e-9 natural sizes.
+        """
+        r, x, h = self.wheel(q).points, start.copy(), 1e-7
+        met, moving = np.full(x.shape, np.nan), np.arange(len(x))
         for _ in range(STEPS):
-            miss = self._miss(r, x)
-            slopes = np.stack(
-                [
-                    (self._miss(r, x + h * e) - self._miss(r, x - h * e)) / (2.0 * h)
-                    for e in np.eye(x.shape[1])
-                ],
-                axis=2,
-            )
+            here, at = r[moving], x[moving]
+            miss = self._miss(here, at)
+            steps = h * self.sizes * np.eye(x.shape[1])
+            slopes = np.stack([(self._miss(here, at + e) - miss) / h for e in steps], axis=2)
             good = np.isfinite(slopes).all(axis=(1, 2)) & np.isfinite(miss).all(axis=1)
-            good[good] = np.abs(np.linalg.det(slopes[good])) > 1e-14
-            step = np.full(x.shape, np.nan)
-            step[good] = np.linalg.solve(slopes[good], miss[good][:, :, None])[:, :, 0]
-            size = np.abs(step / self.sizes).max(axis=1, keepdims=True)
-            x = x - step * np.minimum(1.0, 0.5 / np.maximum(size, 1e-300))
-            if not (size > 1e-12).any():
+            good[good] = np.abs(np.linalg.det(slopes[good])) > 1e-14 * self.sizes.prod()
+            moving, at = moving[good], at[good]
+            step = np.linalg.solve(slopes[good], miss[good][:, :, None])[:, :, 0]
+            size = np.abs(step).max(axis=1)
+            x[moving] = at - self.sizes * step * np.minimum(1.0, 0.5 / np.maximum(size, 1e-300))[:, None]
+            done = size < 1e-9
+            met[moving[done]] = x[moving[done]]
+            moving = moving[~done]
+            if not moving.size:
                 break
-        x[~(size[:, 0] < 1e-9)] = np.nan
-        return x
+        return met
 
     def _miss(self, r, x):
         found = self.pinion(x[:, :-1])
@@ -71,8 +74,12 @@ class FirstTouch:
         miss = found.points - turned @ self.still[:3, :3].T - self.still[:3, 3]
         return np.concatenate([miss, found.conditions[:, :, 0]], axis=1)
 
-    def look(self, q, start):
-        """Wheel angle times side (N,), -inf outside any limit, and where the points meet (N, k + 1)."""
+    def look(self, places, start):
+        """Wheel angle times side (N,), -inf outside any limit, and where the points meet (N, k + 1).
+
+        ``places`` (N, 2): on its line, and the line.
+        """
+        q = np.roll(places, self.along, axis=1)
         x = self.meet(q, start)
         known = np.isfinite(x).all(axis=1)
         inside = known.copy()
@@ -84,12 +91,15 @@ class FirstTouch:
     def highest(self, box):
         """The largest angle over a box (2, 2) of the wheel's parameters, rad (times side taken back).
 
-        Of two searches: whole lines sampled evenly, and the surroundings of the best place ever more closely.
+        Of searches by lines along either parameter (a limit that runs along a line leaves little of it): whole lines
+        sampled evenly, and the surroundings of the best place ever more closely.
         """
-        return self.side * max(self._search(box, closely) for closely in (False, True))
+        ways = product((False, True), (0, 1))
+        return self.side * max(self._search(box, closely, along) for closely, along in ways)
 
-    def _search(self, box, closely):
-        (a_low, b_low), (a_high, b_high) = box
+    def _search(self, box, closely, along):
+        self.along = along
+        (a_low, b_low), (a_high, b_high) = np.roll(box, -along, axis=1)
         centre, half = 0.5 * (b_low + b_high), 0.5 * (b_high - b_low)
         best, samples = -np.inf, np.linspace(a_low, a_high, SAMPLES)
         for window in range(WINDOWS[closely]):
@@ -115,20 +125,22 @@ class FirstTouch:
         inside = np.isfinite(values)
 
         def take(chosen, found, at):
+            order = np.argsort(found)  # the last of several for a line is the largest
+            chosen, found, at = chosen[order], found[order], at[order]
             better = found > best[chosen]
-            best[chosen], places[chosen] = np.where(better, [found, at], [best[chosen], places[chosen]])
+            best[chosen[better]], places[chosen[better]] = found[better], at[better]
 
-        for i, other in (*((i, i + 1) for i in range(count - 1)), *((i + 1, i) for i in range(count - 1))):
-            edge = np.flatnonzero(inside[i] & ~inside[other])
-            if edge.size:
-                take(edge, *self._end(a[i], a[other], lines[edge], x[i][edge]))
+        pairs = [(i, i + 1) for i in range(count - 1)] + [(i + 1, i) for i in range(count - 1)]
+        within, beyond = (np.array(side) for side in zip(*pairs, strict=True))
+        pair, line = np.nonzero(inside[within] & ~inside[beyond])
+        if pair.size:
+            take(line, *self._end(a[within[pair]], a[beyond[pair]], lines[line], x[within[pair], line]))
         some = np.flatnonzero(np.isfinite(best))
         if some.size:
             take(some, *self._top(a, top[some], lines[some], x[top, np.arange(len(lines))][some]))
         return best, places
 
     def _end(self, inner, outer, lines, x):
-        inner, outer = np.full(len(lines), inner), np.full(len(lines), outer)
         value = np.full(len(lines), -np.inf)
         for _ in range(BISECTIONS):
             middle = 0.5 * (inner + outer)

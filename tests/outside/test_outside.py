@@ -12,7 +12,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.base import compile as build
-from meshwright.base import drives
+from meshwright.base import drives, first_use
 from meshwright.base.errors import DesignError, LibraryError
 from meshwright.cli import main
 from meshwright.design import design
@@ -140,7 +140,7 @@ def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is
 
 def test_without_derive_the_remedy_is_named(tmp_path, monkeypatch):
     monkeypatch.setenv(drives.CACHE, str(tmp_path))
-    monkeypatch.setattr(drives.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(first_use.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(LibraryError, match=r"meshwright\[derive\]"):
         drives.folder_of("spherical_spur_convex")
 

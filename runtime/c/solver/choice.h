@@ -43,9 +43,11 @@ static inline double mwi_reference_angle(const mwi_pair *t)
 static inline int mwi_tangency_at(mwi_pair *t, double phi, mw_info *info)
 {
     double *x = t->at_reference;
-    const int started = mwi_start(t->m, t->p, phi, t->s, t->work, x, info) >= 0;
+    const int first = phi == mwi_reference_angle(t);
+    const double smallest = first ? MWI_SMALLEST_STEP : MWI_SMALLEST_LOOK;
+    const int started = mwi_start(t->m, t->p, phi, smallest, t->s, t->work, x, info) >= 0;
     if (started && mwi_worth_of(t->m, t->s, x) != MWI_IMPOSSIBLE) return 1;
-    return (phi == mwi_reference_angle(t) && mwi_search(t->m, t->s, x, info)) || started;
+    return (first && mwi_search(t->m, t->s, x, info)) || started;
 }
 
 /* The pair of a design that passes its guards, at its reference; there is none if t->reference is empty. */
@@ -114,7 +116,7 @@ static inline int mwi_possible(const mwi_pair *t, double phi, const double *x)
 /* Solve where no branch leads: the tangency in the middle, unless bodies can make another. */
 static inline void mwi_alone(mwi_pair *t, double phi, double *x, mw_info *info)
 {
-    const int status = mwi_start(t->m, t->p, phi, t->s, t->work, x, info);
+    const int status = mwi_start(t->m, t->p, phi, MWI_SMALLEST_STEP, t->s, t->work, x, info);
     if (status >= 0 && mwi_worth_of(t->m, t->s, x) != MWI_IMPOSSIBLE) return;
     if (!mwi_search(t->m, t->s, x, info) && status == MW_DIVERGED) info->status = MW_NO_CONTACT;
 }

@@ -5,7 +5,8 @@
 #include "linear.h"
 #include "steps.h"
 
-enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5 };
+/* Where the equations have no solution the residual goes up and down for ever: it must halve within PATIENCE iterations. */
+enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5, MWI_NEWTON_PATIENCE = 8 };
 
 /* Steps are in units of the unknowns' natural size. */
 static const double MWI_NEWTON_STEP_DONE = 1e-9;      /* the next step would be about its square: below round-off */
@@ -65,11 +66,16 @@ static inline int mwi_newton(mwi_equations f, int n, const double *s, const doub
 {
     double R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], A[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
     double b[MW_MAX_UNKNOWNS], step[MW_MAX_UNKNOWNS], trial[MW_MAX_UNKNOWNS];
-    double previous = HUGE_VAL;
+    double previous = HUGE_VAL, halved = HUGE_VAL;
+    int since = 0;
     f(s, x, R, J);
     double error = mwi_merit(n, R, J, scale);
     for (info->iterations = 0; info->iterations < MWI_NEWTON_MAX_ITERATIONS; info->iterations++) {
         if (!(error < HUGE_VAL)) return mwi_finish(info, MW_LEFT_FLANK);
+        if (error < 0.5 * halved) {
+            halved = error;
+            since = info->iterations;
+        }
         for (int i = 0; i < n * n; i++) A[i] = J[i];
         for (int i = 0; i < n; i++) b[i] = R[i];
         const int rank = mwi_linear_solve(n, A, b, scale, MWI_NEWTON_RANK_TOLERANCE, step, &info->rank_gap);
@@ -81,6 +87,7 @@ static inline int mwi_newton(mwi_equations f, int n, const double *s, const doub
             info->iterations++;
             return mwi_finish(info, rank < n ? MW_SINGULAR : info->step < MWI_NEWTON_STEP_DONE ? MW_CONVERGED : MW_CONVERGED_NOISE);
         }
+        if (info->iterations - since > MWI_NEWTON_PATIENCE) break;
         previous = info->step;
         double factor = info->step > MW_STEP_LIMIT ? MW_STEP_LIMIT / info->step : 1.0;
         double after = HUGE_VAL;

@@ -6,8 +6,9 @@
 
 enum { MWI_MAX_ATTEMPTS = 100 };
 
-/* Share of the misalignments below which no further step is tried. */
-static const double MWI_SMALLEST_STEP = 1e-8;
+/* Share of the misalignments below which no further step is tried; where only a contact is looked for, and not why there
+ * is none: Newton's method takes a larger one wherever two tangencies do not meet nearby. */
+static const double MWI_SMALLEST_STEP = 1e-8, MWI_SMALLEST_LOOK = 1.0 / 64.0;
 
 /* Where two tangencies meet and vanish, the smallest pivot falls as the square root of the way left. A search that ends
  * within MWI_SMALLEST_STEP of such a place sees a pivot of 1e-4 of the aligned drive's; this share leaves room for its
@@ -63,16 +64,16 @@ static inline double mwi_pivot_gap(const mw_model *m, const double *s, const dou
     return info.rank_gap;
 }
 
-/* Raise the misalignments from share `from` to 1, halving the step where Newton fails. Contact is lost on the way if
- * the equations become singular where the solutions end. */
-static inline int mwi_raise_misalignments(const mw_model *m, const double *p, double phi, double from, double *s, double *work,
-                               double *x, mw_info *info)
+/* Raise the misalignments from share `from` to 1, halving the step where Newton fails, down to `smallest`. Contact is
+ * lost on the way if the equations become singular where the solutions end. */
+static inline int mwi_raise_misalignments(const mw_model *m, const double *p, double phi, double from, double smallest,
+                                          double *s, double *work, double *x, mw_info *info)
 {
     double good[MW_MAX_UNKNOWNS];
     double share = from, step = 1.0 - from;
     const double regular = mwi_pivot_gap(m, s, x);
     for (int i = 0; i < m->nx; i++) good[i] = x[i];
-    for (int attempt = 0; attempt < MWI_MAX_ATTEMPTS && step > MWI_SMALLEST_STEP && share < 1.0; attempt++) {
+    for (int attempt = 0; attempt < MWI_MAX_ATTEMPTS && step > smallest && share < 1.0; attempt++) {
         const double next = share + step < 1.0 ? share + step : 1.0;
         mwi_setup_share(m, p, next, phi, s, work);
         if (mwi_ended_well(mwi_refine(m, s, x, info))) {
@@ -93,16 +94,18 @@ static inline int mwi_raise_misalignments(const mw_model *m, const double *p, do
     return info->status;
 }
 
-/* The tangency that Newton reaches from the start values, misalignments applied by continuation where it must be; s is
- * left set up for p and phi, work[np]. Returns info->status. */
-static inline int mwi_start(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+/* The tangency that Newton reaches from the start values, misalignments applied by continuation where it must be, in
+ * shares down to `smallest`; s is left set up for p and phi, work[np]. Returns info->status. */
+static inline int mwi_start(const mw_model *m, const double *p, double phi, double smallest, double *s, double *work,
+                            double *x, mw_info *info)
 {
     *info = mwi_ended(MW_CONVERGED, 0);
     info->guard = mwi_setup_share(m, p, 1.0, phi, s, work);
     if (info->guard) return info->status = MW_BAD_INPUT;
     if (!mwi_ended_well(mwi_from_middle(m, s, x, info))) {
         mwi_setup_share(m, p, 0.0, phi, s, work);
-        if (mwi_ended_well(mwi_from_middle(m, s, x, info))) mwi_raise_misalignments(m, p, phi, 0.0, s, work, x, info);
+        if (mwi_ended_well(mwi_from_middle(m, s, x, info)))
+            mwi_raise_misalignments(m, p, phi, 0.0, smallest, s, work, x, info);
         mwi_setup_share(m, p, 1.0, phi, s, work);
     }
     return info->status;

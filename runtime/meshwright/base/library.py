@@ -5,10 +5,10 @@ import ctypes
 import hashlib
 import os
 import re
-import runpy
-import tempfile
 import threading
 from functools import cache
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import numpy as np
@@ -65,28 +65,39 @@ def _parsed():
         declarations = ""
     kept = cache_folder() / f"interface-{hashlib.sha256(declarations.encode()).hexdigest()[:32]}.py"
     try:
-        return runpy.run_path(str(kept))["ffi"]
-    except (OSError, KeyError, SyntaxError, ImportError, TypeError, ValueError):
+        return _executed(kept)
+    except (OSError, AttributeError, SyntaxError, ImportError, TypeError, ValueError):
         return _written(declarations, kept)
+
+
+def _executed(place):
+    """The interface that was kept at ``place``; Python keeps its compiled form beside it."""
+    loader = SourceFileLoader("meshwright_interface", str(place))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module.ffi
 
 
 def _written(declarations, place):
     """The interface, parsed and, if it can be, kept at ``place``."""
+    import tempfile
+
     import cffi
+    from cffi.recompiler import make_py_source
 
     made = cffi.FFI()
     made.cdef(declarations)
     made.set_source("interface", None)
     with tempfile.TemporaryDirectory() as folder:
         written = Path(folder) / "interface.py"
-        made.emit_python_code(str(written))
+        make_py_source(made, "interface", str(written))
         with contextlib.suppress(OSError):  # a cache that cannot be written costs time, nothing else
             place.parent.mkdir(parents=True, exist_ok=True)
             handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=".interface.")
             with os.fdopen(handle, "w", encoding="utf-8") as stream:
                 stream.write(written.read_text(encoding="utf-8"))
             os.replace(temporary, place)
-        return runpy.run_path(str(written))["ffi"]
+        return _executed(written)
 
 
 ffi = _parsed()

@@ -14,6 +14,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.shop.balls import sizes
 from meshwright.shop.nominal import flank_words, nominal, teeth_of
 from meshwright.shop.tables import csv_text, dmis_text
@@ -53,7 +54,8 @@ def run(options):
         _write_points(options, drive)
     if options.over_balls is None:
         return 0
-    found = sizes(drive, options.member, options.over_balls)
+    with progress(1 + len(options.over_balls)) as step:
+        found = sizes(drive, options.member, options.over_balls, step)
     if options.json:
         write_json(options.json, {"schema": "meshwright.size/1", "sizes": [plain(size) for size in found]})
     else:
@@ -66,7 +68,11 @@ def _write_points(options, drive):
     if not 0.0 <= margin < MOST_MARGIN:
         raise UsageError(f"--margin-percent {margin:g}: must be from 0 to below {MOST_MARGIN:g}; 5 is usual")
     flanks = flank_words(drive) if options.both_flanks else (drive.design.tables["flank"],)
-    points = nominal(drive, options.member, lines, margin / 100.0, _teeth(options.teeth), flanks)
+    with progress(2) as step:
+        step("where contact uses the flanks")
+        drive.uses  # noqa: B018 (the drive keeps it)
+        step(f"points of the {options.member}")
+        points = nominal(drive, options.member, lines, margin / 100.0, _teeth(options.teeth), flanks)
     if not len(points.tooth):
         raise UsageError(f"--lines {options.lines}: no point is on the flank; take more lines or a smaller margin")
     if options.dmis:

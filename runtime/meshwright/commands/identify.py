@@ -11,6 +11,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
 from meshwright.shop.identify import POSE, Parameters, words
@@ -41,9 +42,12 @@ def run(options):
     held = [key.strip() for key in (options.hold or "").split(",") if key.strip()]
     if not keys:
         raise UsageError("--parameters: names no key; for example --parameters pose.rotation_arcsec")
-    parameters = Parameters.at(drive, options.member, points, keys, held, _tolerances(options.tolerance))
     sigma = None if options.sigma_um is None else 1e-3 * options.sigma_um
-    found = parameters.fit(points.deviations, sigma)
+    with progress(2) as step:
+        step("measured places on the flanks")
+        parameters = Parameters.at(drive, options.member, points, keys, held, _tolerances(options.tolerance))
+        step(f"{len(keys)} parameters")
+        found = parameters.fit(points.deviations, sigma)
     warnings = _warnings(drive, points)
     if options.toml:
         write_text(options.toml, designs.toml_text(_corrected(parameters, found)))

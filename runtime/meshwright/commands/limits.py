@@ -3,8 +3,9 @@
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note, shown
-from meshwright.limits import Request
+from meshwright.limits import STEPS, Request, limits_of
 
 #: More lines than this are taken for a mistake.
 MOST_LINES = 10_000
@@ -23,7 +24,9 @@ def run(options):
     if options.grid > MOST_LINES:
         raise UsageError(f"--grid {options.grid}: {MOST_LINES} lines at most; choose fewer")
     drive = common.drive_of(options)
-    found = drive.limits(Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid))
+    request = Request(options.section_y_mm, options.radius_mm, options.axial_mm, options.grid)
+    with progress(STEPS) as step:
+        found = limits_of(drive, request, step)
     if options.json:
         document = {"schema": "meshwright.limits/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | found.plain())
@@ -42,11 +45,17 @@ def _page(drive, found, axial):
                 lines.append(f"what [blank] leaves open bounds nothing, a standard blank does not fit: {entries}")
         elif isinstance(entries, list):
             where = " at the axial positions given" if axial and name == "undercut" else ""
-            lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}")
+            lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}{_on_flanks(entries)}")
             lines += [f"  {_line(entry)}" for entry in entries]
         elif entries is not None:
             lines.append(f"{name.replace('_', ' ')}: {_cell(entries)}")
     return "\n".join(lines) + "\n"
+
+
+def _on_flanks(entries):
+    """How many of the places lie on a flank, where that is known of them."""
+    known = [entry["on_flank"] for entry in entries if "on_flank" in entry]
+    return f", {sum(known) or 'none'} of them on a flank" if known else ""
 
 
 def _line(entry):

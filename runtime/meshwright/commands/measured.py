@@ -15,6 +15,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
 from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.pairs import Mesh
 from meshwright.shop.as_measured import AsMeasured
@@ -39,8 +40,10 @@ def run(options):
         raise UsageError(f"{options.measured}: deviation_um is empty in every line; fill in what was measured")
     if not options.contact and (options.tooth or options.phi_deg):
         raise UsageError("--phi-deg and --tooth are of the contact: add --contact")
-    found = measured(drive, options.member, points)
-    contact = _contact(drive, options, points) if options.contact else None
+    with progress(4 if options.contact else 1) as step:
+        step("measured flanks")
+        found = measured(drive, options.member, points)
+        contact = _contact(drive, options, points, step) if options.contact else None
     if options.json:
         write_json(options.json, document(found) | {"contact": contact and _plain(*contact)})
     else:
@@ -48,13 +51,17 @@ def run(options):
     return 0 if contact is None or all(kind is not None for kind in contact[0].kinds) else 1
 
 
-def _contact(drive, options, points):
-    """Contact and ease-off of the as-measured flank."""
+def _contact(drive, options, points, step):
+    """Contact and ease-off of the as-measured flank; ``step(text)`` is called three times."""
+    step("window of contact")
     flank = AsMeasured.of(drive, options.member, points, options.tooth)
     window = Mesh.of(drive).window
     ends = (window.begin.angle, window.end.angle) if window.complete else drive.about_the_middle([-0.5, 0.5])
     separation = drive.design.value("separation_mm", "contact")
-    return flank.tca(common.angles_of(options, drive)), flank.ease_off(*sorted(ends), separation)
+    step("contact of the measured flank")
+    contact = flank.tca(common.angles_of(options, drive))
+    step("ease-off")
+    return contact, flank.ease_off(*sorted(ends), separation)
 
 
 def _plain(tca, ease_off):

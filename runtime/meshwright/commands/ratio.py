@@ -11,6 +11,7 @@ import numpy as np
 from meshwright.base.files import write_json, write_text
 from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.commands.shown import shown
 from meshwright.contact.analysis import status_text
 from meshwright.contact.friction import mean_efficiency
@@ -37,16 +38,24 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    found = drive.contact_ratio()
-    contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
-    if options.certify:
-        certified = certified_window(drive, found.mesh.window)
-        contents["certificate"] = None if certified is None else certified.plain(drive.design.mirror.sign)
+    with progress(3 if options.certify else 2) as step:
+        step("window, transmission error and backlash")
+        found = drive.contact_ratio()
+        step("teeth in contact and efficiency")
+        contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
+        if options.certify:
+            step("proof of the branch")
+            contents["certificate"] = _certificate(drive, found)
     if options.json:
         write_json(options.json, contents)
     else:
         write_text("-", _page(drive, found, contents))
     return 0 if found.mesh.window.complete and not found.impossible else 1
+
+
+def _certificate(drive, found):
+    certified = certified_window(drive, found.mesh.window)
+    return None if certified is None else certified.plain(drive.design.mirror.sign)
 
 
 def document(drive, found, angles, friction=None):

@@ -15,6 +15,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_bytes, write_json, write_text
 from meshwright.commands import options as common
+from meshwright.commands.progress import progress
 from meshwright.flank import exports
 from meshwright.flank.polyhedron import solid_step
 from meshwright.flank.step import step
@@ -60,7 +61,11 @@ def run(options):
         found = section(drive, options.member, options.section, shape[0])
         write_json(options.json or "-", document(found) | {"section_y_mm": options.section})
         return 0
-    found = drive.surface(options.member, shape, options.region)
+    with progress(2) as step:
+        step("where contact uses the flanks")
+        drive.uses  # noqa: B018 (the drive keeps it)
+        step(f"{options.region} of the {options.member}")
+        found = drive.surface(options.member, shape, options.region)
     if options.vtu:
         write_text(options.vtu, exports.vtu(found))
     if options.stl:

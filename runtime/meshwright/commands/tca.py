@@ -12,12 +12,9 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
-from meshwright.contact.certificate import degrees_of
-from meshwright.contact.contact_line import contact_line
+from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
-from meshwright.cycle.edge import not_first
-from meshwright.pattern.pattern import contour
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000
@@ -73,6 +70,8 @@ def run(options):
     if options.all_contacts:
         _add_other_contacts(points, drive, result)
     if options.certify:
+        from meshwright.contact.certificate import degrees_of
+
         certificates = drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
         for point, certificate in zip(points, certificates.to_plain(), strict=True):
             point["certificate"] = certificate
@@ -103,6 +102,8 @@ def _add_contours(points, drive, result, count):
 
     Where the flanks touch along a line: the line, from edge to edge.
     """
+    from meshwright.pattern.pattern import contour
+
     with progress(len(points)) as step:
         for point, angle in zip(points, result.angles, strict=True):
             step(f"contact patch at {np.degrees(angle):.1f}°")
@@ -123,6 +124,8 @@ def _add_other_contacts(points, drive, result):
 
 
 def _line(drive, result, angle):
+    from meshwright.contact.contact_line import contact_line
+
     mirror = drive.design.mirror.sign
     start = result.solutions[int(np.argmin(np.abs(result.angles - angle)))]
     return (contact_line(drive, mirror * angle, start).points * [1.0, mirror, 1.0]).tolist()

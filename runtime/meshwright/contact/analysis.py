@@ -7,6 +7,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, record, text
+from meshwright.contact.model import DriveModel
 from meshwright.contact.results import OFF_TIP, TCA
 
 
@@ -76,7 +77,7 @@ def at_solutions(drive, angles, unknowns):
 class _Points:
     """Analysed points of the right-hand drive; rows without contact are NaN."""
 
-    drive: object
+    drive: DriveModel
     grid: np.ndarray
     x: np.ndarray
     records: np.ndarray

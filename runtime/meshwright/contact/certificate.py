@@ -14,6 +14,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact import exact
 from meshwright.contact.analysis import flag_names
+from meshwright.contact.model import DriveModel
 from meshwright.contact.results import impossible
 
 #: Outcomes by their number in the library.
@@ -66,7 +67,7 @@ class Certificates:
     exact decimals of the design and for the exact angle; that floating point found the same is not assumed.
     """
 
-    drive: object
+    drive: DriveModel
     records: np.ndarray
 
     @property

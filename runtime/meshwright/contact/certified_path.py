@@ -11,6 +11,7 @@ import numpy as np
 from meshwright.base.library import ffi, library, pointer, text
 from meshwright.contact.analysis import trace
 from meshwright.contact.certificate import OUTCOMES
+from meshwright.contact.model import DriveModel
 from meshwright.contact.results import ARCSEC
 
 #: Pieces shorter than this share of the range are not tried: there the branch is singular or ends.
@@ -41,7 +42,7 @@ class CertifiedPath:
     without turning point or crossing.
     """
 
-    drive: object
+    drive: DriveModel
     begin: float
     end: float
     pieces: tuple

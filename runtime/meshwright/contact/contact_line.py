@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import pointer
+from meshwright.contact.model import DriveModel
 
 #: Step along the line in natural sizes of the unknowns, and how many at most to either side.
 STEP = 0.125
@@ -103,7 +104,7 @@ def _whole(equations, start):
 class _Equations:
     """The drive's equations at one angle, unknowns in natural sizes."""
 
-    drive: object
+    drive: DriveModel
     state: np.ndarray
     scale: np.ndarray
     margins: tuple[int, ...]

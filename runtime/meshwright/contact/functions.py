@@ -6,13 +6,14 @@ from functools import cached_property
 import numpy as np
 
 from meshwright.base.library import library, pointer
+from meshwright.contact.model import DriveModel
 
 
 @dataclass(frozen=True)
 class Function:
     """One generated function of a drive; call it with its arguments (inner units, broadcast against each other)."""
 
-    drive: object
+    drive: DriveModel
     description: dict
     pointer: object
 

@@ -11,15 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
+from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placements_at
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
 
 #: Cells of the mesh over the wheel's flank, across and along.
 CELLS = (12, 24)
-
-#: A contact further inside the other flank than this, mm, is not the first.
-OVERLAP = 1e-6
 
 #: Turn of the wheel by which its sense of rotation is read off, rad.
 TURN = 0.01
@@ -160,7 +158,7 @@ class _Search:
     and ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
     """
 
-    drive: object
+    drive: DriveModel
     table: object
     kept: tuple
     work: np.ndarray
@@ -186,6 +184,9 @@ class _Search:
             return None, "the flanks do not touch, not even aligned: there is nothing to start from"
         used = solutions[:ANGLES][known[:ANGLES]] if known[:ANGLES].any() else solutions[known]
         solutions, angles = solutions[known], angles[known]
+        regular = _on_regular_flanks(drive, solutions)
+        if regular.any():
+            solutions, angles = solutions[regular], angles[regular]
         uses = Uses.of(drive, used, beyond=BEYOND)
         whole = region(drive, drive.design.description["bodies"][1]["name"], "flank", uses)
         triangles = mesh(whole, CELLS)
@@ -248,6 +249,12 @@ class _Search:
             pointer(start), pointer(self.work), found,
         )  # fmt: skip
         return found
+
+
+def _on_regular_flanks(drive, solutions):
+    """Whether solutions (N, nx) lie before the singular lines of both flanks: beyond them is another sheet."""
+    bodies = drive.design.description["bodies"]
+    return np.all([~(drive.flank(b["name"])(solutions[:, b["unknowns"]]).regular < 0.0) for b in bodies], axis=0)
 
 
 def _placed(drive, angles, x):

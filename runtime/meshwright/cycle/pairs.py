@@ -11,6 +11,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from meshwright.base.roots import bracketed
+from meshwright.contact.model import DriveModel
 from meshwright.cycle.windows import Window, contact_window
 
 #: Sampling of one pitch when looking for changes in the number of teeth in contact.
@@ -36,7 +37,7 @@ class Pair:
 class Mesh:
     """All tooth pairs of a drive over one window. Angles in rad; pinion angles as the user counts them."""
 
-    drive: object
+    drive: DriveModel
     window: Window
 
     @classmethod

@@ -11,6 +11,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer, text
 from meshwright.contact.analysis import analyse
+from meshwright.contact.model import DriveModel
 
 #: Spacing of the stored solutions as a share of the pitch.
 NODES_PER_PITCH = 16
@@ -29,11 +30,11 @@ class Path:
     ``ended`` are the status words of what stopped the branch below and above; "" where the search stopped.
     """
 
-    drive: object
+    drive: DriveModel
     angles: np.ndarray
     unknowns: np.ndarray
     ended: tuple[str, str] = ("", "")
-    state: np.ndarray = field(default=None, repr=False)
+    state: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def spacing(self):
@@ -49,15 +50,16 @@ class Path:
     def start(cls, drive):
         """The path through the first solvable angle of :data:`TRIED`, None if there is none; and a status word."""
         tried, reference = TRIED * drive.pitch(), drive.design.reference_angle
+        angles = reference + np.stack([tried, -tried], axis=1).ravel()[1:]
         first = None
-        for angle in reference + np.stack([tried, -tried], axis=1).ravel()[1:]:
-            found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
-            (status,) = found.status
-            if status == "converged":
-                return cls.through(drive, angle, found.solutions[0]), status
-            if status == "line_contact":
-                return None, status
-            first = first or status
+        for part in (angles[:1], angles[1:]):  # nearly always the first angle is enough
+            found = analyse(drive, drive.design.mirror.sign * part)
+            for angle, status, unknowns in zip(part, found.status, found.solutions, strict=True):
+                if status == "converged":
+                    return cls.through(drive, angle, unknowns), status
+                if status == "line_contact":
+                    return None, status
+                first = first or status
         return None, first
 
     def extended(self, to):
@@ -90,13 +92,14 @@ class Path:
     def solve(self, angles):
         """Unknowns (M, nx) at input angles (M,) in any order; NaN beyond the ends of the path."""
         angles = self._reached(np.atleast_1d(np.asarray(angles, dtype=float)))
-        solved = np.full((len(angles), self.unknowns.shape[1]), np.nan)
         nodes = np.clip(np.searchsorted(self.angles, angles), 1, len(self.angles)) - 1
-        for k, angle in enumerate(angles):
-            if self.angles[0] <= angle <= self.angles[-1]:
-                x, _ = self._follow(self.angles[nodes[k]], self.unknowns[nodes[k]], angles[k : k + 1])
-                if len(x):
-                    solved[k] = x[0]
+        nodes[~((self.angles[0] <= angles) & (angles <= self.angles[-1]))] = -1
+        model, solved = self.drive.model, np.empty((len(angles), self.unknowns.shape[1]))
+        library().mw_from_nodes(
+            model, pointer(self.state), pointer(np.ascontiguousarray(self.angles)),
+            pointer(np.ascontiguousarray(self.unknowns)), pointer(nodes.astype(np.int32), "int[]"), pointer(angles),
+            len(angles), pointer(solved), ffi.new("mw_info[]", len(angles)),
+        )  # fmt: skip
         return solved
 
     def _reached(self, angles):
@@ -112,12 +115,11 @@ class Path:
         """Observations (M, no) at input angles, of the solutions there unless other unknowns are given."""
         angles = np.atleast_1d(np.asarray(angles, dtype=float))
         unknowns = self.solve(angles) if unknowns is None else unknowns
-        observed = np.full((len(angles), self.drive.model.no), np.nan)
-        for k, angle in enumerate(angles):
-            if np.all(np.isfinite(unknowns[k])):
-                self.drive.model.set_phi(pointer(self.state), angle)
-                row = np.ascontiguousarray(unknowns[k])
-                self.drive.model.observe(pointer(self.state), pointer(row), pointer(observed[k]))
+        angles, unknowns = np.ascontiguousarray(angles), np.ascontiguousarray(unknowns)
+        observed = np.empty((len(angles), self.drive.model.no))
+        library().mw_observe(
+            self.drive.model, pointer(self.state), pointer(angles), pointer(unknowns), len(angles), pointer(observed)
+        )
         return observed
 
     def levers(self, angles):

@@ -1,7 +1,8 @@
 """The generated descriptions of the drives: what keys a family has, what each number means.
 
 A family is known from the tables that the compiler writes and from the descriptions in folders of drives; the
-description of a drive that is in none of them is made when it is first asked for (:mod:`meshwright.base.drives`).
+description of a drive that is in none of them is made when it is first asked for
+(:mod:`meshwright.base.first_use`).
 """
 
 import json

@@ -1,7 +1,6 @@
 """Designs: read, checked and turned into the parameter vector of a drive."""
 
 import copy
-import difflib
 import hashlib
 import json
 import math
@@ -13,7 +12,6 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import pydantic
 
 from meshwright.base.drives import folders
 from meshwright.base.errors import DesignError
@@ -41,6 +39,8 @@ def text_of(name_or_path):
     if not path.exists():
         path = Path(name_or_path)
     if not path.exists():
+        import difflib
+
         near = difflib.get_close_matches(str(name_or_path), packaged_names(), n=3)
         hint = f"did you mean {', '.join(near)}?" if near else "`meshwright drives` lists the packaged designs"
         raise DesignError("DESIGN", str(name_or_path), "no packaged design and no file of that name", hint)
@@ -236,7 +236,7 @@ def validated(tables, places=None):
     family = tables["drive"]
     if not isinstance(family, str) or family not in known:
         raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
-    return family, _validated(family, tables, places)
+    return family, schema.checked(family, tables, places)
 
 
 def check(tables, places=None):
@@ -288,62 +288,6 @@ def by_rules(tables):
         if expression.value(guard["positive"], symbols) <= 0.0:
             raise _guard_error(guard, checked)
     return checked, symbols
-
-
-def _validated(family, tables, places):
-    try:
-        return schema.design_model(family, places).model_validate(tables).model_dump()
-    except pydantic.ValidationError as error:
-        # a misspelt key is what the missing one was meant to be: it is named first
-        first = sorted(error.errors(), key=lambda problem: problem["type"] != "extra_forbidden")[0]
-        raise _first_error(family, first, places) from None
-
-
-def _first_error(family, problem, places):
-    place = [str(part) for part in problem["loc"] if not str(part).startswith(("function-", "constrained"))]
-    key = ".".join(dict.fromkeys(p for p in place if p not in ("float", "int")))
-    value, kind, context = problem.get("input"), problem["type"], problem.get("ctx", {})
-    match kind:
-        case "missing":
-            return DesignError(key, None, "the key is missing", "add it to the design")
-        case "extra_forbidden":
-            near = difflib.get_close_matches(place[-1], _known_keys(family, place, places), n=1)
-            remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
-            return DesignError(key, value, "unknown key", remedy)
-        case "greater_than":
-            return DesignError(key, value, f"must be greater than {context['gt']:g}", "choose a larger value")
-        case "greater_than_equal":
-            return DesignError(key, value, f"must not be less than {context['ge']:g}", "choose a larger value")
-        case "less_than":
-            return DesignError(key, value, f"must be less than {context['lt']:g}", "choose a smaller value")
-        case "less_than_equal":
-            return DesignError(key, value, f"must not be greater than {context['le']:g}", "choose a smaller value")
-        case "string_pattern_mismatch":
-            return DesignError(key, value, "holds control characters", "write letters, digits and blanks")
-        case "string_too_long":
-            return DesignError(key, value, f"longer than {context['max_length']} letters", "choose a shorter name")
-        case "finite_number":
-            return DesignError(key, value, "not a finite number", "give a finite number")
-        case "literal_error":
-            return DesignError(key, value, "not one of the possible words", f"use {context['expected']}")
-        case "int_type" | "int_from_float":
-            point = isinstance(value, float)
-            remedy = "write it without a decimal point" if point else "write a whole number without quotes"
-            return DesignError(key, value, "must be a whole number", remedy)
-        case "float_type":
-            return DesignError(key, value, "must be a number", "write a number without quotes")
-        case "model_type" | "model_attributes_type":
-            return DesignError(key, value, "must be a table", f"write its keys below [{key}]")
-        case "string_type":
-            return DesignError(key, value, "must be text", "write it in quotes")
-        case _:
-            return DesignError(key, value, problem["msg"], "correct the value")
-
-
-def _known_keys(family, place, places):
-    if len(place) == 1:
-        return list(schema.design_model(family, places).model_fields)
-    return [entry["key"] for entry in schema.keys(family, places) if entry["table"] == place[0]]
 
 
 def words_of(family, checked):

@@ -1,32 +1,156 @@
-"""Pydantic models of a design file, made from the generated descriptions: one source for checks and JSON Schema."""
+"""What a design file may say: its tables and keys, made from the generated descriptions.
 
+One list of keys is the source of the check of a file, of the JSON Schema and of ``meshwright drives``.
+"""
+
+import math
+import numbers
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cache
-from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field, StrictInt, create_model
-
+from meshwright.base.errors import DesignError
 from meshwright.design import description as metadata
 
-_STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-
-HAND = Literal["right", "left"]
+HANDS = ("right", "left")
 
 #: Magnitudes beyond which a number of a design, in the unit of its key, is taken for a mistake: nothing that is made
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
 LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
+#: Longest name of a design, and what it must not hold.
+LONGEST_NAME = 200
+CONTROLS = r"\x00-\x1f\x7f-\x9f\u2028\u2029"
 
-def _field(parameter):
-    """Type and default of one key: a choice of words, or a number with open bounds in the key's own unit."""
+#: Name of a comparison that a number must pass → its reason where it fails, the remedy, its word in JSON Schema.
+COMPARISONS = {
+    "gt": ("must be greater than", "choose a larger value", "exclusiveMinimum"),
+    "ge": ("must not be less than", "choose a larger value", "minimum"),
+    "lt": ("must be less than", "choose a smaller value", "exclusiveMaximum"),
+    "le": ("must not be greater than", "choose a smaller value", "maximum"),
+}
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key: ``kind`` is "number", "integer", "word" (one of ``words``) or "text".
+
+    ``bounds`` of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``. A key that
+    is not ``required`` has a ``default``, None where it is left open.
+    """
+
+    kind: str
+    meaning: str = ""
+    required: bool = False
+    default: str | None = None
+    bounds: dict[str, float] = field(default_factory=dict)
+    words: tuple[str, ...] = ()
+
+    def checked(self, place: str, value: object) -> float | int | str | None:
+        """The value, a number as Python's own; raises :class:`~meshwright.base.errors.DesignError` naming ``place``."""
+        if value is None and not self.required and self.default is None:
+            return None
+        match self.kind:
+            case "word":
+                return _word(place, value, self.words)
+            case "text":
+                return _name(place, value)
+            case "integer":
+                return self._bounded(place, value, _whole(place, value))
+            case _:
+                return self._bounded(place, value, _real(place, value))
+
+    def _bounded(self, place: str, given: object, number: float) -> float:
+        for comparison, bound in self.bounds.items():
+            if not _COMPARED[comparison](number, bound):
+                reason, remedy, _ = COMPARISONS[comparison]
+                raise DesignError(place, given, f"{reason} {bound:g}", remedy)
+        return number
+
+    def json_schema(self) -> dict[str, object]:
+        """The key as JSON Schema; one that may be left open may be null."""
+        opened = not self.required and self.default is None
+        if self.kind == "word":
+            schema: dict[str, object] = {"enum": [*self.words, *([None] if opened else [])]}
+        else:
+            kind = "string" if self.kind == "text" else self.kind
+            schema = {"type": [kind, "null"] if opened else kind}
+        schema |= {COMPARISONS[comparison][2]: bound for comparison, bound in self.bounds.items()}
+        if self.kind == "text":
+            schema |= {"maxLength": LONGEST_NAME, "pattern": f"^[^{CONTROLS}]*$"}
+        return schema | ({"description": self.meaning} if self.meaning else {}) | (
+            {} if self.required else {"default": self.default}
+        )  # fmt: skip
+
+
+_COMPARED = {
+    "gt": lambda number, bound: number > bound,
+    "ge": lambda number, bound: number >= bound,
+    "lt": lambda number, bound: number < bound,
+    "le": lambda number, bound: number <= bound,
+}
+
+
+def _real(place: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise DesignError(place, value, "must be a number", "write a number without quotes")
+    try:
+        number = float(value)
+    except OverflowError:  # a whole number of more than three hundred digits
+        number = math.copysign(1e308, 1.0 if value >= 0 else -1.0)  # type: ignore[operator]
+    if not math.isfinite(number):
+        raise DesignError(place, value, "not a finite number", "give a finite number")
+    return number
+
+
+def _whole(place: str, value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        point = isinstance(value, float)
+        remedy = "write it without a decimal point" if point else "write a whole number without quotes"
+        raise DesignError(place, value, "must be a whole number", remedy)
+    return int(value)
+
+
+def _word(place: str, value: object, words: tuple[str, ...]) -> str:
+    if not isinstance(value, str) or value not in words:
+        *most, last = map(repr, words)
+        listed = f"{', '.join(most)} or {last}" if most else last
+        raise DesignError(place, value, "not one of the possible words", f"use {listed}")
+    return value
+
+
+def _name(place: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise DesignError(place, value, "must be text", "write it in quotes")
+    if len(value) > LONGEST_NAME:
+        raise DesignError(place, value, f"longer than {LONGEST_NAME} letters", "choose a shorter name")
+    if re.search(f"[{CONTROLS}]", value):
+        raise DesignError(place, value, "holds control characters", "write letters, digits and blanks")
+    return value
+
+
+@dataclass(frozen=True)
+class Form:
+    """What a design file of a family may say: its ``loose`` keys and the keys of each of its ``tables``."""
+
+    loose: dict[str, Key]
+    tables: dict[str, dict[str, Key]]
+
+    def needed(self, table: str) -> bool:
+        """Whether a table must be there: it has a required key."""
+        return any(key.required for key in self.tables[table].values())
+
+
+def _parameter(parameter: dict) -> Key:
+    """The key of a parameter: a choice of words, or a number with bounds in the key's own unit."""
+    meaning, required = parameter["meaning"], parameter["required"]
     if parameter["choices"]:
-        word = Annotated[Literal[tuple(parameter["choices"])], Field(description=parameter["meaning"])]
-        return (word, ...) if parameter["required"] else (word | None, None)
-    base = StrictInt if parameter["integer"] else float
-    annotated = Annotated[base, Field(description=parameter["meaning"], **bounds(parameter))]
-    return (annotated, ...) if parameter["required"] else (annotated | None, None)
+        return Key("word", meaning, required, words=tuple(parameter["choices"]))
+    return Key("integer" if parameter["integer"] else "number", meaning, required, bounds=bounds(parameter))
 
 
-def bounds(parameter):
+def bounds(parameter: dict) -> dict[str, float]:
     """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``.
 
     Where the description leaves an end open, it is that of :data:`LARGEST`.
@@ -41,79 +165,102 @@ def bounds(parameter):
     return found
 
 
-def _material_fields():
+def _material_keys() -> dict[str, Key]:
     """Elastic constants of both members, or of one; what is left out is that of both, or steel."""
-    modulus = Annotated[float, Field(gt=0.0)]
-    poisson = Annotated[float, Field(gt=-1.0, lt=0.5)]
     return {
-        f"{key}{ending}": (Annotated[kind | None, Field(description=f"{meaning}{of}")], None)
-        for key, kind, meaning in (
-            ("youngs_modulus_mpa", modulus, "Young's modulus"),
-            ("poisson_ratio", poisson, "Poisson's ratio"),
+        f"{key}{ending}": Key("number", f"{meaning}{of}", bounds=limits)
+        for key, limits, meaning in (
+            ("youngs_modulus_mpa", {"gt": 0.0}, "Young's modulus"),
+            ("poisson_ratio", {"gt": -1.0, "lt": 0.5}, "Poisson's ratio"),
         )
         for ending, of in (("", " of both members"), ("_pinion", " of the pinion"), ("_wheel", " of the wheel"))
     }
 
 
-def _variant_fields(family):
-    """Keys whose words choose the drive within the family."""
-    words, fields = {}, {}
+def _variant_keys(family: metadata.Family) -> Iterator[tuple[str, str, Key]]:
+    """Table, key and :class:`Key` of the words that choose the drive within the family."""
+    words: dict[str, dict[str, None]] = {}
     for variant in family.variants.values():
         for place, allowed in variant.items():
             words.setdefault(place, {}).update(dict.fromkeys(allowed))
     for place, allowed in words.items():
-        table, key = metadata.table_and_key(place)
-        word = Literal[tuple(allowed)]
-        default = family.variant_defaults.get(place, ...)
-        if default in words:
-            word, default = word | None, None  # follows the word of another key
-        fields.setdefault(table, {})[key] = (word, default)
-    return fields
+        required = place not in family.variant_defaults
+        default = family.variant_defaults.get(place)
+        follows = default in words  # the word of another key, filled in later
+        yield *metadata.table_and_key(place), Key(
+            "word", required=required, default=None if follows else default, words=tuple(allowed)
+        )
 
 
-def _has_required(model):
-    return any(field.is_required() for field in model.model_fields.values())
-
-
-def design_model(family, places=None):
-    """The pydantic model of a family's design file."""
-    return _design_model(metadata.families(places)[family])
+def form(family: str, places: tuple | None = None) -> Form:
+    """The :class:`Form` of a family's design files; ``places`` are the folders of drives that are searched."""
+    return _form(metadata.families(places)[family])
 
 
 @cache
-def _design_model(family):
-    tables = {}
+def _form(family: metadata.Family) -> Form:
+    tables: dict[str, dict[str, Key]] = {}
     for parameter in family.parameters:
         if parameter["table"] != "flank":
-            tables.setdefault(parameter["table"], {})[parameter["key"]] = _field(parameter)
-    for table, fields in _variant_fields(family).items():
-        tables[table] |= fields
+            tables.setdefault(parameter["table"], {})[parameter["key"]] = _parameter(parameter)
+    for table, key, choice in _variant_keys(family):
+        tables[table][key] = choice
     if family.handed:
-        tables["design"]["hand"] = (HAND, family.handed)
-    tables["material"] = _material_fields()
-    models = {
-        name: create_model(f"{family.name}-{name}", __config__=_STRICT, **fields) for name, fields in tables.items()
+        tables["design"]["hand"] = Key("word", default=family.handed, words=HANDS)
+    tables["material"] = _material_keys()
+    flanks = tuple(next(p for p in family.parameters if p["table"] == "flank")["choices"])
+    loose = {
+        "drive": Key("word", required=True, words=(family.name,)),
+        "name": Key("text", default=""),
+        "flank": Key("word", default=flanks[0], words=flanks),
     }
-    flanks = next(p for p in family.parameters if p["table"] == "flank")["choices"]
-    others = {
-        name: (model, ...) if _has_required(model) else (model, Field(default_factory=model))
-        for name, model in models.items()
-        if name != "design"
-    }
-    return create_model(
-        family.name,
-        __config__=_STRICT,
-        drive=(Literal[family.name], ...),
-        name=(Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]*$")], ""),
-        flank=(Literal[tuple(flanks)], next(iter(flanks))),
-        design=(models["design"], ...),
-        **others,
-    )
+    return Form(loose, {"design": tables.pop("design"), **tables})
 
 
-def json_schema():
+def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
+    """The tables with every key of the family, each checked by itself; None where one is left open.
+
+    Raises :class:`~meshwright.base.errors.DesignError` for the first thing wrong with them. A misspelt key is what the
+    missing one was meant to be: it is named first.
+    """
+    known = form(family, places)
+    for table, keys in known.tables.items():
+        if isinstance(entries := tables.get(table), dict):
+            _refuse_unknown(entries, keys, f"{table}.")
+    _refuse_unknown(tables, known.loose | known.tables, "")
+    checked_tables: dict[str, object] = {name: _given(tables, name, name, key) for name, key in known.loose.items()}
+    for table, keys in known.tables.items():
+        if table not in tables and known.needed(table):
+            raise DesignError(table, None, "the key is missing", "add it to the design")
+        entries = tables.get(table, {})
+        if not isinstance(entries, dict):
+            raise DesignError(table, entries, "must be a table", f"write its keys below [{table}]")
+        checked_tables[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
+    return checked_tables
+
+
+def _refuse_unknown(entries: dict, known: dict, before: str) -> None:
+    for name, value in entries.items():
+        if name not in known:
+            import difflib
+
+            near = difflib.get_close_matches(str(name), known, n=1)
+            remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
+            raise DesignError(f"{before}{name}", value, "unknown key", remedy)
+
+
+def _given(entries: dict, name: str, place: str, key: Key) -> float | int | str | None:
+    """The checked value of a key, its default where it is left out."""
+    if name in entries:
+        return key.checked(place, entries[name])
+    if key.required:
+        raise DesignError(place, None, "the key is missing", "add it to the design")
+    return key.default
+
+
+def json_schema() -> dict[str, object]:
     """JSON Schema of every family's design file."""
-    schemas = {family: design_model(family).model_json_schema() for family in metadata.families()}
+    schemas = {family: _family_schema(form(family)) for family in metadata.families()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "meshwright design",
@@ -122,27 +269,25 @@ def json_schema():
     }
 
 
-def keys(family, places=None):
-    """Keys of a family as plain data, for ``meshwright drives``."""
-    model = design_model(family, places).model_json_schema()
-    definitions = model.pop("$defs")
-    listed = []
-    for name, definition in definitions.items():
-        table = name.removeprefix(f"{family}-")
-        required = definition.get("required", [])
-        for key, entry in definition["properties"].items():
-            listed.append(
-                {
-                    "table": table,
-                    "key": key,
-                    "required": key in required,
-                    "meaning": _of(entry, "description", ""),
-                    "words": _of(entry, "enum", []),
-                }
-            )
-    return listed
+def _family_schema(known: Form) -> dict[str, object]:
+    tables = {name: _object(keys) for name, keys in known.tables.items()}
+    whole = _object(known.loose)
+    properties = {name: key.json_schema() for name, key in known.loose.items()} | tables
+    required = [*whole.get("required", []), *(name for name in known.tables if known.needed(name))]
+    return whole | {"properties": properties, "required": required}
 
 
-def _of(entry, property_name, default):
-    """A property of a key's schema, or of the first alternative that has it."""
-    return next((e[property_name] for e in (entry, *entry.get("anyOf", [])) if property_name in e), default)
+def _object(keys: dict[str, Key]) -> dict:
+    required = [name for name, key in keys.items() if key.required]
+    properties = {name: key.json_schema() for name, key in keys.items()}
+    schema = {"type": "object", "additionalProperties": False, "properties": properties}
+    return schema | ({"required": required} if required else {})
+
+
+def keys(family: str, places: tuple | None = None) -> list[dict]:
+    """Keys of a family's tables as plain data, for ``meshwright drives``."""
+    return [
+        {"table": table, "key": name, "required": key.required, "meaning": key.meaning, "words": list(key.words)}
+        for table, entries in form(family, places).tables.items()
+        for name, key in entries.items()
+    ]

@@ -17,11 +17,15 @@ _MERGE_TOLERANCE = 1e-8
 
 @dataclass(frozen=True)
 class BodyMesh:
-    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore, outer cuts and cut ends."""
+    """Nodes in the body frame; teeth in the order given; rim nodes are those of bore, outer cuts and cut ends.
+
+    rows: elements from face to face; those of a quadrilateral of the section follow one another.
+    """
 
     mesh: HexMesh
     teeth: tuple[dict[str, FaceSet], ...]
     rim: Ints
+    rows: int
 
     def nodes(self, tooth: int, name: str) -> Ints:
         """Distinct nodes of a face set of a tooth."""
@@ -55,7 +59,11 @@ def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     """Mesh neighbouring teeth from left to right, each graded to its own zone."""
     rows = max(face_rows(tooth.form, tooth.zone, density) for tooth in teeth)
     stations = Stations.between([section_values(tooth.form, tooth.zone, density, rows) for tooth in teeth])
-    single = [mesh_tooth(t.form, t.zone, density, at) for t, at in zip(teeth, stations, strict=True)]
+    single: list[ToothMesh] = []
+    for k, (tooth, at) in enumerate(zip(teeth, stations, strict=True)):
+        same = k > 0 and tooth.form is teeth[k - 1].form and tooth.zone is teeth[k - 1].zone
+        same = same and all(np.array_equal(a, b) for a, b in zip(at, stations[k - 1], strict=True))
+        single.append(single[-1] if same else mesh_tooth(tooth.form, tooth.zone, density, at))
     placed = [
         HexMesh(moved(place.motion, tooth.mesh.nodes), tooth.mesh.elements)
         for tooth, place in zip(single, teeth, strict=True)
@@ -66,7 +74,7 @@ def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     rim_faces = [tooth["bore"] for tooth in faces] + [faces[0]["left_cut"], faces[-1]["right_cut"]]
     rim_faces += [faces[k]["ends"] for k, tooth in enumerate(teeth) if tooth.form.cut_ends]
     rim = np.unique(np.concatenate([mesh.face_nodes(f).ravel() for f in rim_faces]))
-    return BodyMesh(mesh, faces, rim)
+    return BodyMesh(mesh, faces, rim, rows)
 
 
 def _shifted(tooth: ToothMesh, offset: int) -> dict[str, FaceSet]:

@@ -23,7 +23,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
-from meshwright.fe.elastic import factorise
+from meshwright.fe.elastic import flexibility
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.halfspace import mean_displacement
 from meshwright.fe.hexahedra import Floats, Ints, nodal_areas
@@ -93,13 +93,13 @@ def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: i
     order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
     body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _density(shape, per_patch))
 
-    def corners(later: int) -> Floats:
+    def corners(later: int) -> Ints:
         flank = body.teeth[order.index(later)][f"flank_{member.working}"]
         return _by_patch(body.mesh.face_nodes(flank), shape, per_patch)
 
-    patches = [_patch_vectors(body.mesh.nodes, corners(k)) for k in range(neighbours + 1)]
-    moved = factorise(body.mesh, member.material, body.rim).displacements(-np.moveaxis(patches[0], 0, -1))
-    own, *later = (-np.einsum("pnd,ndq->pq", patch, moved) for patch in patches)
+    nodes, forces = _patch_loads(body.mesh.nodes, [corners(k) for k in range(neighbours + 1)])
+    moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces)
+    own, *later = moved[:, : shape[0] * shape[1]].reshape(neighbours + 1, -1, shape[0] * shape[1])
     middles = body.mesh.nodes[corners(0)].mean(axis=(1, 2)).reshape(*shape, 3)
     return [own - _half_space(member, middles), *later]
 
@@ -119,13 +119,18 @@ def _by_patch(quads: Ints, shape: tuple[int, int], per_patch: int) -> Ints:
     return split.transpose(0, 2, 1, 3, 4).reshape(shape[0] * shape[1], per_patch**2, 4)
 
 
-def _patch_vectors(nodes: Floats, patches: Ints) -> Floats:
-    """(P Q, N, 3) consistent nodal forces of a unit load along the outward normal, spread evenly over each patch."""
-    vectors = np.zeros((len(patches), len(nodes), 3))
-    for patch, faces in zip(vectors, patches, strict=True):
+def _patch_loads(nodes: Floats, teeth: list[Ints]) -> tuple[Ints, Floats]:
+    """Nodes (K,) and consistent forces (K, 3, T P Q) on them of a unit load into each patch, spread evenly over it.
+
+    teeth: the faces (P Q, F, 4) of the patches of T teeth.
+    """
+    patches = np.concatenate(teeth)
+    loaded = np.unique(patches)
+    forces = np.zeros((len(loaded), 3, len(patches)))
+    for case, faces in enumerate(patches):
         used, areas = nodal_areas(nodes, faces)
-        patch[used] = areas / np.linalg.norm(areas.sum(axis=0))
-    return vectors
+        forces[np.searchsorted(loaded, used), :, case] = -areas / np.linalg.norm(areas.sum(axis=0))
+    return loaded, forces
 
 
 def _half_space(member: Member, middles: Floats) -> Floats:

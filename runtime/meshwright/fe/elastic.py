@@ -1,4 +1,4 @@
-"""Linear elasticity of a hexahedral mesh, factorised once for many load cases.
+"""Linear elasticity of a hexahedral mesh: its stiffness, and its flexibility under many load cases.
 
 Eight-node elements with incompatible modes that pass the patch test: R. L. Taylor, P. J. Beresford and E. L. Wilson,
 A non-conforming element for stress analysis (1976).
@@ -6,12 +6,11 @@ A non-conforming element for stress analysis (1976).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
-from scipy.sparse.linalg import SuperLU, splu
 
+from meshwright.fe import factor
+from meshwright.fe.dissection import dissected
 from meshwright.fe.hexahedra import GAUSS_POINTS, Floats, HexMesh, Ints, jacobians, shape_derivatives
 from meshwright.fe.material import Material
 
@@ -19,29 +18,16 @@ from meshwright.fe.material import Material
 _AT_ONCE = 128
 
 
-@dataclass(frozen=True)
-class ElasticBody:
-    """Factorised stiffness of a mesh of N nodes with some nodes held; ``free`` are the free degrees of freedom."""
+def flexibility(mesh: HexMesh, material: Material, held: Ints, rows: int, nodes: Ints, forces: Floats) -> Floats:
+    """(C, C) displacements in mm, each the mean that one of C load cases weighs, by unit loads of the others.
 
-    node_count: int
-    free: Ints
-    factor: SuperLU
-
-    def displacements(self, forces: Floats) -> Floats:
-        """Displacements (N, 3, C) in mm under nodal forces (N, 3, C) in N of C load cases."""
-        cases = forces.reshape(3 * self.node_count, -1)
-        solution = np.zeros_like(cases)
-        solution[self.free] = self.factor.solve(np.ascontiguousarray(cases[self.free]))
-        return solution.reshape(forces.shape)
-
-
-def factorise(mesh: HexMesh, material: Material, held: Ints) -> ElasticBody:
-    """Assemble and factorise; ``held`` nodes (K,) do not move."""
-    stiffness = assemble(mesh, material)
-    fixed = (3 * held[:, None] + np.arange(3)).ravel()
-    free = np.setdiff1d(np.arange(3 * len(mesh.nodes)), fixed)
-    factor = splu(stiffness[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
-    return ElasticBody(len(mesh.nodes), free, factor)
+    ``forces`` (K, 3, C) act on distinct ``nodes`` (K,): with the stiffness K it is forces^T K^-1 forces. ``held`` nodes
+    do not move; ``rows`` elements of each quadrilateral of the mesh's section follow one another.
+    """
+    return factor.work(
+        dissected(mesh, rows, held), mesh.elements, element_stiffness(mesh.nodes[mesh.elements], material.stiffness),
+        nodes, forces,
+    )  # fmt: skip
 
 
 def assemble(mesh: HexMesh, material: Material) -> csc_matrix:

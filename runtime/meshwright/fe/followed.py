@@ -88,11 +88,14 @@ class Line:
         """Points and normals over profile parameter and z, between the line's own sections."""
         profile, sections = np.broadcast_arrays(profile, sections)
         places, wanted = profile.ravel(), sections.ravel()
-        first, last = (np.interp(wanted, self.sections, row) for row in (self.profile[0], self.profile[-1]))
-        share = (places - first) / (last - first)
-        face = in_section(self.generated, places, self._near(np.stack([share, wanted], axis=1)), wanted)
+        face = in_section(self.generated, places, self.face_at(places, wanted), wanted)
         found = self.generated(places, face)
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
+
+    def face_at(self, profile: Floats, sections: Floats) -> Floats:
+        """Angles (N,) near the surface at profile parameters (N,) and sections (N,), between the line's own."""
+        first, last = (np.interp(sections, self.sections, row) for row in (self.profile[0], self.profile[-1]))
+        return self._near(np.stack([(profile - first) / (last - first), sections], axis=1))
 
     def at(self, profile: Floats) -> FlankPoints:
         """The surface at a profile parameter (K,) in each section."""

@@ -14,7 +14,7 @@ import numpy as np
 from meshwright.base.errors import DesignError
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.fe.followed import Generated, Line, level
+from meshwright.fe.followed import Bools, Generated, Line, held, in_section, level
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves
@@ -28,7 +28,7 @@ _SAMPLES = 33
 # Steps from the middle of the flank to either end, or along the fillet.
 _STEPS = 64
 _BISECTIONS, _NEWTON_STEPS = 50, 30
-_ON_PLACE = 1e-10
+_ON_PLACE, _STILL = 1e-10, 1e-13
 
 
 def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, float]) -> ToothSide:
@@ -39,12 +39,10 @@ def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, fl
     """
     values = np.linspace(*faces, _SAMPLES)
     wheel = _Wheel.of(drive, member, span, faces)
-    flank, fillet = wheel.line(values), wheel.root(values)
-    wheel.ends(values)  # both now, rather than when a mesh asks for them
-    wheel.tips(values)
+    fillet, known = wheel.root(values), _Known.of(wheel, values)
     return ToothSide(
-        SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: wheel.ends(sections)[1]),
-        SectionCurves(flank.surface, _axial, lambda sections: wheel.ends(sections)[0], wheel.tips),
+        SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: known.ends(sections)[1]),
+        SectionCurves(known.line.surface, _axial, lambda sections: known.ends(sections)[0], known.tips),
     )
 
 
@@ -66,6 +64,7 @@ class _Wheel:
     turn: that of the normal on this edge in rad.
     """
 
+    surface: Flank
     flank: Generated
     fillet: Generated
     spine: Spine
@@ -93,7 +92,7 @@ class _Wheel:
 
         ends = joint, span.tip
         spine = Spine.along(on_flank, faces, span.middle, ends, lambda at: _below_tip(at) > 0.0, _STEPS)
-        return cls(on_flank, on_fillet, spine, joint, turn)
+        return cls(flank, on_flank, on_fillet, spine, joint, turn)
 
     def line(self, sections: Floats) -> Line:
         """The flank in the sections (K,), from its root to beyond its tip."""
@@ -130,7 +129,7 @@ class _Wheel:
         middle = flank.at(kept)
         outward = np.sign(_azimuthal(middle.points, middle.normals))
 
-        def cut_away(place: Floats) -> tuple[Floats, Floats]:
+        def cut_away(place: Floats) -> tuple[Floats, Bools]:
             points = flank.at(place).points
             turn, beside = fillet.at_radius(np.hypot(points[:, 0], points[:, 1]))
             return turn, outward * _azimuthal(points, points - beside) > 0.0
@@ -144,6 +143,69 @@ class _Wheel:
             turn, removed = cut_away(here)
             kept, cut = np.where(removed, kept, here), np.where(removed, here, cut)
         return here, turn
+
+
+@dataclass(frozen=True)
+class _Known:
+    """A side in the sections ``values`` (V,), from which its ends in any other section between them are found.
+
+    line: its flank; tip, joint, turn (V,): as of :class:`_Wheel`.
+    """
+
+    wheel: _Wheel
+    line: Line
+    tip: Floats
+    joint: Floats
+    turn: Floats
+
+    @classmethod
+    def of(cls, wheel: _Wheel, values: Floats) -> _Known:
+        line = wheel.line(values)
+        return cls(wheel, line, line.up_to(_below_tip), *wheel.ends(values))
+
+    def tips(self, sections: Floats) -> Floats:
+        """t (K,) of the flank at the blank's tip in the sections (K,)."""
+        near = np.interp(sections, self.line.sections, self.tip)
+        found, sure = self._to_tip(near, self.line.face_at(near, sections), sections)
+        if not sure.all():
+            found[~sure] = self.wheel.tips(sections[~sure])
+        return found
+
+    def ends(self, sections: Floats) -> tuple[Floats, Floats]:
+        """t of the flank and turn of the normal (K,), (K,) where flank and fillet meet in the sections (K,).
+
+        Where the sections known on either side have the edge of the tool's flank, one between them has it as well if
+        the flank is regular there.
+        """
+        joint, turn = np.full_like(sections, self.wheel.joint), np.full_like(sections, self.wheel.turn)
+        whole = self.joint == self.wheel.joint
+        after = np.clip(np.searchsorted(self.line.sections, sections), 1, len(whole) - 1)
+        face = in_section(self.wheel.flank, joint, self.line.face_at(joint, sections), sections)
+        sure = whole[after - 1] & whole[after] & held(self.wheel.flank(joint, face), sections)
+        if not sure.all():
+            joint[~sure], turn[~sure] = self.wheel.ends(sections[~sure])
+        return joint, turn
+
+    def _to_tip(self, profile: Floats, face: Floats, sections: Floats) -> tuple[Floats, Bools]:
+        """t (K,) at the tip in the sections by Newton's method from places near it, and where it leads there."""
+        surface, begun = self.wheel.surface, profile
+        names = [m["event"] for m in surface.body["margins"]]
+        columns = [1 + names.index(name) for name in ("tip", "throat") if name in names]
+        for _ in range(_NEWTON_STEPS):
+            found = self.wheel.flank(profile, face)
+            heights = np.stack([found.margins[names[c - 1]] for c in columns])
+            nearest = np.argmin(np.where(np.isnan(heights), np.inf, heights), axis=0)
+            slopes = surface.limit_slopes(found.parameters)[np.arange(len(face)), np.array(columns)[nearest]]
+            matrix = np.stack([slopes, found.tangents[:, :, 2]], axis=1)
+            off = np.stack([_below_tip(found), found.points[:, 2] - sections], axis=1)
+            step = np.linalg.solve(matrix, off[:, :, None])[:, :, 0]
+            profile, face = profile - step[:, 0], face - step[:, 1]
+            if not np.abs(step).max() > _STILL:
+                break
+        found = self.wheel.flank(profile, face)
+        rows = np.abs(self.line.profile[1] - self.line.profile[0]).max()
+        sure = held(found, sections) & (np.abs(_below_tip(found)) < _ON_PLACE) & (np.abs(profile - begun) < rows)
+        return profile, sure
 
 
 def _edge(rounding: Flank, near: float) -> tuple[float, float]:

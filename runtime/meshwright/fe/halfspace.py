@@ -23,7 +23,7 @@ def rectangle_displacement(x: Floats, y: Floats, half_x: float, half_y: float, m
         (_corner(x + half_x, y - half_y), -1.0),
         (_corner(x - half_x, y - half_y), 1.0),
     )
-    return sum(sign * value for value, sign in corners) / (np.pi * modulus)
+    return np.sum([sign * value for value, sign in corners], axis=0) / (np.pi * modulus)
 
 
 def _corner(x: Floats, y: Floats) -> Floats:
@@ -36,10 +36,12 @@ def _inverse_sinh_ratio(numerator: Floats, denominator: Floats) -> Floats:
     return np.arcsinh(np.divide(numerator, size, out=np.zeros_like(numerator), where=size > 0.0))
 
 
-def influence_matrix(centres: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
-    """(N, N) displacement at cell centres (N, 2) by unit pressures on equal rectangular cells."""
-    difference = centres[:, None, :] - centres[None, :, :]
-    return rectangle_displacement(difference[..., 0], difference[..., 1], half_x, half_y, modulus)
+def equal_cells(count: int, half_x: float, half_y: float, modulus: float) -> Floats:
+    """(count, count) displacement at the centre of a rectangular cell so many cells away along x and along y, by a unit
+    pressure on an equal one.
+    """
+    x, y = np.meshgrid(2.0 * half_x * np.arange(count), 2.0 * half_y * np.arange(count), indexing="ij")
+    return rectangle_displacement(x, y, half_x, half_y, modulus)
 
 
 def mean_displacement(offset_x: Floats, offset_y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -16,9 +15,9 @@ from scipy.ndimage import binary_dilation
 
 from meshwright.fe.compliance import ToothCompliance
 from meshwright.fe.gap import Bools, ContactGrid, contact_grid
-from meshwright.fe.halfspace import influence_matrix
+from meshwright.fe.halfspace import equal_cells
 from meshwright.fe.hertz import HertzContact
-from meshwright.fe.hexahedra import Floats
+from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.material import contact_modulus
 from meshwright.fe.model import Load, hertz_of, loaded_side
 from meshwright.fe.pair import GearPair, PairTouch, lever_arm, touches, unloaded_wheel_angle
@@ -60,6 +59,16 @@ class LoadedPair:
     def edges(self) -> tuple[str, ...]:
         """The edges that do, such as "tip of the wheel", as far as the normals of the contact plane meet the flank."""
         return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & self._area_and_around))
+
+    @property
+    def line(self) -> Floats:
+        """Where the pressure is highest across the contact area, (M, 3) from end to end of it on the pinion's flank:
+        the line of contact under load, fixed frame.
+        """
+        side = math.isqrt(len(self.pressures))
+        rows = self.pressures.reshape(side, side)
+        highest = side * np.arange(side) + rows.argmax(axis=1)
+        return self.grid.points[highest[rows.max(axis=1) > 0.0]]
 
     @property
     def _area_and_around(self) -> Bools:
@@ -113,7 +122,7 @@ def loaded_contact(
             _grid(gear, c, (pinion_angle, wheel_angle), max(float(f), _LEAST_SHARE * float(w)), cells)
             for c, f, w in zip(contacts, forces, whole, strict=True)
         ]
-        pressures, rotation = _equilibrium(gear, contacts, grids, load, compliance)
+        pressures, rotation = _equilibrium(gear, contacts, grids, load, compliance, forces > 0.0)
         forces = np.array([grid.area * p.sum() for grid, p in zip(grids, pressures, strict=True)])
     solved = tuple(
         LoadedPair(c, g, p, float(f), hertz_of(gear, c, float(f)) if f > 0.0 else None)
@@ -137,7 +146,7 @@ def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force
     return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
 
 
-def _in_ellipse(grid: ContactGrid) -> Floats:
+def _in_ellipse(grid: ContactGrid) -> Bools:
     """Cells inside the Hertz ellipse that the grid was made for."""
     extent = np.abs(grid.centres).max(axis=0) + np.array([grid.half_major, grid.half_minor])
     return np.hypot(*(_REACH * grid.centres / extent).T) < 1.0
@@ -149,44 +158,104 @@ def _equilibrium(
     grids: list[ContactGrid],
     load: Load,
     compliance: dict[str, ToothCompliance] | None,
+    likely: Bools,
 ) -> tuple[list[Floats], float]:
+    """Pressures (N,) of the cells of each pair and the rotation; ``likely`` (P,): the pairs thought to touch."""
     member, _ = loaded_side(gear, load)
     origin, axis = member.axis
     modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
-    matrix = block_diag(*(influence_matrix(g.centres, g.half_major, g.half_minor, modulus) for g in grids))
     areas = np.concatenate([np.full(len(g.gap), g.area) for g in grids])
-    if compliance is not None:
-        matrix = matrix + _smooth(contacts, grids, compliance) * areas
+    cells = _Cells.of(contacts, grids, modulus, compliance or {})
     arms = np.concatenate(
         [np.abs(np.cross(g.points - origin, c.touch.normal) @ axis) for c, g in zip(contacts, grids, strict=True)]
     )
     gap = np.concatenate([g.gap for g in grids])
     inside = np.concatenate([g.inside for g in grids])
-    start = np.concatenate([_in_ellipse(g) for g in grids])
-    pressure, rotation = active_set(matrix, gap, arms, areas, inside, start, load.torque)
+    start = np.concatenate([_in_ellipse(g) & of for g, of in zip(grids, likely, strict=True)])
+    pressure, rotation = active_set(cells, gap, arms, areas, inside, start, load.torque)
     return np.split(pressure, np.cumsum([len(g.gap) for g in grids])[:-1]), rotation
 
 
+@dataclass(frozen=True)
+class _Cells:
+    """How cells of all pairs, N together, move one another: displacements in mm by unit pressures.
+
+    Of each pair: the displacements ``half_space`` (n, n) at so many cells' distances along and across; ``smooth``, of a
+    member, what its teeth add: weights (N, T P Q) of the patches of all pairs, and the displacement (T P Q, T P Q)
+    between these by unit forces. ``areas`` (N,), ``pair`` and ``place`` (N,), (N, 2): of which pair, and where in it.
+    """
+
+    half_space: tuple[Floats, ...]
+    smooth: tuple[tuple[Floats, Floats], ...]
+    areas: Floats
+    pair: Ints
+    place: Ints
+
+    @classmethod
+    def of(
+        cls, contacts: tuple[PairTouch, ...], grids: list[ContactGrid], modulus: float,
+        compliance: dict[str, ToothCompliance],
+    ) -> _Cells:
+        sides = [math.isqrt(len(grid.gap)) for grid in grids]
+        return cls(
+            tuple(equal_cells(n, g.half_major, g.half_minor, modulus) for n, g in zip(sides, grids, strict=True)),
+            tuple(_smooth(name, tooth, contacts, grids) for name, tooth in compliance.items()),
+            np.concatenate([np.full(len(g.gap), g.area) for g in grids]),
+            np.repeat(np.arange(len(grids)), [len(g.gap) for g in grids]),
+            np.concatenate([np.stack(np.divmod(np.arange(n * n), n), axis=1) for n in sides]),
+        )
+
+    def between(self, seen: Ints, pressed: Ints) -> Floats:
+        """Displacements (S, P) of cells (S,) by unit pressures on others (P,)."""
+        found = np.zeros((len(seen), len(pressed)))
+        for k, table in enumerate(self.half_space):
+            rows, columns = np.flatnonzero(self.pair[seen] == k), np.flatnonzero(self.pair[pressed] == k)
+            apart = np.abs(self.place[seen[rows], None] - self.place[None, pressed[columns]])
+            found[np.ix_(rows, columns)] = table[apart[..., 0], apart[..., 1]]
+        for weights, block in self.smooth:
+            found += weights[seen] @ (block @ (weights[pressed].T * self.areas[pressed]))
+        return found
+
+    def under(self, pressure: Floats) -> Floats:
+        """Displacements (N,) of all cells under pressures (N,)."""
+        used = np.flatnonzero(pressure)
+        found = np.zeros(len(pressure))
+        for k, table in enumerate(self.half_space):
+            rows, columns = np.flatnonzero(self.pair == k), used[self.pair[used] == k]
+            apart = np.abs(self.place[rows, None] - self.place[None, columns])
+            found[rows] = table[apart[..., 0], apart[..., 1]] @ pressure[columns]
+        for weights, block in self.smooth:
+            found += weights @ (block @ (weights[used].T @ (self.areas * pressure)[used]))
+        return found
+
+    @property
+    def largest(self) -> float:
+        """The largest displacement (mm) of a cell by a unit pressure on itself."""
+        own = np.array([table[0, 0] for table in self.half_space])[self.pair]
+        for weights, block in self.smooth:
+            patches = len(block) // len(self.half_space)
+            for k in range(len(self.half_space)):
+                rows, mine = self.pair == k, slice(k * patches, (k + 1) * patches)
+                part = weights[rows, mine]
+                own[rows] += np.sum((part @ block[mine, mine]) * part, axis=1) * self.areas[rows]
+        return float(np.abs(own).max())
+
+
 def _smooth(
-    contacts: tuple[PairTouch, ...], grids: list[ContactGrid], compliance: dict[str, ToothCompliance]
-) -> Floats:
-    """(N, N) displacement in mm by unit forces on cells: what FE teeth add to the half-space, of both members."""
-    offsets = np.cumsum([0] + [len(g.gap) for g in grids])
-    total = np.zeros((offsets[-1], offsets[-1]))
-    for name, tooth in compliance.items():
-        weights = [tooth.weights(g.place[name][:, 0], g.place[name][:, 1]) for g in grids]
-        for seen, pressed in product(range(len(grids)), repeat=2):
-            block = tooth.between(contacts[seen].pairs_later, contacts[pressed].pairs_later)
-            if block is not None:
-                rows, columns = (slice(offsets[k], offsets[k + 1]) for k in (seen, pressed))
-                total[rows, columns] += weights[seen] @ block @ weights[pressed].T
-    return total
+    name: str, tooth: ToothCompliance, contacts: tuple[PairTouch, ...], grids: list[ContactGrid]
+) -> tuple[Floats, Floats]:
+    """Weights (N, T P Q) of the patches of a member's T teeth, and what these move one another by unit forces."""
+    weights = block_diag(*(tooth.weights(g.place[name][:, 0], g.place[name][:, 1]) for g in grids))
+    later = [contact.pairs_later for contact in contacts]
+    nothing = np.zeros_like(tooth.own)
+    between = [[tooth.between(seen, pressed) for pressed in later] for seen in later]
+    return weights, np.block([[nothing if block is None else block for block in row] for row in between])
 
 
 def active_set(
-    matrix: Floats, gap: Floats, arms: Floats, areas: Floats, inside: Floats, start: Floats, torque: float
+    cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
 ) -> tuple[Floats, float]:
-    """Pressures (N,) >= 0 and rotation with gap + matrix p - rotation arms >= 0, zero where p > 0, moment = torque.
+    """Pressures (N,) >= 0 and rotation with gap + displacement - rotation arms >= 0, zero where p > 0, moment = torque.
 
     start (N,): cells thought to touch.  Raises ArithmeticError if no cell is on both flanks, or the set of touching
     cells does not settle.
@@ -196,13 +265,16 @@ def active_set(
     active = inside & start
     if not active.any():
         active = inside & (gap <= gap[inside].min())
-    scale = float(np.abs(np.diag(matrix)).max())
+    scale = cells.largest
+    used, moved = np.empty(0, dtype=np.int64), np.empty((0, 0))
     for _ in range(_ACTIVE_SET_STEPS):
         pressure = np.zeros(len(gap))
-        used = np.flatnonzero(active)
+        if len(used) == 0:
+            used = np.flatnonzero(active)
+            moved = cells.between(used, used)
         size = len(used)
         system = np.zeros((size + 1, size + 1))
-        system[:size, :size] = matrix[np.ix_(used, used)]
+        system[:size, :size] = moved
         system[:size, size] = -arms[used]
         system[size, :size] = areas[used] * arms[used]
         solution = np.linalg.solve(system, np.append(-gap[used], torque))
@@ -210,10 +282,13 @@ def active_set(
         pulled = pressure < 0.0
         if pulled.any():
             active &= ~pulled
+            kept = ~pulled[used]
+            used, moved = used[kept], moved[np.ix_(kept, kept)]
             continue
-        opening = gap + matrix @ pressure - rotation * arms
+        opening = gap + cells.under(pressure) - rotation * arms
         overlapping = inside & ~active & (opening < -1e-9 * scale * max(1.0, float(pressure.max())))
         if not overlapping.any():
             return pressure, float(rotation)
         active |= overlapping
+        used = used[:0]
     raise ArithmeticError(f"the loaded contact did not settle in {_ACTIVE_SET_STEPS} steps")

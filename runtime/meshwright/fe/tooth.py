@@ -13,7 +13,7 @@ Seen along a section, with the profile parameter running from the root land to t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
@@ -130,6 +130,9 @@ class Stations:
     own: Floats
     left_cut: Floats
     right_cut: Floats
+
+    def __iter__(self) -> Iterator[Floats]:
+        return iter((self.own, self.left_cut, self.right_cut))
 
     @classmethod
     def between(cls, teeth: list[Floats]) -> list[Stations]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from meshwright.fe.hexahedra import Floats, HexMesh
+from meshwright.fe.hexahedra import Floats, HexMesh, Ints
 
 _HEXAHEDRON = 12
 
@@ -33,7 +33,7 @@ def _lines(mesh: HexMesh, nodal: dict[str, Floats]) -> Iterator[str]:
     yield "</PointData></Piece></UnstructuredGrid></VTKFile>"
 
 
-def _array(name: str, values: Floats) -> Iterator[str]:
+def _array(name: str, values: Floats | Ints) -> Iterator[str]:
     rows = values.reshape(len(values), -1)
     whole = np.issubdtype(values.dtype, np.integer)
     kind, form = ("Int64", "d") if whole else ("Float64", ".9g")

@@ -39,7 +39,9 @@ REFINEMENTS = 6
 
 #: A place outside a limit is moved back this much further than to first order.
 OVERSHOOT = 1.05
-BISECTIONS = 56
+
+#: The end of a ray is located in so many rounds, each of which divides the length that holds it into so many parts.
+ROUNDS, PARTS = 11, 32
 NEWTON_STEPS = 40
 
 
@@ -391,22 +393,28 @@ def _ray(chart, limits, start, axis, sign):
         trial = chart.complete(further[None], q[None])[0]
         values = limits.values(chart.flank(trial))[0]
         if not values.min() >= 0.0:
-            return _halved(chart, limits, (q, at[axis], further[axis]), axis)
+            return _divided(chart, limits, (q, at[axis], further[axis]), axis)
         q, at, step = trial, further, GROWTH * step
     return sign * math.inf, None, q
 
 
-def _halved(chart, limits, between, axis):
+def _divided(chart, limits, between, axis):
+    """Where a line leaves the region ``between`` the place (k,) at an inner coordinate and an outer coordinate, to
+    rounding; the limit that ends it there, and the last place (k,) inside.
+    """
     q, inner, outer = between
-    at, worst = q[list(chart.free)].copy(), None
-    for _ in range(BISECTIONS):
-        at[axis] = 0.5 * (inner + outer)
-        trial = chart.complete(at[None], q[None])[0]
-        values = limits.values(chart.flank(trial))[0]
-        if values.min() >= 0.0:
-            q, inner = trial, at[axis]
-        else:
-            outer, worst = at[axis], limits.names[int(np.argmin(values))]
+    worst, shares = None, np.arange(1, PARTS + 1) / PARTS
+    for _ in range(ROUNDS):
+        at = np.tile(q[list(chart.free)], (PARTS, 1))
+        at[:, axis] = inner + shares * (outer - inner)
+        trials = chart.complete(at, np.tile(q, (PARTS, 1)))
+        values = limits.values(chart.flank(trials))
+        outside = ~(values.min(axis=1) >= 0.0)
+        outside[-1] = True  # the outer end, whose coordinate rounding may have moved
+        first = int(np.argmax(outside))
+        outer, worst = at[first, axis], limits.names[int(np.argmin(values[first]))]
+        if first:
+            q, inner = trials[first - 1], at[first - 1, axis]
     return inner, worst, q
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer
+from meshwright.contact.model import DriveModel
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class FlankCurvature:
 class Flank:
     """The flank of one member of a drive; call it with parameters (…, k)."""
 
-    drive: object
+    drive: DriveModel
     body: dict
     pointer: object
     number: int

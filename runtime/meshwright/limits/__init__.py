@@ -15,11 +15,16 @@ from meshwright.limits.results import Limits, Request
 from meshwright.limits.thickness import tip_thicknesses
 from meshwright.limits.undercut import undercut_lines
 
-__all__ = ["Limits", "Request", "contacts_of", "limits_of"]
+__all__ = ["STEPS", "Limits", "Request", "contacts_of", "limits_of"]
 
 
-def limits_of(drive, request=None):
-    """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad.
+#: How often :func:`limits_of` says what it is about to do.
+STEPS = 5
+
+
+def limits_of(drive, request=None, step=lambda text: None):
+    """The :class:`Limits` of a drive for a :class:`Request`; lengths in mm, angles in rad. ``step(text)`` is called
+    :data:`STEPS` times.
 
     Where the blank is open the standard proportions bound the flanks, as they do under load: ``assumed_blank`` says
     which, ``blank_left_open`` why none do. Raises :class:`~meshwright.base.errors.UsageError` for sections or radii of
@@ -27,14 +32,22 @@ def limits_of(drive, request=None):
     """
     request = request or Request()
     drive, assumed, left_open = _bounded(drive)
+    step("limits of contact")
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
     searched = drive.design.description["least_teeth"]
+    step("undercut lines")
+    undercut = undercut_lines(drive, request)
+    step("branch points")
+    branches = branch_points(drive)
+    step("thickness of the tips")
+    thickness = tip_thicknesses(drive)
+    step("least numbers of teeth and clearance of the tool")
     found = Limits(
-        undercut=undercut_lines(drive, request),
-        branch_points=branch_points(drive),
+        undercut=undercut,
+        branch_points=branches,
         assumed_blank=assumed,
         blank_left_open=left_open,
-        tip_thickness=tip_thicknesses(drive),
+        tip_thickness=thickness,
         least_teeth={member: least_teeth(drive, member) for member in searched} or None,
         tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
         **generated,

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from meshwright.contact.model import DriveModel
 from meshwright.limits.zeros import zeros
 
 #: Steps of the search along a profile, in natural sizes of its parameter, and how far it goes.
@@ -21,7 +22,7 @@ class Profile:
     The radius grows from :attr:`lower` to :attr:`upper`.
     """
 
-    drive: object
+    drive: DriveModel
     role: str
 
     @cached_property

@@ -1,7 +1,7 @@
-"""The gap between two flanks near a contact, over the tangent plane: right-hand drive, fixed frame.
+"""The gap between two flanks near contacts, over the tangent planes: right-hand drive, fixed frame.
 
 Both flanks are met by the line through a point of the tangent plane along the contact normal; what lies between
-the two is the separation. Vectorised over N points of the plane.
+the two is the separation. Vectorised over N points, each in the plane of its own contact.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ STEP_LIMIT = 8.0
 
 @dataclass(frozen=True)
 class Side:
-    """One member's flank, placed: ``matrix`` (4, 4) from the body to the fixed frame."""
+    """One member's flank, placed for each point: ``matrix`` (N, 4, 4) from the body to the fixed frame."""
 
     flank: object
     matrix: np.ndarray
@@ -30,15 +30,20 @@ class Side:
     def at(self, parameters):
         """Flank points with points, tangents in the fixed frame: (FlankPoints, points (N, 3), tangents (N, k, 3))."""
         found = self.flank(parameters)
-        rotation, origin = self.matrix[:3, :3], self.matrix[:3, 3]
-        return found, found.points @ rotation.T + origin, found.tangents @ rotation.T
+        turned, origin = np.swapaxes(self.matrix[:, :3, :3], 1, 2), self.matrix[:, :3, 3]
+        points = np.matmul(found.points[:, None], turned)[:, 0] + origin
+        return found, points, np.matmul(found.tangents, turned)
+
+    def only(self, chosen):
+        """The same for the chosen points."""
+        return Side(self.flank, self.matrix[chosen])
 
 
 @dataclass(frozen=True)
 class Gap:
-    """Two flanks in contact at ``point``; ``axes`` (3, 3) by rows: two tangents, the normal out of the pinion.
+    """Two flanks in contact at ``point`` (N, 3); ``axes`` (N, 3, 3) by rows: two tangents, normal out of the pinion.
 
-    ``parameters`` are those of each member's flank at the contact.
+    ``parameters`` (N, k) are those of each member's flank at the contact.
     """
 
     point: np.ndarray
@@ -47,20 +52,26 @@ class Gap:
     parameters: tuple[np.ndarray, np.ndarray]
 
     @classmethod
-    def at(cls, drive, angle, unknowns, point, normal, major):
-        """The gap at a solved contact (right-hand drive)."""
-        placed = placements_at(drive, np.array([angle]), unknowns[None, :]).matrices
+    def at(cls, drive, angles, unknowns, points, normals, majors):
+        """The gap at solved contacts (N,), of the right-hand drive; the same contact may stand there many times."""
+        placed = placements_at(drive, angles, unknowns).matrices
         bodies = drive.design.description["bodies"]
         return cls(
-            point,
-            np.stack([major, np.cross(normal, major), normal]),
-            tuple(Side(drive.flank(b["name"]), placed[b["name"]][0]) for b in bodies),
-            tuple(unknowns[b["unknowns"]] for b in bodies),
+            points,
+            np.stack([majors, np.cross(normals, majors), normals], axis=1),
+            tuple(Side(drive.flank(b["name"]), placed[b["name"]]) for b in bodies),
+            tuple(unknowns[:, b["unknowns"]] for b in bodies),
         )
 
-    def separations(self, places, starts=None):
-        """Where the flanks stand over ``places`` (N, 2) of the tangent plane: :class:`Sections`."""
-        starts = [None, None] if starts is None else starts
+    def only(self, chosen):
+        """The same for the chosen points."""
+        sides, parameters = (part.only(chosen) for part in self.sides), (q[chosen] for q in self.parameters)
+        return Gap(self.point[chosen], self.axes[chosen], tuple(sides), tuple(parameters))
+
+    def separations(self, places, starts):
+        """Where the flanks stand over ``places`` (N, 2) of the tangent planes, from parameters (N, k) of each near
+        there: :class:`Sections`.
+        """
         found = [self._over(k, places, start) for k, start in enumerate(starts)]
         heights = [f[1] for f in found]
         return Sections(
@@ -70,20 +81,23 @@ class Gap:
 
     def _over(self, k, places, start):
         """Parameters (N, k), height along the normal (N,) and smallest margin (N,) of one flank over places."""
-        side, origin = self.sides[k], self.parameters[k]
-        q = np.tile(origin, (len(places), 1)) if start is None else start.copy()
-        open_, before = np.ones(len(q), dtype=bool), np.full(len(q), np.inf)
+        side, q = self.sides[k], start.copy()
+        going, before = np.arange(len(q)), np.full(len(q), np.inf)
         for _ in range(MAX_STEPS):
-            found, points, tangents = side.at(q)
-            step, size = _newton_step(found, (points - self.point) @ self.axes[:2].T - places, tangents, self.axes[:2])
-            q = np.where(open_[:, None], q - step, q)
-            open_ &= ~((size < STEP_DONE) | ((size < STEP_NOISE) & (size > 0.5 * before)))
-            before = size
-            if not open_.any():
+            plane, at = self.axes[going, :2], q[going]
+            found, points, tangents = side.only(going).at(at)
+            misses = np.matmul(plane, (points - self.point[going])[:, :, None])[:, :, 0] - places[going]
+            step, size = _newton_step(found, misses, tangents, plane)
+            q[going] = at - step
+            done = (size < STEP_DONE) | ((size < STEP_NOISE) & (size > 0.5 * before[going]))
+            before[going] = size
+            going = going[~done]
+            if not len(going):
                 break
         found, points, _ = side.at(q)
-        heights = (points - self.point) @ self.axes[2]
-        lost = open_ | ~np.isfinite(heights)
+        heights = np.einsum("ni,ni->n", points - self.point, self.axes[:, 2])
+        lost = ~np.isfinite(heights)
+        lost[going] = True
         return q, np.where(lost, np.nan, heights), np.where(lost, -np.inf, smallest_margin(found))
 
 
@@ -106,15 +120,15 @@ def smallest_margin(found):
 
 
 def _newton_step(found, misses, tangents, plane):
-    """Step of the parameters (N, k) that cancels the misses in the plane (N, 2) and the flank's own conditions, and its
-    length, mm.
+    """Step of the parameters (N, k) that cancels the misses in the ``plane`` (N, 2, 3), (N, 2), and the flank's own
+    conditions, and its length, mm.
     """
     residual = np.concatenate([misses, found.conditions[:, :, 0]], axis=1)
-    slopes = np.einsum("ij,nkj->nik", plane, tangents)
+    slopes = np.matmul(plane, np.swapaxes(tangents, 1, 2))
     matrix = np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1)
     good = np.isfinite(matrix).all(axis=(1, 2)) & (np.abs(np.linalg.det(np.nan_to_num(matrix))) > 0.0)
     step = np.full((len(residual), matrix.shape[2]), np.nan)
     step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
-    length = np.linalg.norm(np.einsum("nk,nkj->nj", step, tangents), axis=1)
+    length = np.linalg.norm(np.matmul(step[:, None], tangents)[:, 0], axis=1)
     limit = np.minimum(1.0, STEP_LIMIT / np.maximum(length, 1e-300))
     return step * limit[:, None], length

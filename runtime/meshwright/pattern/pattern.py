@@ -62,16 +62,13 @@ def contour(drive, angle, count=72, separation=None, result=None, spacing=evenly
     """
     found = drive.tca([angle]) if result is None else result
     k = int(np.argmin(np.abs(found.angles - angle)))
-    if not found.solved[k]:
-        return None
-    if separation is None:
-        separation = drive.design.value("separation_mm", "contact")
-    return _contour(drive, found, k, spacing(count, *found.curvatures[k]), separation)
+    return _contours(drive, found, [k], count, separation, spacing)[0]
 
 
-def contours(drive, result, count=72, separation=None):
-    """A :class:`Contour`, or None, for every point of a TCA."""
-    return tuple(contour(drive, angle, count, separation, result) for angle in result.angles)
+def contours(drive, result, count=72, separation=None, spacing=evenly, rows=None):
+    """A :class:`Contour`, or None, for every point of a TCA, or for those in the ``rows`` that are named."""
+    rows = range(len(result.angles)) if rows is None else rows
+    return _contours(drive, result, list(rows), count, separation, spacing)
 
 
 def patches(mesh, angle, count=72, separation=None):
@@ -86,27 +83,36 @@ def patches(mesh, angle, count=72, separation=None):
     return {number: patch for number, patch in found.items() if patch is not None}
 
 
-def _contour(drive, found, k, directions, separation):
+def _contours(drive, found, rows, count, separation, spacing):
+    """The contours of rows of a TCA, None where there is no contact point: all rays together."""
+    if separation is None:
+        separation = drive.design.value("separation_mm", "contact")
+    solved = [k for k in rows if found.solved[k]]
+    if not solved:
+        return (None,) * len(rows)
     mirror = drive.design.mirror.sign
-    flip = np.array([1.0, mirror, 1.0])
-    contact = (flip * a[k] for a in (found.points, found.normals, found.major))
-    gap = Gap.at(drive, mirror * found.angles[k], found.solutions[k], *contact)
-    rays = _Rays.of(gap, found.curvatures[k], mirror * directions, separation)
+    flip, of = np.array([1.0, mirror, 1.0]), np.repeat(solved, count)
+    directions = np.concatenate([spacing(count, *found.curvatures[k]) for k in solved])
+    contact = (flip * a[of] for a in (found.points, found.normals, found.major))
+    gap = Gap.at(drive, mirror * found.angles[of], found.solutions[of], *contact)
+    rays = _Rays.of(gap, found.curvatures[of], mirror * directions, separation)
     reached = rays.followed(_separation_reached)
     on_flank = rays.followed(_separation_or_edge_reached)
+    places = np.matmul((on_flank.radius[:, None] * rays.along)[:, None], gap.axes[:, :2])[:, 0]
+    radii, points = np.where(reached.value == 0.0, reached.radius, np.nan), flip * (gap.point + places)
     bodies = drive.design.description["bodies"]
-    return Contour(
-        angle=float(found.angles[k]),
-        separation=float(separation),
-        directions=directions,
-        radii=np.where(reached.value == 0.0, reached.radius, np.nan),
-        radii_on_flank=on_flank.radius,
-        points=flip * (gap.point + (on_flank.radius[:, None] * rays.along) @ gap.axes[:2]),
-        body_points={
-            b["name"]: flip * side.flank(q).points
-            for b, side, q in zip(bodies, gap.sides, on_flank.parameters, strict=True)
-        },
-    )
+    on_bodies = {
+        b["name"]: flip * side.flank(q).points
+        for b, side, q in zip(bodies, gap.sides, on_flank.parameters, strict=True)
+    }
+
+    def one(k, part):
+        on = {name: body[part] for name, body in on_bodies.items()}
+        around = directions[part], radii[part], on_flank.radius[part]
+        return Contour(float(found.angles[k]), float(separation), *around, points[part], on)
+
+    parts = {k: one(k, slice(i * count, (i + 1) * count)) for i, k in enumerate(solved)}
+    return tuple(parts.get(k) for k in rows)
 
 
 def _separation_reached(rays, sections):
@@ -134,9 +140,9 @@ class _Rays:
     @classmethod
     def of(cls, gap, curvatures, directions, separation):
         along = np.stack([np.cos(directions), np.sin(directions)], axis=1)
-        curvature = along**2 @ curvatures
+        curvature = np.einsum("ni,ni->n", along**2, curvatures)
         ellipse = np.sqrt(2.0 * separation / np.maximum(np.abs(curvature), 1e-300))
-        step = STEP * np.minimum(ellipse, LONGEST * np.sqrt(2.0 * separation / np.abs(curvatures).max()))
+        step = STEP * np.minimum(ellipse, LONGEST * np.sqrt(2.0 * separation / np.abs(curvatures).max(axis=1)))
         return cls(gap, along, np.where(curvature < 0.0, -1.0, 1.0), step, separation)
 
     def followed(self, remaining):
@@ -147,34 +153,43 @@ class _Rays:
         inner = _State.start(self)
         outer = self._at(self.step, inner, remaining)
         for _ in range(MAX_STEPS):
-            going = outer.value > 0.0
-            if not going.any():
+            (going,) = np.nonzero(outer.value > 0.0)
+            if not len(going):
                 break
-            inner = outer.where(going, inner)
-            outer = self._at(np.where(going, inner.radius + self.step, outer.radius), inner, remaining)
+            inner.put(going, outer.only(going))
+            rays, here = self.only(going), inner.only(going)
+            outer.put(going, rays._at(here.radius + rays.step, here, remaining))
         return self._refined(inner, outer, remaining)
+
+    def only(self, chosen):
+        """The chosen rays."""
+        return _Rays(self.gap.only(chosen), self.along[chosen], self.sign[chosen], self.step[chosen], self.separation)
 
     def _at(self, radius, near, remaining):
         sections = self.gap.separations(radius[:, None] * self.along, near.parameters)
         value = remaining(self, sections)
-        return _State(radius, sections.parameters, np.where(np.isfinite(value), value, np.nan))
+        return _State(radius.copy(), sections.parameters, np.where(np.isfinite(value), value, np.nan))
 
     def _refined(self, inner, outer, remaining):
         """The place between an inner and an outer state, by false position (Illinois) or bisection."""
-        weight = [inner.value.copy(), outer.value.copy()]
+        weight = np.stack([inner.value, outer.value])
         last = np.zeros(len(inner.radius))
         for _ in range(REFINEMENTS):
             width = outer.radius - inner.radius
-            if (width <= RADIUS_TOLERANCE * outer.radius).all():
+            (wide,) = np.nonzero(~(width <= RADIUS_TOLERANCE * outer.radius))
+            if not len(wide):
                 break
-            share = weight[0] / (weight[0] - weight[1])
+            low, high = weight[:, wide]
+            share = low / (low - high)
             share = np.where((share > 0.0) & (share < 1.0), share, 0.5)
-            middle = self._at(inner.radius + share * width, inner, remaining)
+            here = inner.only(wide)
+            middle = self.only(wide)._at(here.radius + share * width[wide], here, remaining)
             before = middle.value > 0.0
-            weight[0] = np.where(before, middle.value, np.where(last < 0, 0.5, 1.0) * weight[0])
-            weight[1] = np.where(before, np.where(last > 0, 0.5, 1.0) * weight[1], middle.value)
-            last = np.where(before, 1.0, -1.0)
-            inner, outer = middle.where(before, inner), outer.where(before, middle)
+            weight[0, wide] = np.where(before, middle.value, np.where(last[wide] < 0, 0.5, 1.0) * low)
+            weight[1, wide] = np.where(before, np.where(last[wide] > 0, 0.5, 1.0) * high, middle.value)
+            last[wide] = np.where(before, 1.0, -1.0)
+            inner.put(wide[before], middle.only(before))
+            outer.put(wide[~before], middle.only(~before))
         found = np.isfinite(outer.value) & (outer.value <= 0.0)
         return _State(inner.radius, inner.parameters, np.where(found, 0.0, np.nan))
 
@@ -191,13 +206,14 @@ class _State:
     def start(cls, rays):
         """The contact point itself."""
         n = len(rays.along)
-        return cls(np.zeros(n), tuple(np.tile(q, (n, 1)) for q in rays.gap.parameters), np.full(n, rays.separation))
+        return cls(np.zeros(n), tuple(q.copy() for q in rays.gap.parameters), np.full(n, rays.separation))
 
-    def where(self, chosen, other):
-        """This state on the chosen rays, the other one elsewhere."""
-        pick = chosen[:, None]
-        return _State(
-            np.where(chosen, self.radius, other.radius),
-            tuple(np.where(pick, a, b) for a, b in zip(self.parameters, other.parameters, strict=True)),
-            np.where(chosen, self.value, other.value),
-        )
+    def only(self, chosen):
+        """The state on the chosen rays."""
+        return _State(self.radius[chosen], tuple(q[chosen] for q in self.parameters), self.value[chosen])
+
+    def put(self, chosen, other):
+        """Take over another state, of the chosen rays alone, in place."""
+        self.radius[chosen], self.value[chosen] = other.radius, other.value
+        for mine, its in zip(self.parameters, other.parameters, strict=True):
+            mine[chosen] = its

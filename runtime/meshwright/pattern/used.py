@@ -1,5 +1,7 @@
 """What contact uses of the flanks: where regions are looked for, and how far they go if nothing ends them."""
 
+from functools import cache
+
 import numpy as np
 
 from meshwright.base.errors import UsageError
@@ -14,7 +16,8 @@ PATCHES, DIRECTIONS = 5, 8
 def uses(drive):
     """The :class:`~meshwright.flank.region.Uses` of a drive over the window of a pair, contact patches included."""
     mesh = Mesh.of(drive)
-    return Uses.of(drive, _solutions(mesh), lambda member: _patches(mesh, member))
+    patches = cache(lambda: _patches(mesh))
+    return Uses.of(drive, _solutions(mesh), lambda member: patches()[member])
 
 
 def _solutions(mesh):
@@ -38,12 +41,15 @@ def _about_the_middle(drive):
     return unknowns[np.isfinite(unknowns).all(axis=1)]
 
 
-def _patches(mesh, member):
-    """Points (P, 3) of a flank on the edges of contact patches over the window, right hand; none without a window."""
-    window = mesh.window
+def _patches(mesh):
+    """Points (P, 3) of each member's flank on the edges of contact patches over the window, right hand; none without a
+    window.
+    """
+    window, names = mesh.window, [b["name"] for b in mesh.drive.design.description["bodies"]]
     if window.path is None or not window.complete:
-        return np.empty((0, 3))
+        return dict.fromkeys(names, np.empty((0, 3)))
     angles = np.linspace(window.begin.angle, window.end.angle, PATCHES)
     found = contours(mesh.drive, mesh.drive.tca(angles), DIRECTIONS)
-    points = [p.body_points[member] for p in found if p is not None]
-    return np.concatenate(points or [np.empty((0, 3))]) * [1.0, mesh.mirror, 1.0]
+    known = [patch for patch in found if patch is not None]
+    points = {name: [np.empty((0, 3)), *(patch.body_points[name] for patch in known)] for name in names}
+    return {name: np.concatenate(parts) * [1.0, mesh.mirror, 1.0] for name, parts in points.items()}

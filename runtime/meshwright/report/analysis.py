@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshwright.contact.contact_line import ContactLine, contact_line
+from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
 from meshwright.contact.placement import placements
 from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
-from meshwright.cycle.edge import not_first
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import FirstContacts
 from meshwright.cycle.pairs import Mesh
@@ -24,7 +24,7 @@ from meshwright.cycle.transmission import (
     transmission_error,
 )
 from meshwright.drive import Drive
-from meshwright.pattern.pattern import Contour, along_ellipse, contour
+from meshwright.pattern.pattern import Contour, along_ellipse, contours
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
 from meshwright.report.sensitivity import Sensitivity, checked_sizes, misalignments, sensitivity
@@ -238,7 +238,7 @@ def _pattern(drive, tca):
     if not solved.size:
         return ()
     chosen = solved[np.unique(np.linspace(0, solved.size - 1, CONTOURS).round().astype(int))]
-    return tuple(contour(drive, tca.angles[k], DIRECTIONS, result=tca, spacing=along_ellipse) for k in chosen)
+    return contours(drive, tca, DIRECTIONS, spacing=along_ellipse, rows=chosen)
 
 
 def _matrices(drive, tca):

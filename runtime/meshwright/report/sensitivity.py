@@ -1,4 +1,4 @@
-"""What each misalignment does: central differences of the whole analysis about the design as given."""
+"""What each misalignment does: the whole analysis of the drive with it, either way."""
 
 import difflib
 import math
@@ -15,9 +15,6 @@ from meshwright.report.numbers import number, unit
 
 #: Size and label of a misalignment that a workshop would call small, by the unit of its key.
 STEPS = {"mm": (0.01, "0.01\N{NO-BREAK SPACE}mm"), "deg": (1 / 60, "1′"), "um": (1.0, "1\N{NO-BREAK SPACE}µm")}
-
-#: Shifts of a contact point below this are round-off, mm: a tenth of an atom.
-SHIFT_ROUND_OFF = 1e-8
 
 
 @dataclass(frozen=True)
@@ -46,15 +43,6 @@ class Sensitivity:
     def at_points(self):
         """Whether they touch at a point on either side."""
         return bool(self.minus.solved.any() or self.plus.solved.any())
-
-    @property
-    def error(self):
-        """Change of the transmission error by one step (N,), rad, by central difference."""
-        return 0.5 * (self.plus.error - self.minus.error)
-
-    def shift(self, member):
-        """Change of the contact point on a member by one step (N, 2), axial and radial, mm, by central difference."""
-        return 0.5 * (meridional(self.plus.body_points[member]) - meridional(self.minus.body_points[member]))
 
 
 def misalignments(design):
@@ -98,8 +86,3 @@ def sensitivity(drive, parameter, angles, size=None):
 def _peak_to_peak(drive):
     mesh = Mesh.of(drive)
     return math.nan if mesh.window.path is None else peak_to_peak(mesh)
-
-
-def meridional(points):
-    """Axial position and radius (N, 2) of points (N, 3) in a body frame, whose z axis is the body's axis."""
-    return np.column_stack([points[:, 2], np.hypot(points[:, 0], points[:, 1])])

@@ -8,11 +8,14 @@ import numpy as np
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.report.numbers import fixed, number, title, unit
-from meshwright.report.sensitivity import SHIFT_ROUND_OFF
-from meshwright.sensitivity import sensitivity
+from meshwright.report.sensitivity import misalignments
+from meshwright.sensitivity import on_member, sensitivity
 
 #: Derivatives of a position below this are round-off, mm per unit of a key.
 POSITION_ROUND_OFF = 1e-12
+
+#: Shifts of a contact point below this are round-off, mm: a tenth of an atom.
+SHIFT_ROUND_OFF = 1e-8
 
 #: Tables of numbers that no one gives.
 _UNLISTED = ("flank", "placement")
@@ -145,7 +148,9 @@ def _source(design, parameter):
 
 def _sensitivities(analysis):
     middle = len(analysis.tca.angles) // 2
-    rows = [_effect(analysis, effect, middle) for effect in analysis.sensitivities]
+    exact = sensitivity(analysis.drive, analysis.tca.angles[middle : middle + 1])
+    moved = {member: _meridional(analysis, exact, member, middle) for member in ("pinion", "wheel")}
+    rows = [_effect(analysis, effect, exact, moved) for effect in analysis.sensitivities]
     header = (
         "misalignment",
         "step",
@@ -158,12 +163,11 @@ def _sensitivities(analysis):
         "at +step, arcsec",
     )
     note = (
-        f"Change for one step, by central difference, at {fixed(np.degrees(analysis.tca.angles[middle]), 2)}° of the "
+        f"Change for one step, by the exact derivative, at {fixed(np.degrees(analysis.tca.angles[middle]), 2)}° of the "
         "pinion: of the transmission error and of the contact point on both members. Peak to peak: of the drive's "
         f"transmitted error{_nominal(analysis)}."
     )
     table = Table("", header, tuple(rows), frozenset(range(2, 9)))
-    exact = sensitivity(analysis.drive, analysis.tca.angles[middle : middle + 1])
     tables = (table, _slopes(analysis.drive, exact)) if np.isfinite(exact.points).any() else (table,)
     return Group("sensitivity", "Sensitivity to misalignment and design", note, tables)
 
@@ -187,10 +191,19 @@ def _nominal(analysis):
     return f", as designed {_arcsec(analysis.running.error.envelope_peak_to_peak)} arcsec"
 
 
-def _effect(analysis, effect, k):
-    shifts = [_above(v, SHIFT_ROUND_OFF) for member in ("pinion", "wheel") for v in effect.shift(member)[k]]
+def _meridional(analysis, exact, member, k):
+    """Derivatives (K, 2) of the axial position and the radius of contact k on a member."""
+    (change,) = on_member(analysis.drive, exact, member)
+    x, y, _ = analysis.tca.body_points[member][k]
+    return np.stack([change[:, 2], (x * change[:, 0] + y * change[:, 1]) / np.hypot(x, y)], axis=1)
+
+
+def _effect(analysis, effect, exact, moved):
+    factors = {p["key"]: p["factor"] for p in misalignments(analysis.drive.design)}
+    column, size = exact.of(f"misalignment.{effect.key}"), effect.step * factors[effect.key]
+    shifts = [_above(size * v, SHIFT_ROUND_OFF) for member in moved.values() for v in member[column]]
     peaks = [_arcsec(p) for p in effect.peak_to_peak]
-    return (effect.meaning, effect.label, _arcsec(effect.error[k]), *shifts, *peaks)
+    return (effect.meaning, effect.label, _arcsec(size * exact.error[0, column]), *shifts, *peaks)
 
 
 def _arcsec(angle):

@@ -12,6 +12,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
+from meshwright.drive import Drive
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import solved
 from meshwright.report.projection import Projection
@@ -132,7 +133,7 @@ class _Met:
 class _Rays:
     """Normals through ``points`` (V, 3) of the flank of ``member``, right hand, body frame; ``mate`` is the other."""
 
-    drive: object
+    drive: Drive
     member: str
     mate: object
     columns: slice

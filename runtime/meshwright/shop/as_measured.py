@@ -12,6 +12,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
+from meshwright.drive import Drive
 from meshwright.flank.region import lengthwise
 from meshwright.pattern.gap import smallest_margin
 from meshwright.shop.located import located
@@ -216,7 +217,7 @@ class EaseOff:
 class AsMeasured:
     """A drive whose ``member`` has a measured :class:`Field`; all inside is of the right-hand drive."""
 
-    drive: object
+    drive: Drive
     member: str
     field: Field
 

@@ -54,15 +54,21 @@ class Size:
     reason: str
 
 
-def sizes(drive, member, balls):
-    """The :class:`Size` for every ball diameter (mm) in the spaces of a member."""
+def sizes(drive, member, balls, step=lambda text: None):
+    """The :class:`Size` for every ball diameter (mm) in the spaces of a member; ``step(text)`` is called before each,
+    and once before all.
+    """
     if drive.design.description["flanks_apart"]:
         raise UsageError(
             "--over-balls: each flank of this drive is a design of its own, so that no design describes a whole space "
             "between teeth; measure points instead: --lines NxM --csv FILE"
         )
-    space = _Space.of(drive, member)
-    return [space.size(float(ball)) for ball in balls]
+    step(f"space between the teeth of the {member}")
+    space, found = _Space.of(drive, member), []
+    for ball in balls:
+        step(f"ball of {ball:g} mm")
+        found.append(space.size(float(ball)))
+    return found
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
+from meshwright.drive import Drive
 from meshwright.shop.least_squares import Estimate, estimate
 from meshwright.shop.located import Rays, along, located, rays
 
@@ -72,7 +73,7 @@ class Identification:
 class Parameters:
     """Parameters ``keys`` of a member's flanks at measured points, ``columns`` (N, K) in mm per unit of the key."""
 
-    drive: object
+    drive: Drive
     member: str
     keys: tuple[str, ...]
     held: tuple[str, ...]

@@ -18,6 +18,7 @@ from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import peak_to_peak, rides_on_edge
 from meshwright.design import design as designs
 from meshwright.design.description import families, table_and_key
+from meshwright.drive import Drive
 from meshwright.flank.mesh import mesh as triangulated
 from meshwright.pattern.pattern import contours
 
@@ -60,7 +61,7 @@ class State:
 
     ground_off: float
     working: float
-    drive: object
+    drive: Drive
     assembly: dict[str, float]
 
     @cached_property
@@ -156,7 +157,7 @@ class Range:
 class ToolLife:
     """A design and the sizes of assembly errors (key → size) that its states are judged with, each with either sign."""
 
-    drive: object
+    drive: Drive
     errors: dict[str, float]
 
     @classmethod

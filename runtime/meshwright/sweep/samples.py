@@ -10,14 +10,15 @@ import numpy as np
 
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, pointer
-from meshwright.contact import analysis
+from meshwright.contact import analysis, flags
 from meshwright.contact.results import OFF_TIP, SOLVED, impossible
-from meshwright.cycle import edge, windows
+from meshwright.cycle import windows
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.path import NODES_PER_PITCH
 from meshwright.cycle.transmission import ROUND_OFF
 from meshwright.design import description as metadata
 from meshwright.design import design as designs
+from meshwright.drive import Drive
 
 #: Width of the lanes that give the same bits on every machine.
 PORTABLE_WIDTH = 2
@@ -33,7 +34,7 @@ class Batch:
     A row of NaN is no design; its points are bad input.
     """
 
-    drive: object
+    drive: Drive
     parameters: np.ndarray
     lanes: object
 
@@ -98,7 +99,7 @@ def solve(drive, keys, values, angles, portable=False):
         if drive_of(k).past_the_tips:
             found.status[k], found.flags[k] = analysis.status_codes("no_contact")[0], 0
             found.error[k], found.points[k] = np.nan, np.nan
-    found.flags[:] |= _bits(drive, edge.FLAG) * _on_an_edge(batch, found, angles, drive_of)
+    found.flags[:] |= _bits(drive, flags.ON_EDGE) * _on_an_edge(batch, found, angles, drive_of)
     return found
 
 
@@ -113,7 +114,7 @@ def _with_keys(drive, keys, values):
 
 def flag_names(drive):
     """The flags of a drive's points, from the lowest bit."""
-    return [*analysis.flag_names(drive.model), edge.FLAG]
+    return [*analysis.flag_names(drive.model), flags.ON_EDGE]
 
 
 def impossible_bits(drive):
@@ -148,9 +149,9 @@ def _on_an_edge(batch, found, angles, drive_of):
     within = solved & ((found.flags & ~impossible_bits(drive)) == 0)
     for k, stretch in zip(rows, _edge_stretches(batch.only(rows)), strict=True):
         if stretch is None:
-            on_edge[k] = solved[k] & edge.inside(drive_of(k).edge_window, angles)
+            on_edge[k] = solved[k] & flags.inside(drive_of(k).edge_window, angles)
         else:
-            on_edge[k] = within[k] & edge.inside(stretch, angles)
+            on_edge[k] = within[k] & flags.inside(stretch, angles)
     return on_edge
 
 

@@ -1,0 +1,110 @@
+"""Descriptions are as printed and obey the laws of enveloping; wrong physics that program and code share is refused."""
+
+import copy
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.audit import check_print as checker
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+PRINTED = checker.read_printed((Path(checker.__file__).with_name("printed.txt")).read_text(encoding="utf-8"))
+ZN, SPUR, FACE = "cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm"
+
+
+def description_of(name):
+    return json.loads((GENERATED / "descriptions" / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def checked(name, described, folder):
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps(described), encoding="utf-8")
+    return checker.check_drive(path, PRINTED)
+
+
+def minus(e):
+    return ["*", -1, e]
+
+
+def rule(described, target, change):
+    for entry in described["rules"]:
+        if entry[0] == target:
+            entry[1] = change(entry[1])
+
+
+def definition(described, name, change):
+    entry = next(e for e in described["definitions"] if e["name"] == name)
+    entry["value"] = change(entry["value"])
+
+
+def turned(motion, place):
+    motion[place][2] = minus(motion[place][2])
+
+
+def negated(entries, *places):
+    for place in places:
+        entries[place] = minus(entries[place])
+
+
+@pytest.mark.parametrize("name", [ZN, SPUR, FACE])
+def test_a_description_is_as_printed(name):
+    assert checker.check_drive(GENERATED / "descriptions" / f"{name}.json", PRINTED) > 60
+
+
+@pytest.mark.validate
+def test_all_descriptions_are_as_printed(capsys):
+    assert checker.main([str(GENERATED / "audit")]) == 0
+    drives = len(list((GENERATED / "descriptions").glob("*.json")))
+    assert f"of {drives} descriptions hold" in capsys.readouterr().out
+
+
+WRONG = {
+    "cutting distance A - r_h + r_1": (
+        ZN, lambda d: rule(d, "A_gen", lambda _: ["+", "A", "r_worm", minus("r_hob")])),
+    "cutting angle Sigma - lambda + lambda_h": (
+        ZN, lambda d: rule(d, "Sigma_gen", lambda _: ["+", "Sigma", minus("lambda_worm"), "lambda_hob"])),
+    "the hob's lead angle as misprinted in Eq (36)": (
+        ZN, lambda d: rule(d, "lambda_hob", lambda e: ["asin", ["*", e[1], ["cos", "lambda_worm"]]])),
+    "groove width with plus": (
+        ZN, lambda d: definition(d, "r_t_worm", lambda e: ["+", e[1], minus(e[2])])),
+    "blade turned the other way": (
+        ZN, lambda d: definition(d, "P_worm_y", minus)),
+    "root of r_t with the other sign": (
+        ZN, lambda d: definition(d, "r_t_hob", lambda e: ["+", minus(e[1]), e[2]])),
+    "wheel turned the other way in mesh": (
+        ZN, lambda d: turned(d["bodies"][1]["motion"], -1)),
+    "rolling direction": (
+        SPUR, lambda d: turned(d["bodies"][0]["surface"]["made"][1]["motion"], 0)),
+    "phase of the pitch point": (
+        SPUR, lambda d: turned(d["bodies"][0]["motion"], -1)),
+    "sign of the plunge": (
+        FACE, lambda d: negated(d["bodies"][0]["surface"]["made"][2]["motion"][2][1], 1)),
+    "normal into the material": (
+        ZN, lambda d: negated(d["bodies"][0]["surface"]["normal"], 0, 1, 2)),
+    "velocity of a swing with the wrong sign": (
+        FACE, lambda d: negated(d["bodies"][0]["surface"]["conditions"], 0)),
+    "solution of the equation of meshing with the wrong sign": (
+        ZN, lambda d: definition(d, "psi_hob", minus)),
+    "derivative of the cosine": (
+        ZN, lambda d: definition(d, "P_hob_x_t_hob", minus)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_wrong_physics_in_the_description_is_refused(words, tmp_path):
+    name, change = WRONG[words]
+    described = copy.deepcopy(description_of(name))
+    change(described)
+    with pytest.raises(checker.Rejected):
+        checked(name, described, tmp_path)
+
+
+def test_a_drive_of_which_nothing_is_printed_is_refused(tmp_path):
+    with pytest.raises(checker.Rejected, match="nothing printed"):
+        checked("cone_drive", description_of(SPUR), tmp_path)
+
+
+def test_a_line_that_says_nothing_is_refused():
+    with pytest.raises(checker.Rejected, match="not a statement"):
+        checker.read_printed("[a_*]\nrule A\n")

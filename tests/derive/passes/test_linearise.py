@@ -1,0 +1,39 @@
+"""The sparse tangent system eliminates to the Jacobian; an angle that several unknowns turn is a variable."""
+
+import pytest
+import sympy as sp
+
+from derive.passes.linearise import forward, jacobian, linearise
+from tests.derive.small import VALUES, lowered, p, x, y
+
+EQUATIONS = (p * sp.cos(x + y) - x, sp.sin(x + y) * x + y**2)
+
+
+def values(tape, rows):
+    return [tape.evaluate(row, VALUES) for row in rows]
+
+
+@pytest.mark.parametrize("method", [linearise, forward])
+def test_the_angles_eliminated_give_the_jacobian(method):
+    tape, lower, residual = lowered(*EQUATIONS)
+    found = values(tape, jacobian(tape, method(tape, residual, [lower(x), lower(y)])))
+    exact = sp.Matrix(EQUATIONS).jacobian([x, y]).subs(VALUES)
+    assert found == [pytest.approx([float(e) for e in exact.row(k)], rel=1e-13) for k in range(2)]
+
+
+def test_the_turned_angle_is_one_variable():
+    tape, lower, residual = lowered(*EQUATIONS)
+    linear = linearise(tape, residual, [lower(x), lower(y)])
+    assert (linear.unknowns, linear.equations, linear.variables) == (2, 2, 1)
+    assert tape.const_value(linear.matrix[2][2]) == -1
+
+
+def test_the_solution_of_an_equation_is_differentiated_by_its_slope():
+    """With w from w² = x + y + 10: ∂w/∂x = 1/(2w), whatever w was solved with."""
+    tape, lower, (w,) = lowered((x + y + 10) ** sp.Rational(1, 2))
+    equation = tape.sub(tape.mul(w, w), lower(x + y + 10))
+    slope = tape.mul(tape.constant(2), w)
+    residual = [tape.mul(w, lower(sp.cos(x)))]
+    rows = jacobian(tape, linearise(tape, residual, [lower(x), lower(y)], [(w, equation, slope)]))
+    exact = [sp.diff(sp.sqrt(x + y + 10) * sp.cos(x), v).subs(VALUES) for v in (x, y)]
+    assert values(tape, rows)[0] == pytest.approx([float(e) for e in exact], rel=1e-13)

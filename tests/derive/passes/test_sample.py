@@ -1,0 +1,46 @@
+"""The sample's Newton iteration: quadratic convergence in 40 digits, and directions that no equation sees stay put."""
+
+import mpmath
+import pytest
+
+from derive.passes.sample import _change, _iteration, in_double, observation, solve
+from tests.derive.small import lowered, p, plan, x
+
+
+def test_a_root_is_found_to_all_digits():
+    tape, lower, (residual,) = lowered(x**2 - p)
+    with mpmath.workdps(40):
+        inputs = {p: mpmath.mpf(2), x: mpmath.mpf(1)}
+        _iteration(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])(inputs)
+        assert abs(inputs[x] - mpmath.sqrt(2)) < mpmath.mpf(10) ** -38
+
+
+def test_without_a_root_it_says_which_sample_does_not_converge():
+    tape, lower, (residual,) = lowered(x**2 + 1)
+    with pytest.raises(ArithmeticError, match=r"sample of \[x\] does not converge"):
+        _iteration(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])({x: mpmath.mpf("0.7")})
+
+
+def test_a_direction_that_the_equations_do_not_see_stays_put():
+    """x + y = 3 twice: the change solves it by the one unknown, and leaves the other."""
+    rows = [[mpmath.mpf(1), mpmath.mpf(1), mpmath.mpf(3)]] * 2
+    change = _change(rows)
+    assert sum(change) == 3 and 0 in change
+
+
+def test_the_sample_of_a_drive_is_a_contact():
+    made = plan()
+    numbers = made.tape.evaluate(made.residual, made.sample, mpmath)
+    assert max(map(abs, numbers)) < mpmath.mpf(10) ** -12
+    normal = observation(made)["normal_pinion_f"]
+    assert sum(n * n for n in normal) == pytest.approx(1.0, abs=1e-14)
+
+
+def test_another_angle_has_a_contact_of_its_own():
+    made = plan()
+    with mpmath.workdps(40):
+        moved = solve(made, {p.symbol: made.sample[p.symbol] for p in made.drive.parameters}, 0.01)
+        assert max(map(abs, made.tape.evaluate(made.residual, moved, mpmath))) < mpmath.mpf(10) ** -20
+    assert in_double(moved) != in_double(made.sample)
+
+
