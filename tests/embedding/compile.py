@@ -22,7 +22,7 @@ TARGETS = {
 
 
 def compilers():
-    """C and C++ commands by name: clang from its Python package, and the system's gcc and clang where there are some."""
+    """C and C++ commands by name: clang from its Python package, and gcc and clang of the system that has them."""
     found = {"clang": ((*CLANG, "cc"), (*CLANG, "c++"))}
     for name in ("clang", "clang-14"):
         if shutil.which(name) and shutil.which(name.replace("clang", "clang++")):

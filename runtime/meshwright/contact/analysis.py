@@ -53,8 +53,8 @@ def analyse(drive, angles):
 
 def _reference(drive, points):
     """Transmission error to which those of the points are relative: that at the reference angle, of one of the points
-    where it is among them, so that its own is zero to the last bit; else that at the solved angle nearest to it. Without
-    any contact it is not looked for: that is the longest search there is.
+    where it is among them, so that its own is zero to the last bit; else that at the solved angle nearest to it.
+    Without any contact it is not looked for: that is the longest search there is.
     """
     angle = drive.design.reference_angle
     if not points.touching.any() or np.any(points.touching & (points.grid == angle)):
