@@ -1,14 +1,13 @@
 """Loaded contact without a solver: transmission error under load, load share, contact pressure, mesh stiffness.
 
-Elastic teeth are factorised once, which takes seconds for gears and about a minute for threads, then every angle takes
-a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
-loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
-pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
---measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
-touches. Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method
-builds on, there are no figures: status ``not_first``.
-Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under load is not found, or the
-torque is too large for the method.
+Elastic teeth are factorised once, which takes a second for gears and a few for threads, then every angle takes a part
+of a second; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the loaded member
+turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of pressure
+there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
+a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
+Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method builds
+on, there are no figures: status ``not_first``. Exit status 1 then, and if no tooth pair touches at one of the angles,
+its contact under load is not found, or the torque is too large for the method.
 """
 
 import numpy as np
