@@ -6,7 +6,8 @@ loaded member turns by more than 0.01 rad there are no figures. A contact that a
 pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
 --measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
 touches. Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method
-builds on, there are no figures: status ``not_first``.
+builds on, there are no figures: status ``not_first``; nor where a neighbouring pair without a tangency touches on an
+edge before those that have one.
 Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under load is not found, or the
 torque is too large for the method.
 """
@@ -19,7 +20,7 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
-from meshwright.contact.flags import not_first
+from meshwright.contact.flags import NOT_FIRST, OVERLAP, not_first
 from meshwright.contact.results import ARCSEC
 from meshwright.shop.tables import read_csv
 
@@ -93,19 +94,34 @@ def _measured(options):
 
 def _not_first(fe, drive, gear, angle, pairs):
     """Why there are no figures at an angle: the pairs whose tangency lies inside the other flank, and what touches
-    first; "" if every tangency is the first contact of its flanks.
+    first; pairs without a tangency whose edges touch before all tangencies; "" if the tangencies are first.
     """
     numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
     if not numbers:
         return ""
-    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers]))
+    counted = fe.pair.pair_numbers(gear, angle, pairs)
+    others = [k for k in range(counted.start - 1, counted.stop + 1) if k not in numbers]
+    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers + others]))
     first = drive.first_contact(result.angles, result)
+    late = not_first(result, first).flags
     overlaps = 1000.0 * first.overlaps(result.error)
-    return "; ".join(
+    inside = [
         f"the tangency of pair {number:+d} would lie {overlaps[k]:.4g} um inside the other flank: first contact is "
         f"{first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the method has no figures"
         for k, number in enumerate(numbers)
-        if "not_first" in not_first(result, first).flags[k]
+        if NOT_FIRST in late[k]
+    ]
+    lead = max(result.error[: len(numbers)], key=lambda error: gear.sense * error)
+    ahead = first.overlaps(np.full(len(result.angles), lead))
+    return "; ".join(
+        inside
+        or [
+            f"pair {number:+d} would lie {1000.0 * ahead[k]:.4g} um inside the other flank where the tangencies begin "
+            f"to touch: its first contact is {first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the "
+            "method has no figures"
+            for k, number in enumerate(others, len(numbers))
+            if first.kinds[k] in ("edge", "corner") and ahead[k] > OVERLAP
+        ]
     )
 
 
