@@ -41,6 +41,28 @@ def test_every_status_and_flag_is_explained(capsys):
     assert "bodies cannot make" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("contact ratio", "quantity contact_ratio: over how many pitches"),
+        ("hob_pitch_radius_mm", "key hob_pitch_radius_mm [design] reference radius of the hob (cylindrical-worm)"),
+        ("misalignment.center_distance_mm", "[misalignment]"),
+    ],
+)
+def test_quantities_and_keys_are_explained(capsys, words, said):
+    assert main(["explain", *words.split()]) == 0
+    shown = capsys.readouterr().out
+    assert said in shown and not ("." in words and "[design]" in shown)
+
+
+def test_the_help_of_new_names_the_words_of_every_family(capsys):
+    with pytest.raises(SystemExit):
+        main(["new", "--help"])
+    shown = capsys.readouterr().out
+    for word in ("worm_profile", "ZA, ZC, ZI, ZK, ZN", "concave, convex", "outer transverse module"):
+        assert word in shown
+
+
 def test_an_unknown_word_is_answered_with_the_nearest(capsys):
     assert main(["explain", "of_tip"]) == 2
     assert "did you mean 'off_tip'?" in capsys.readouterr().err

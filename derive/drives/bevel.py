@@ -181,9 +181,12 @@ def bevel(cut_gear):
         pinion=pinion,
         wheel=wheel,
         regions=tuple(
-            Region(body.name, "fillet", tooth.fillet, tooth.fillet_regular, _fillet_margins(tooth), "axial")
+            Region(
+                body.name, "fillet", tooth.fillet, tooth.fillet_regular, _fillet_margins(tooth),
+                tooth.settings.pitch_angle.place,
+            )
             for body, tooth in ((pinion, pinion_tooth), (wheel, gear_tooth))
-        ),
+        ),  # fmt: skip
         unknowns=unknowns,
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
@@ -216,7 +219,7 @@ def _body(name, tooth, motion):
         point=point,
         margins=_margins(tooth, point),
         recovered=tooth.recovered,
-        lengthwise="axial",
+        lengthwise=tooth.settings.pitch_angle.place,
     )
 
 

@@ -216,13 +216,16 @@ def header(plan: Schedule, description: dict, runtime):
 
 
 def _indices(description):
-    """Names and values of the index macros: parameters by key, unknowns and outputs by name.
+    """Names and values of the index macros: parameters by key and the words of those that are choices, unknowns and
+    outputs by name.
 
     A key that several tables of a design have is the design's own; that of another table begins with its name.
     """
     keys = [p["key"] or p["name"] for p in description["parameters"]]
     for k, (key, p) in enumerate(zip(keys, description["parameters"], strict=True)):
-        yield f"P_{key if keys.count(key) == 1 or p['table'] == 'design' else p['table'] + '_' + key}", k
+        name = key if keys.count(key) == 1 or p["table"] == "design" else f"{p['table']}_{key}"
+        yield f"P_{name}", k
+        yield from ((f"W_{name}_{word.replace('-', '_')}", f"({number})") for word, number in p["choices"].items())
     yield from ((f"U_{u['name']}", k) for k, u in enumerate(description["unknowns"]))
     yield from ((f"O_{o['name']}", o["offset"]) for o in description["outputs"])
 

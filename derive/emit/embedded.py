@@ -8,6 +8,8 @@ from functools import cache
 
 _INCLUDE = re.compile(r'^#include "(.+)"\n', re.MULTILINE)
 _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
+#: Headers of the solver that need all others.
+ROOTS = ("complete.h", "choice.h")
 _EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
 
 
@@ -19,12 +21,10 @@ def tables(runtime):
 
 @cache
 def solver(runtime):
-    """The solver behind ``X_solve``: every header that ``solver/choice.h`` needs, in order, without its comments."""
-    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in _texts(runtime))
-
-
-def _texts(runtime):
-    return _needed((runtime / "solver" / "choice.h").resolve(), set())
+    """The solver behind ``X_complete`` and ``X_solve``, in order, without its comments."""
+    seen = set()
+    texts = (text for name in ROOTS for text in _needed((runtime / "solver" / name).resolve(), seen))
+    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in texts)
 
 
 def _needed(path, seen):

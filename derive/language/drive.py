@@ -67,8 +67,9 @@ class Body:
     the surface parameters of a regular point, where the singular function has its good sign; where that sign is known,
     ``regular`` is an expression which has it everywhere, and no point is needed. ``recovered`` are
     parameters that the reduce stage removed and a user still wants to read. ``lengthwise`` is what runs along the
-    tooth, for grids: "axial" or "radius" (body frame), or "" for the last surface parameter; the first surface
-    parameter runs across it, along the profile.
+    tooth, for grids and solids: "axial" or "radius" (body frame), the key ("table.key") of the angle of the pitch cone
+    along which it lies, or "" for the last surface parameter; the first surface parameter runs across it, along the
+    profile.
     """
 
     name: str

@@ -12,7 +12,7 @@ from functools import cache
 
 import sympy as sp
 
-from derive.program.routine import routine
+from derive.program.routine import Routine, routine
 from derive.program.tape import Tape
 
 _SOURCE = random.Random(secrets.randbits(128))
@@ -93,6 +93,12 @@ def _leaf(tape, i):
 
 def residues(program):
     """Values of a routine's outputs modulo the prime, at the inputs' random residues."""
+    if "residues" not in program.found:
+        program.found["residues"] = _computed(program)
+    return program.found["residues"]
+
+
+def _computed(program):
     p, values = _prime(), {}
 
     def value(i):
@@ -107,7 +113,7 @@ def residues(program):
     return [value(i) % p for i in program.outputs]
 
 
-def same(name, before, after):
+def same(name: str, before: Routine, after: Routine) -> Routine:
     """``after``, which must compute what ``before`` does; raises :class:`PassError` with the pass's name."""
     if before.outputs != after.outputs or residues(before) != residues(after):
         raise PassError(f"{name}: {before.name or 'a routine'} computes other values after it than before")

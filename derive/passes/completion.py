@@ -3,10 +3,14 @@
 Each system has a small tape of its own, read by the C printer and, at generation time, by :mod:`derive.passes.sample`.
 """
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from derive.language.drive import PATH, DesignSystem
+import sympy as sp
+
+from derive.language.drive import PATH, DesignSystem, Drive
 from derive.language.limits import singular_function
+from derive.language.symbols import Parameter, Quantity
 from derive.program.tape import Lowering, Stage, Tape
 
 
@@ -17,15 +21,15 @@ class SystemTape:
     system: DesignSystem
     tape: Tape
     lower: Lowering
-    residual: list
-    jacobian: list
-    scales: list
-    guess: list
-    values: list
+    residual: list[int]
+    jacobian: list[list[int]]
+    scales: list[int]
+    guess: list[int]
+    values: list[int]
     watch: int | None
 
     @property
-    def unknowns(self):
+    def unknowns(self) -> list[Quantity]:
         return [u.symbol for u in self.system.unknowns]
 
 
@@ -34,14 +38,14 @@ class ParameterTape:
     """Nodes of expressions of a drive's parameter vector alone, on a tape of their own."""
 
     lower: Lowering
-    nodes: list
+    nodes: list[int]
 
     @property
-    def tape(self):
+    def tape(self) -> Tape:
         return self.lower.tape
 
 
-def on_parameters(drive, expressions):
+def on_parameters(drive: Drive, expressions: Iterable[sp.Expr]) -> ParameterTape:
     """The :class:`ParameterTape` of these expressions."""
     lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
     for p in drive.parameters:
@@ -49,7 +53,7 @@ def on_parameters(drive, expressions):
     return ParameterTape(lower, [lower(e) for e in expressions])
 
 
-def lower_system(system: DesignSystem, parameters):
+def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> SystemTape:
     """A design system of a drive with these parameters on a tape."""
     tape = Tape()
     inputs = {p.symbol: Stage.DESIGN for p in parameters} | {PATH: Stage.INSTANT}
@@ -77,7 +81,7 @@ def lower_system(system: DesignSystem, parameters):
     )
 
 
-def _watch(system, lower, fixed):
+def _watch(system: DesignSystem, lower: Lowering, fixed: Mapping[int, int]) -> int | None:
     if system.regular is None:
         return None
     surface, sign = system.regular

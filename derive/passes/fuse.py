@@ -4,10 +4,12 @@ The choice is part of the program, not left to a compiler: compiled with fusing,
 bits; without, the text means product and sum, and gives the same bits on every machine.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from derive.passes import check
 from derive.program.routine import Operation, Routine
+from derive.program.tape import Node, Tape
 
 #: Sums that take a product as either argument.
 _SUMS = {"add", "sub"}
@@ -21,7 +23,7 @@ def fuse(routine: Routine) -> Routine:
     return check.same("fuse", routine, replace(routine, steps=steps))
 
 
-def _fused(tape, i, step, product):
+def _fused(tape: Tape, i: int, step: Operation, product: int | None) -> Operation:
     if product is None:
         return step
     first, second = step.args
@@ -29,19 +31,21 @@ def _fused(tape, i, step, product):
     return Operation(op, (*tape.nodes[product].args, second if first == product else first), product)
 
 
-def fused_products(tape, order, outputs):
+def fused_products(tape: Tape, order: Sequence[int], outputs: Iterable[int]) -> dict[int, int]:
     """Sum → the product that it takes, for the operations in ``order``.
 
     A product goes into its sums if that leaves no other use of it. Where a sum could take either argument, it takes
     the one that is known later.
     """
-    users, depth = {i: [] for i in order}, {}
+    users: dict[int, list[int]] = {i: [] for i in order}
+    depth: dict[int, int] = {}
     for i in order:
         args = [a for a in tape.nodes[i].args if a in users]
         depth[i] = 1 + max((depth[a] for a in args), default=0)
         for a in args:
             users[a].append(i)
-    kept, taken = set(outputs), {}
+    kept = set(outputs)
+    taken: dict[int, int] = {}
     for i in sorted(order, key=lambda k: -depth[k]):
         if tape.nodes[i].op != "mul" or i in kept or not users[i]:
             continue
@@ -50,6 +54,6 @@ def fused_products(tape, order, outputs):
     return taken
 
 
-def _takes(node, product):
+def _takes(node: Node, product: int) -> bool:
     """Whether the node is a sum that has the product as one of its two arguments."""
     return node.op in _SUMS and node.args.count(product) == 1

@@ -6,9 +6,12 @@ those of the equation over its slope, shorter than those of the solution. The re
 changes of the unknowns and of these variables; eliminating the variables gives the Jacobian.
 """
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from derive.program.tape import Stage
+from derive.program.tape import Stage, Tape
+
+Rows = list[list[int]]
 
 
 @dataclass(frozen=True)
@@ -19,30 +22,32 @@ class Linear:
     angle or the solution of an equation, which has −1 there.
     """
 
-    matrix: list
+    matrix: Rows
     unknowns: int
     equations: int
 
     @property
-    def variables(self):
+    def variables(self) -> int:
         return len(self.matrix) - self.equations
 
 
-def linearise(tape, residual, unknowns, solutions=()):
+def linearise(
+    tape: Tape, residual: Sequence[int], unknowns: Sequence[int], solutions: Iterable[tuple[int, int, int]] = ()
+) -> Linear:
     """The :class:`Linear` system of residual nodes in unknown (input) nodes.
 
     ``solutions`` are nodes (solution, equation, slope): the equation is 0, its derivative by the solution the slope.
     What is held as a variable, and which way each row is differentiated, is what needs the fewest operations.
     """
     best = _assembled(tape, residual, unknowns, {})
-    equations = {solution: rest for solution, *rest in solutions}
+    equations = {solution: (equation, slope) for solution, equation, slope in solutions}
     if equations:
         held = _assembled(tape, residual, unknowns, equations)
         best = min(best, held, key=lambda linear: _operations(tape, residual, linear.matrix))
     return best
 
 
-def forward(tape, residual, unknowns):
+def forward(tape: Tape, residual: Sequence[int], unknowns: Sequence[int]) -> Linear:
     """The :class:`Linear` system by the forward chain rule alone: of equations solved too seldom to seek what needs the
     fewest operations.
     """
@@ -53,7 +58,9 @@ def forward(tape, residual, unknowns):
     return Linear(rows, len(unknowns), len(residual))
 
 
-def _assembled(tape, residual, unknowns, equations):
+def _assembled(
+    tape: Tape, residual: Sequence[int], unknowns: Sequence[int], equations: Mapping[int, tuple[int, int]]
+) -> Linear:
     variables = _variables(tape, residual, unknowns, equations)
     columns = [*unknowns, *variables]
     forward, backward = _Forward(tape, variables), _Backward(tape, columns)
@@ -65,7 +72,9 @@ def _assembled(tape, residual, unknowns, equations):
     return Linear(_cheapest(tape, residual, sides), len(unknowns), len(residual))
 
 
-def _closed(tape, row, at, equation, variable):
+def _closed(
+    tape: Tape, row: list[int], at: int, equation: tuple[int, int] | None, variable: int
+) -> list[int]:
     """The row of a variable, −1 in its own column: what changes it are the columns before."""
     before = row[:at]
     if equation is not None:
@@ -75,7 +84,7 @@ def _closed(tape, row, at, equation, variable):
     return [*before, tape.constant(-1), *[tape.constant(0)] * (len(row) - at - 1)]
 
 
-def _cheapest(tape, residual, sides):
+def _cheapest(tape: Tape, residual: Sequence[int], sides: Sequence[Rows]) -> Rows:
     """Of two ways to write each row the ones that together need the fewest operations: rows turn alone or in pairs,
     since two rows may share what the one alone would not pay for.
     """
@@ -89,7 +98,7 @@ def _cheapest(tape, residual, sides):
     return rows
 
 
-def _operations(tape, residual, rows):
+def _operations(tape: Tape, residual: Sequence[int], rows: Sequence[Sequence[int]]) -> int:
     """Operations of a Newton step, but for the solution of the system in the unknowns alone."""
     entries = [[tape.const_value(e) is None for e in row] for row in rows]
     values = (e for row, varies in zip(rows, entries, strict=True) for e, v in zip(row, varies, strict=True) if v)
@@ -99,12 +108,12 @@ def _operations(tape, residual, rows):
     return sum(tape.stages[i] == Stage.ITERATE for i in needed) + elimination
 
 
-def jacobian(tape, linear):
+def jacobian(tape: Tape, linear: Linear) -> Rows:
     """Nodes of ∂residual/∂unknowns, row by row: the angles eliminated in the order in which they are computed."""
     n = linear.unknowns
-    turning = []
+    turning: Rows = []
 
-    def total(row):
+    def total(row: list[int]) -> list[int]:
         values = row[:n]
         for slope, change in zip(row[n:], turning, strict=False):
             values = [tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True)]
@@ -115,14 +124,17 @@ def jacobian(tape, linear):
     return [total(row) for row in linear.matrix[: linear.equations]]
 
 
-def _variables(tape, outputs, inputs, equations):
+def _variables(
+    tape: Tape, outputs: Iterable[int], inputs: Iterable[int], equations: Mapping[int, tuple[int, int]]
+) -> list[int]:
     """Solutions of equations, and arguments of sines and cosines that depend on more than one input, as evaluated."""
+    inputs = set(inputs)
     acting = {i: {i} for i in inputs}
     held = set()
-    order = tape.needed(outputs, set(inputs))
+    order = tape.needed(outputs, inputs)
     for i in order:
         node = tape.nodes[i]
-        acting[i] = set().union(*(acting.get(a, ()) for a in node.args))
+        acting[i] = {x for a in node.args for x in acting.get(a, ())}
         if node.op in ("sin", "cos") and len(acting[i]) > 1:
             held.add(node.args[0])
         if i in equations and len(acting[i]) > 1:
@@ -133,16 +145,16 @@ def _variables(tape, outputs, inputs, equations):
 class _Forward:
     """Derivatives by each variable while the others are held, by the chain rule from the inputs on."""
 
-    def __init__(self, tape, variables):
+    def __init__(self, tape: Tape, variables: Iterable[int]) -> None:
         self.tape = tape
         self.variables = set(variables)
-        self._done = {}
+        self._done: dict[tuple[int, int], int] = {}
 
-    def __call__(self, i, variables):
+    def __call__(self, i: int, variables: Iterable[int]) -> list[int]:
         """∂(node i)/∂(each variable); node i itself may be one of them."""
         return [self._by(i, variable) for variable in variables]
 
-    def _by(self, i, variable):
+    def _by(self, i: int, variable: int) -> int:
         stack = [i]
         while stack:
             top = stack[-1]
@@ -156,10 +168,10 @@ class _Forward:
             stack.pop()
         return self._slope(i, variable) if i == variable else self._done[i, variable]
 
-    def _held(self, i, variable):
+    def _held(self, i: int, variable: int) -> bool:
         return i == variable or i in self.variables or not self.tape.nodes[i].args
 
-    def _slope(self, i, variable):
+    def _slope(self, i: int, variable: int) -> int:
         if self._held(i, variable):
             return self.tape.constant(1 if i == variable else 0)
         return self._done[i, variable]
@@ -168,11 +180,11 @@ class _Forward:
 class _Backward:
     """The same by the adjoint chain rule, from the result back: once for all variables."""
 
-    def __init__(self, tape, variables):
+    def __init__(self, tape: Tape, variables: Sequence[int]) -> None:
         self.tape = tape
         self.variables = variables
 
-    def __call__(self, i, variables):
+    def __call__(self, i: int, variables: Iterable[int]) -> list[int]:
         tape, known = self.tape, set(self.variables) - {i}
         order = tape.needed([i], known)
         moved = set(known)

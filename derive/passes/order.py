@@ -5,12 +5,15 @@ has sixteen or thirty-two registers, so the program starts early what most other
 last use of a value is (list scheduling).
 """
 
+from __future__ import annotations
+
 import heapq
 from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from derive.passes import check
-from derive.program.routine import Routine
+from derive.program.routine import Operation, Routine
 
 #: Cycles until a result can be used, on a current desktop or server processor; only the proportions matter.
 _LATENCY = {
@@ -36,7 +39,7 @@ def order(routine: Routine) -> Routine:
     return _reordered(routine, [i for _, i in latency_order(dict(routine.steps), routine.outputs)])
 
 
-def interleaved(routine: Routine, lags):
+def interleaved(routine: Routine, lags: Sequence[int]) -> list[tuple[int, int]]:
     """Pairs (copy, node) in the order in which copies of the routine are printed side by side."""
     pairs = latency_order(dict(routine.steps), routine.outputs, lags)
     for copy in range(len(lags)):
@@ -44,9 +47,10 @@ def interleaved(routine: Routine, lags):
     return pairs
 
 
-def _reordered(routine, nodes):
+def _reordered(routine: Routine, nodes: Iterable[int]) -> Routine:
     """The routine in the order of these nodes; of sine and cosine of one argument the first stands for both."""
-    program, turned = dict(routine.steps), {}
+    program = dict(routine.steps)
+    turned: dict[tuple[int, ...], list[tuple[int, Operation]]] = {}
     for i, step in routine.steps:
         if step.op in ("sin", "cos"):
             turned.setdefault(step.args, []).append((i, step))
@@ -55,7 +59,9 @@ def _reordered(routine, nodes):
     return check.same("order", routine, replace(routine, steps=steps))
 
 
-def latency_order(program, outputs, lags=(0,)):
+def latency_order(
+    program: Mapping[int, Operation], outputs: Iterable[int], lags: Sequence[int] = (0,)
+) -> list[tuple[int, int]]:
     """Pairs (copy, node) of a program, each after its arguments, the most urgent first.
 
     ``program`` holds the operation of each node, in any order of evaluation; of sine and cosine of one
@@ -65,9 +71,12 @@ def latency_order(program, outputs, lags=(0,)):
     """
     graph = _Graph(program, outputs)
     copies = [_Copy(graph, lag) for lag in lags]
-    coming = [(0, k, i) for k in range(len(lags)) for i in graph.args if not graph.args[i]]
+    first = [i for i, args in graph.args.items() if not args]
+    coming: list[tuple[float, int, int]] = [(0, k, i) for k in range(len(lags)) for i in first]
     heapq.heapify(coming)
-    ready, result, time = [], [], 0
+    ready: list[tuple[float, int, int, int]] = []
+    result: list[tuple[int, int]] = []
+    time = 0.0
     while coming or ready:
         while coming and (coming[0][0] <= time + _AHEAD or not ready):
             at, k, i = heapq.heappop(coming)
@@ -90,19 +99,19 @@ def latency_order(program, outputs, lags=(0,)):
 class _Graph:
     """What each operation waits for and who waits for it, how long the chain behind it is, what it costs."""
 
-    def __init__(self, program, outputs):
-        turned = {}
+    def __init__(self, program: Mapping[int, Operation], outputs: Iterable[int]) -> None:
+        turned: dict[tuple[int, ...], int] = {}
         alone = {i: turned.setdefault(o.args, i) if o.op in ("sin", "cos") else i for i, o in program.items()}
         nodes = dict.fromkeys(alone.values())
         within = {i: dict.fromkeys(alone[a] for a in program[i].args if a in alone) for i in nodes}
         self.args = {i: tuple(args) for i, args in within.items()}
-        self.users = {i: [] for i in nodes}
+        self.users: dict[int, list[int]] = {i: [] for i in nodes}
         for i, args in self.args.items():
             for a in args:
                 self.users[a].append(i)
         self.latency = {i: _LATENCY[program[i].op] for i in nodes}
         self.cost = {i: _OPERATIONS.get(program[i].op, 1) for i in nodes}
-        self.height = {}
+        self.height: dict[int, int] = {}
         for i in reversed(nodes):
             self.height[i] = self.latency[i] + max((self.height[u] for u in self.users[i]), default=0)
         self.rank = {i: k for k, i in enumerate(nodes)}
@@ -113,20 +122,20 @@ class _Graph:
 class _Copy:
     """How far one copy of the program has come."""
 
-    def __init__(self, graph, lag):
+    def __init__(self, graph: _Graph, lag: int) -> None:
         self._graph, self._lag = graph, lag
         self._uses = {i: len(users) + (i in graph.kept) for i, users in graph.users.items()}
         self._waits = {i: len(args) for i, args in graph.args.items()}
-        self.possible = dict.fromkeys(graph.args, 0)  # when the arguments are there
-        self.ready = set()
+        self.possible: dict[int, float] = dict.fromkeys(graph.args, 0.0)  # when the arguments are there
+        self.ready: set[int] = set()
 
-    def urgency(self, i):
+    def urgency(self, i: int) -> tuple[float, int]:
         """Sorts operations, the most urgent first; it only grows."""
         graph = self._graph
         registers = sum(self._uses[a] == 1 for a in graph.args[i]) - graph.results[i]
         return self._lag - graph.height[i] - _REGISTER * registers, graph.rank[i]
 
-    def start(self, i, time):
+    def start(self, i: int, time: float) -> tuple[list[int], list[int]]:
         """Start operation i; returns those that may come now, and those ready that have become more urgent."""
         graph, finished = self._graph, max(time, self.possible[i]) + self._graph.latency[i]
         self.ready.remove(i)

@@ -3,14 +3,19 @@
 A division takes as long as a dozen products.
 """
 
+from collections.abc import Iterable
+
 from derive.passes import check
 from derive.program.routine import Operation, Routine
+from derive.program.tape import Tape
 
 
 def reciprocals(routine: Routine) -> Routine:
     """The routine with products for quotients whose divisor's reciprocal is at hand."""
     tape, readable = routine.tape, routine.known
     factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
+    if not factors:
+        return routine
     steps = []
     for i in tape.needed(routine.outputs, readable, factors):
         node = tape.nodes[i]
@@ -19,14 +24,14 @@ def reciprocals(routine: Routine) -> Routine:
     return check.same("reciprocals", routine, after)
 
 
-def by_reciprocal(tape, outputs, known):
+def by_reciprocal(tape: Tape, outputs: Iterable[int], known: Iterable[int]) -> dict[int, tuple[int, int]]:
     """Quotient → its dividend and the reciprocal of its divisor, in a function that is given ``known``."""
     one, order = tape.constant(1), tape.needed(outputs, known)
-    at_hand, factors = known | {*order}, {}
+    at_hand, factors = {*known, *order}, {}
     for i in order:
         node = tape.nodes[i]
         if node.op == "div" and node.args[0] != one:
             reciprocal = tape.find("div", one, node.args[1])
-            if reciprocal in at_hand:
+            if reciprocal is not None and reciprocal in at_hand:
                 factors[i] = (node.args[0], reciprocal)
     return factors

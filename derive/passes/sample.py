@@ -17,6 +17,9 @@ BESIDE = 1.0 / 64.0
 #: Steps in which the path of a design system is followed.
 PATH_STEPS = 16
 
+#: Newton's last change on the way: what is left of the error is its square.
+ON_PATH = 1e-4
+
 
 class Completion:
     """What completes the designs of a drive: its rules and its design systems, on tapes."""
@@ -54,14 +57,14 @@ def sample_parameters(drive):
 
 
 def _complete(plan, values):
-    """Fill in what a design system gives, following its path in equal steps."""
+    """Fill in what a design system gives, following its path in equal steps, exactly only at its end."""
     unknowns = plan.unknowns
     inputs = dict(values)
     inputs.update(zip(unknowns, plan.tape.evaluate(plan.guess, inputs, mpmath), strict=True))
     iterate = _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)
     for step in range(PATH_STEPS + 1):
         inputs[PATH] = mpmath.mpf(step) / PATH_STEPS
-        iterate(inputs)
+        iterate(inputs, ON_PATH if step < PATH_STEPS else None)
     for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
         if mpmath.isnan(values[target]):
             values[target] = value
@@ -124,18 +127,20 @@ def _start(plan, parameters, angle):
 
 
 def _iteration(tape, residual, jacobian, unknowns):
-    """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes."""
+    """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes, or until a
+    change is below the tolerance given.
+    """
     n = len(unknowns)
     evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], mpmath)
-    tolerance = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
+    exact = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
 
-    def iterate(inputs):
+    def iterate(inputs, tolerance=None):
         for _ in range(60):
             numbers = evaluate(inputs)
             change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
-            if max(map(abs, change), default=0) < tolerance:
+            if max(map(abs, change), default=0) < (tolerance or exact):
                 return
         raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")
 

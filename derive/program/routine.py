@@ -5,7 +5,7 @@ it reads is what it does not compute.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from derive.program.tape import Tape
 
@@ -25,7 +25,7 @@ class Operation:
 class Routine:
     """``steps`` (node, operation) in an order of evaluation that leads to ``outputs``; ``known`` are nodes to be read.
 
-    ``later`` are outputs of a routine that goes on from this one.
+    ``later`` are outputs of a routine that goes on from this one. ``found`` keeps what passes found out about it.
     """
 
     tape: Tape
@@ -34,6 +34,7 @@ class Routine:
     steps: tuple[tuple[int, Operation], ...]
     later: tuple[int, ...] = ()
     name: str = ""
+    found: dict[str, list[int]] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @property
     def operations(self) -> int:

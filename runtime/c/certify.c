@@ -3,11 +3,10 @@
 #define MWC_POINTS
 #include "certify/krawczyk.h"
 #include "certify/tables.h"
-#include "complete.h"
 #include "kernels.h"
 #include "lanes.h"
 #include "mw_certify.h"
-#include "solver/basics.h"
+#include "solver/complete.h"
 
 /* Boxes begin at this share of the natural sizes; steps that shape them; the share beyond which none is tried. */
 static const double FIRST_BOX = 5.9604644775390625e-8, WIDEST_BOX = 0.25;
@@ -191,7 +190,7 @@ static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
     mw_info info;
     if (!fits(&t->equations, np + 1 + n) || !fits(&t->values, np + 1 + n)) return 0;
     for (int i = 0; i < np; i++) q[i] = p[i].hi;
-    if (mw_solve_system(m, system, q, y, &info) < 0) return 0;
+    if (mwi_solve_system(m, system, q, y, &info) < 0) return 0;
     system->scale(q, sizes);
     memcpy(arguments, p, sizeof(mw_wide) * (size_t)np);
     arguments[np] = mwc_wide_of(1.0);

@@ -1,8 +1,8 @@
 /* Exact sensitivities of a design and of its contact by the implicit function theorem.  SPDX-License-Identifier: MIT-0 */
 #include "exact.h"
 #include <string.h>
-#include "complete.h"
 #include "kernels.h"
+#include "solver/complete.h"
 #include "solver/linear.h"
 
 /* Below this share of the largest pivot a system does not determine its solution: line contact. */
@@ -29,7 +29,7 @@ static int place(const mw_model *m, const mw_system *system, const mw_system_tan
     double R[MW_MAX_UNKNOWNS], dR[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     mw_info info;
     memcpy(q, p, sizeof(double) * (size_t)m->np);
-    if (mw_solve_system(m, system, q, y, &info) < 0) return info.status;
+    if (mwi_solve_system(m, system, q, y, &info) < 0) return info.status;
     t->equations(q, dp, y, dy, dR);
     system->eval(q, y, R, J);
     system->scale(q, scale);

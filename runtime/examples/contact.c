@@ -17,8 +17,7 @@ int main(void)
     p[X(P_pressure_angle_deg)] = 10.0 * degree;
     p[X(P_pitch_line_shift_mm)] = 4.0;
     p[X(P_hob_pitch_radius_mm)] = 20.063824;
-    X(derive)(p);
-    if (X(setup)(p, s)) return 2;
+    if (X(solve_design)(p, &info) || X(setup)(p, s)) return 2;
     const int status = X(solve)(s, 7.0, x, &info); /* worm angle, rad */
     if (status < 0) {
         fprintf(stderr, "%s\n", X(status_text)(status));

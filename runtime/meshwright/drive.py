@@ -74,6 +74,11 @@ class Drive:
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
 
     @cached_property
+    def as_described(self):
+        """This drive, or its mirror image if that has the hand for which the drive's equations are written."""
+        return self.with_(design={"hand": self.design.description["handed"]}) if self.design.mirrored else self
+
+    @cached_property
     def model(self):
         """The model table, as a cffi pointer."""
         return BACKENDS[self.backend](self.design)

@@ -14,6 +14,8 @@ WRONG = [
     ("meshing", "screw", ("axis, r_gen - origin) - H*k", "axis, r_gen - origin) + H*k")),
     ("meshing", "screw", ("h*cross(k, r_gen)", "-h*cross(k, r_gen)")),
     ("meshing", "screw", ("- h*rate", "+ h*rate")),
+    ("regular", "twice", ("2*a*AV", "-2*a*AV")),
+    ("regular", "f_t", ("+ dot(N, VV)", "- dot(N, VV)")),
     ("edge-normal", "arc", ("kappa)*t0 - (2", "kappa)*t0 + (2")),
     ("swung-edge", "swung", ("secant)*t0 - (", "secant)*t0 + (")),
     ("pole", "pole", ("(u0 + X)", "(u0 - X)")),

@@ -1,14 +1,14 @@
 """Closed bodies: watertight, whole, with the volume of what they are."""
 
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from meshwright import Drive, UsageError
+from meshwright import DesignError, Drive, UsageError
 from meshwright.cli import main
-from meshwright.fe.closed_body import closed_body, volume
-from meshwright.flank.polygon import triangles
+from meshwright.fe.closed_body import closed_body, solid_body, volume
 
 
 def _edges(triangles):
@@ -24,7 +24,10 @@ def test_the_volume_of_a_cube():
 
 @pytest.mark.parametrize(
     ("name", "member", "teeth"),
-    [("helical-crowned", "wheel", 2), ("spherical-table-4-4-concave", "pinion", 1)],
+    [
+        ("helical-crowned", "wheel", 2),
+        pytest.param("spherical-table-4-4-concave", "pinion", 1, marks=pytest.mark.validate),
+    ],
 )
 def test_a_body_is_closed_and_its_flanks_are_near(name, member, teeth):
     body = closed_body(Drive.load(name), member, teeth)
@@ -34,12 +37,14 @@ def test_a_body_is_closed_and_its_flanks_are_near(name, member, teeth):
     assert body.volume > 0.0 and body.departure <= 1e-3
 
 
+@pytest.mark.validate
 def test_a_further_tooth_always_adds_the_same_volume():
-    drive = Drive.load("helical-crowned")
-    one, two, three = (closed_body(drive, "wheel", n).volume for n in (1, 2, 3))
+    body = solid_body(Drive.load("helical-crowned"), "wheel", 1)
+    one, two, three = (replace(body, teeth=n).faceted(1e-2).volume for n in (1, 2, 3))
     assert three - two == pytest.approx(two - one, rel=1e-9)
 
 
+@pytest.mark.validate
 def test_a_whole_gear_lies_between_its_root_and_tip_cylinders():
     drive = Drive.load("helical-crowned")
     body = closed_body(drive, "pinion")
@@ -73,16 +78,6 @@ def test_a_worm_is_a_screw_of_its_cross_section():
     assert np.hypot(body.points[:, 0], body.points[:, 1]).max() == pytest.approx(tip, abs=1e-6)
 
 
-def test_a_polygon_with_a_hole_is_filled():
-    turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
-    star = (2.0 + (np.arange(24) % 2))[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    hole = np.array([[1.0, 0.0], [0.0, -1.0], [-1.0, 0.0], [0.0, 1.0]])
-    corners = np.concatenate([star, star[:1], hole, hole[:1]])
-    a, b, c = (corners[triangles(corners)[:, k]] for k in range(3))
-    areas = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    assert (areas > 0.0).all() and areas.sum() == pytest.approx(0.5 * 24 * 6.0 * np.sin(turn[1]) - 2.0)
-
-
 def test_the_command_writes_a_watertight_stl(tmp_path, capsys):
     path = tmp_path / "wheel.stl"
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid", "--teeth", "2", "--stl", str(path)]) == 0
@@ -91,13 +86,42 @@ def test_the_command_writes_a_watertight_stl(tmp_path, capsys):
 
 
 def test_what_has_no_closed_body_says_why(capsys):
-    with pytest.raises(UsageError, match="has no declared sizes of solid teeth"):
-        closed_body(Drive.load("bevel-crown-pair"), "pinion")
     with pytest.raises(UsageError, match="one body with 2 threads"):
         closed_body(Drive.load("plain-za"), "pinion", 1)
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid", "--teeth", "999", "--stl", "-"]) == 2
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid"]) == 2
     assert "choose from 1 to" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "member", "changes", "words"),
+    [
+        ("spur-profile-shift", "pinion", {"design": {"pinion_profile_shift_coefficient": 1.4}}, "point below the tip"),
+        ("plain-za", "wheel", {"blank": {"wheel_tip_radius_mm": 60.0}}, "is empty"),
+    ],
+)
+def test_teeth_that_are_not_whole_are_refused_with_the_reason(name, member, changes, words):
+    with pytest.raises((DesignError, UsageError), match=words):
+        closed_body(Drive.load(name).with_(**changes), member, 1)
+
+
+@pytest.mark.validate
+def test_a_bevel_tooth_lies_between_its_cones():
+    """Heel, toe and face cones of the blank (ISO 23509: cone distance along the pitch cone)."""
+    drive = Drive.load("bevel-formate")
+    body = solid_body(drive, "wheel", 1)
+    points = np.concatenate([p.points.reshape(-1, 3) for p in body.splined(1e-3)[0] if p.kind != "bore"])
+
+    def of(key):
+        return drive.design.value(key, "gear")
+
+    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    delta, tip = of("pitch_angle_deg"), of("face_angle_deg")
+    along = (z + of("pitch_apex_mm")) * np.cos(delta) + radius * np.sin(delta)
+    outer, width = of("outer_cone_distance_mm"), of("face_width_mm")
+    assert (along.min(), along.max()) == pytest.approx((outer - width, outer), abs=1e-9)
+    above = radius * np.cos(tip) - (z + of("face_apex_mm")) * np.sin(tip)
+    assert above.max() == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.validate

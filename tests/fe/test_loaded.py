@@ -8,6 +8,7 @@ from test_solver_chain import linear_field, macneal_harder_patch
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands import loading
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
@@ -243,3 +244,41 @@ def test_line_contact_is_refused(capsys):
     design = ["spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
     assert main(["loaded", *design, "--torque-nm", "1"]) == 2
     assert "design" in capsys.readouterr().err
+
+
+@pytest.mark.validate
+def test_contact_lines_of_helical_teeth_are_generators_of_the_base_helix(capsys, monkeypatch):
+    """ISO 21771:2007: contact lines lie in the plane of action at the base helix angle, sin β_b = sin β cos α_n."""
+    monkeypatch.setattr(loading, "compliances", lambda *_: None)
+    plain = ("design.pinion_tip_relief_um=0", "design.wheel_tip_relief_um=0", "misalignment.horizontal_deg=0")
+    settings = [word for setting in plain for word in ("--set", setting)]
+    assert main(["loaded", "helical-crowned", "--torque-nm", "60", "--phi-deg=2", "--json", "-", *settings]) == 0
+    document = json.loads(capsys.readouterr().out)
+    design = Drive.load("helical-crowned").design
+    helix = np.sin(design.value("pinion_helix_angle_deg")) * np.cos(design.value("pressure_angle_deg"))
+    carrying = [pair for pair in document["points"][0]["pairs"] if pair["share"] > 0.0]
+    assert carrying
+    for pair in carrying:
+        for member in ("pinion", "wheel"):
+            line = np.array(pair["line_mm"][member])
+            along = line[-1] - line[0]
+            assert abs(along[2]) / np.linalg.norm(along) == pytest.approx(np.cos(np.arcsin(helix)), abs=1e-4)
+
+
+@pytest.mark.validate
+def test_a_left_hand_drive_under_load_is_the_mirror_image_of_the_right_hand_one(capsys, monkeypatch):
+    """On half-spaces of rigid teeth, which is all that the hand has to do with."""
+    monkeypatch.setattr(loading, "compliances", lambda *_: None)
+
+    def at(angle, *hand):
+        words = ["loaded", "plain-za", "--torque-nm", "50", "--pairs", "1", f"--phi-deg={angle}", "--json", "-", *hand]
+        assert main(words) == 0
+        (point,) = json.loads(capsys.readouterr().out)["points"]
+        return point
+
+    right, left = at(4.0), at(-4.0, "--set", "design.hand=left")
+    assert left["loaded_transmission_error_arcsec"] == pytest.approx(-right["loaded_transmission_error_arcsec"])
+    (theirs,), (ours,) = right["pairs"], left["pairs"]
+    assert ours["peak_pressure_mpa"] == pytest.approx(theirs["peak_pressure_mpa"])
+    for member in ("pinion", "wheel"):
+        assert np.array(ours["line_mm"][member]) * [1, -1, 1] == pytest.approx(np.array(theirs["line_mm"][member]))

@@ -14,6 +14,8 @@ import pytest
 from meshwright import Drive
 from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
+from meshwright.fe.closed_body import solid_body
+from meshwright.flank.patches import triangulated
 from meshwright.sensitivity import sensitivity
 from tests.outside.folder import Commands, derived
 
@@ -185,13 +187,31 @@ def test_ratio_limits_sweep_and_report_are_written(run, tmp_path):
     ("words", "reason"),
     [
         (("surface", "--member", "wheel", "--region", "fillet", "--json", "-"), "no fillet of 'wheel'"),
-        (("surface", "--member", "pinion", "--solid", "--stl", "solid.stl"), "no declared sizes of solid teeth"),
         (("loaded", "--torque-nm", "50"), "no sizes of solid teeth"),
     ],
 )
 def test_what_its_page_does_not_describe_is_refused_with_the_reason(run, capsys, words, reason):
     run(*words, status=2)
     assert reason in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("member", "teeth"), [("pinion", 1), ("wheel", 2)])
+def test_its_margins_alone_make_closed_bodies(drive, member, teeth):
+    """The worm lies in the torus that its wheel's tip clears, to its ends; the wheel between its own cylinders."""
+    patches, departure = solid_body(drive(), member, teeth).splined(1e-3)
+    _, triangles = triangulated(patches)
+    there = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+    assert departure < 1e-3
+    assert set(map(tuple, there.tolist())) == set(map(tuple, there[:, ::-1].tolist()))
+    points = np.concatenate([p.points.reshape(-1, 3) for p in patches if p.kind in ("flank", "tip", "land")])
+    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    height = drive().design.value("addendum_mm", "blank")
+    if member == "pinion":
+        assert (-z.min(), z.max()) == pytest.approx((50.0, 50.0), abs=1e-9)
+        least, most, height_of = 100.0 - height, 100.0 + 1.2 * height, np.hypot(125.0 - radius, z)
+    else:
+        least, most, height_of = 100.0 - 1.2 * height, 100.0 + height, radius
+    assert (height_of.min(), height_of.max()) == pytest.approx((least, most), abs=1e-6)
 
 
 def test_the_audit_entry_says_what_is_proved(folder):

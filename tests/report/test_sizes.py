@@ -47,9 +47,10 @@ def test_a_drawing_states_each_member_and_both(analysed):
 
 def test_a_report_under_load_shows_what_was_solved_and_says_what_was_not(analysed):
     """One angle carries on two pairs, another has no figures: one point on either curve, and a sentence."""
+    line = {member: [[70.0, 0.0, -2.0], [70.0, 0.0, 2.0]] for member in ("pinion", "wheel")}
     pairs = [
-        {"pairs_later": 0, "share": 0.75, "peak_pressure_mpa": 900.0},
-        {"pairs_later": 1, "share": 0.25, "peak_pressure_mpa": 500.0},
+        {"pairs_later": 0, "share": 0.75, "peak_pressure_mpa": 900.0, "line_mm": line},
+        {"pairs_later": 1, "share": 0.25, "peak_pressure_mpa": 500.0, "line_mm": line},
     ]
     points = [
         {"pinion_angle_deg": 1.0, "message": "", "loaded_transmission_error_arcsec": -20.0, "pairs": pairs},
@@ -64,6 +65,10 @@ def test_a_report_under_load_shows_what_was_solved_and_says_what_was_not(analyse
     assert np.isnan([line.get_ydata()[1] for axes in (error, share, pressure) for line in axes.lines]).all()
     assert [line.get_ydata()[0] for line in share.lines] == [0.75, 0.25]
     assert [line.get_ydata()[0] for line in pressure.lines] == [900.0, 500.0]
+    (lines,) = (p for p in pictures(analysis) if p.name == "loaded-lines-wheel")
+    (axes,) = lines.figure(analysis).axes
+    wide, narrow = (drawn.get_linewidth() for drawn in axes.lines[:2])
+    assert wide > 1.5 * narrow and axes.get_aspect() == 1.0
     assert any("at 1 of 2 angles: no tooth pair touches" in finding.text for finding in findings(analysis))
 
 

@@ -41,6 +41,8 @@ DOCUMENT = Document(
         "Sigma": ("Σ", "rad", "shaft angle"),
         "phi1": ("φ1", "rad", "angle of the pinion"),
         "s": ("s", "-", "+1 outside blade"),
+        "a": ("a", "-", "rate of u of the place of contact, over φc"),
+        "b": ("b", "-", "rate of its θ"),
     },
 )
 
@@ -117,6 +119,29 @@ n_any = vec(n1, n2, n3)
     signs=["h", "s"],
 )
 
+#: Any generating surface at one place and instant: its tangents A and B, its second derivatives, and its velocity where
+#: f = 0: −a A − b B, for the rates a and b at which the place of contact runs over the tool.
+REGULAR = scope(
+    "bevel.regular",
+    """
+A = vec(a1, a2, a3)
+B = vec(b1, b2, b3)
+AA = vec(p1, p2, p3)
+AB = vec(q1, q2, q3)
+BB = vec(r1, r2, r3)
+AV = vec(u1, u2, u3)
+BV = vec(v1, v2, v3)
+VV = vec(w1, w2, w3)
+V = -a*A - b*B
+N = cross(A, B)
+f_u = dot(cross(AA, B) + cross(A, AB), V) + dot(N, AV)
+f_v = dot(cross(AB, B) + cross(A, BB), V) + dot(N, BV)
+f_t = dot(cross(AV, B) + cross(A, BV), V) + dot(N, VV)
+g = a*f_u + b*f_v + f_t
+twice = a**2*AA + 2*a*b*AB + b**2*BB + 2*a*AV + 2*b*BV + VV
+""",
+)
+
 PAIR = scope(
     "bevel.pair",
     """
@@ -138,6 +163,19 @@ CLAIMS = (
         "moment about the cutter's normal.",
         "f = screw",
         MACHINE,
+    ),
+    identity(
+        "regular",
+        "regular part",
+        "g = f_u a + f_θ b + f_φ is the second derivative, along the normal, of the tool's place over a fixed point of "
+        "the blank: there r_u a + r_θ b = −r_φ, and whatever the second derivatives of the rates add lies in the "
+        "tangent plane. Positive where the tool cuts deepest at this instant.",
+        [
+            "dot(N, V) = 0",
+            "g = dot(N, twice)",
+            "dot(N, twice + k1*A + k2*B) = dot(N, twice)",
+        ],
+        REGULAR,
     ),
     identity(
         "edge-normal",

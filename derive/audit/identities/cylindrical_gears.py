@@ -36,6 +36,8 @@ DOCUMENT = Document(
         "kappa1": ("κ1", "1/mm", "curvature of the first cylinder"),
         "kappa2": ("κ2", "1/mm", "curvature of the second cylinder"),
         "chi": ("χ", "rad", "angle of the cylinders' generators"),
+        "psi": ("ψ_b", "rad", "half angle of the tooth on the base circle"),
+        "w": ("w", "mm", "half of the worm's axial space on its base cylinder"),
     },
 )
 
@@ -79,6 +81,56 @@ r_b = r*cos_t
 p = r*cos(beta)/sin(beta)
 rho = r*sin_t + X/sin_t
 tangent = mat([cos_t, s*sin_t, 0], [-s*sin_t, cos_t, 0], [0, 0, 1])
+"""
+    + ROLLED,
+    signs=["s"],
+)
+
+#: The same flank in its two fundamental forms; ``linear`` is its turn in the radius of curvature and across the face.
+CURVED = scope(
+    "cylindrical_gears.curved",
+    """
+normal_l = d(turn, l)*cross(k, normal)
+normal_Z = d(turn, Z)*cross(k, normal)
+E1 = dot(gear_l, gear_l)
+F1 = dot(gear_l, gear_Z)
+G1 = dot(gear_Z, gear_Z)
+L2 = -dot(gear_l, normal_l)
+M2 = -dot(gear_l, normal_Z)
+N2 = -dot(gear_Z, normal_Z)
+turn_a = mat([cos(a), -s*sin(a), 0], [s*sin(a), cos(a), 0], [0, 0, 1])
+linear = s*(psi - sin(a)/cos(a)) + Z/p
+worm_height = s*(w + p*(sin(a)/cos(a) - a))
+""",
+    extends=INVOLUTE,
+)
+
+PROFILE = scope(
+    "cylindrical_gears.profile",
+    """
+k = vec(0, 0, 1)
+X = l*cos(alpha) - E*sin(alpha) + xm
+Y = s*(h - l*sin(alpha) - E*cos(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
+rack = vec(X, Y, Z)
+r1 = m*z1/(2*cos(beta))
+r2 = m*z2/(2*cos(beta))
+"""
+    + ROLLED,
+    jets={"E": ("l",)},
+    signs=["s"],
+)
+
+CROWNED = scope(
+    "cylindrical_gears.crowned",
+    """
+k = vec(0, 0, 1)
+X = l*cos(alpha) + xm - c*Z**2
+Y = s*(h - l*sin(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
+rack = vec(X, Y, Z)
+normal = vec(sin(alpha), s*cos(alpha)*cos(beta), -s*cos(alpha)*sin(beta))
+straight = l*cos(alpha) + xm
+ratio = -s*cos(alpha)*cos(beta)/sin(alpha)
+cos_b = sqrt(1 - (sin(beta)*cos(alpha))**2)
 """
     + ROLLED,
     signs=["s"],
@@ -232,6 +284,60 @@ CLAIMS = (
         "dot(normal, cross(k, body) + p*k) = 0",
         INVOLUTE,
         conditions=["sin α ≠ 0", "sin β ≠ 0"],
+    ),
+    identity(
+        "curvature",
+        "relative curvature",
+        "The flank is developable: Gauss's curvature is 0, and its mean curvature H half of the other principal one, "
+        "-cos β_b/ϱ along the outward normal.",
+        [
+            "L2*N2 - M2**2 = 0",
+            "(E1*N2 - 2*F1*M2 + G1*L2)*rho = -cos_b*(E1*G1 - F1**2)",
+        ],
+        CURVED,
+        conditions=["sin α ≠ 0", "cos β ≠ 0", "ϱ ≠ 0"],
+    ),
+    identity(
+        "zi-worm",
+        "involute helicoid",
+        "It is the ZI worm of the lead angle 90° − β, turned about its axis: ϱ = r_b tan a at the profile angle a, the "
+        "same base radius, and in screw motion the same height.",
+        [
+            "turn_a@vec(r_b/cos(a), 0, 0) = vec(r_b, s*r_b*sin(a)/cos(a), 0)",
+            "worm_height + p*(linear + s*a) = Z + s*(w + p*psi)",
+            "r_b**2*(1 + (sin(alpha)/(cos(alpha)*cos(beta)))**2) = r**2",
+        ],
+        CURVED,
+        conditions=["cos a ≠ 0", "cos α ≠ 0", "sin β ≠ 0"],
+    ),
+    identity(
+        "screw-symmetry",
+        "profile modifications",
+        "With modifications of the profile alone every transverse section is the same, turned by Z tan β/r: on "
+        "parallel axes contact runs along the face at constant l and the transmission error is constant.",
+        [
+            "d(body, Z) = k",
+            "r*d(turn, Z) = sin(beta)/cos(beta)",
+            "d(n, Z) = vec(0, 0, 0)",
+            "z1/r1 = z2/r2",
+        ],
+        PROFILE,
+        conditions=REGULAR,
+    ),
+    identity(
+        "parallel-crowned",
+        "lead crowning",
+        "A plunge c Z² leaves point, turn and normal in the middle of the face as they are to first order, for every "
+        "l: parallel gears touch there, without transmission error. Along the generator, which crosses the face by "
+        "cos β_b in unit length, it falls back from the normal by 2 c sin α cos² β_b.",
+        [
+            "body - vec(straight + r, -ratio*straight, Z) = -c*Z**2*vec(1, -ratio, 0)",
+            "r*turn = Y + straight*ratio - c*Z**2*ratio",
+            "n = normal/cos(beta) + 2*c*Z*sin(alpha)/cos(beta)*k",
+            "dot(normal, vec(1, -ratio, 0))*sin(alpha) = cos_b**2",
+        ],
+        CROWNED,
+        conditions=["sin α ≠ 0", "cos β ≠ 0"],
     ),
     identity(
         "slopes",

@@ -34,11 +34,11 @@ DRIVE_HEADERS = (
     "drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h", "exact.h",
 )  # fmt: skip
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
-LIVE_SOURCES = ("complete.c", "complete.h", "exact.h")
+LIVE_SOURCES = ("exact.h",)
 #: What programs include, and what generated headers repeat.
 SOLVER = (
-    "basics", "steps", "linear", "newton", "contact", "touch", "refine", "start", "arclength", "branch", "search",
-    "choice",
+    "basics", "steps", "linear", "newton", "complete", "contact", "touch", "refine", "start", "arclength", "branch",
+    "search", "choice",
 )  # fmt: skip
 PUBLIC_HEADERS = (
     "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",

@@ -1,4 +1,4 @@
-"""Say what a flag, a status or an event of the results means; without WORD, all of them."""
+"""Say what a flag, a status, an event or a quantity of the results means, or a key; without WORD, all but the keys."""
 
 import difflib
 
@@ -7,10 +7,13 @@ from meshwright.base.files import write_text
 from meshwright.contact import words
 from meshwright.contact.analysis import status_text, statuses
 from meshwright.contact.results import impossible
+from meshwright.design import description, schema
 
 
 def add_arguments(parser):
-    parser.add_argument("word", nargs="?", metavar="WORD", help="for example off_tip, line_contact, throat")
+    parser.add_argument(
+        "word", nargs="*", metavar="WORD", help="for example off_tip, line_contact, contact ratio, center_distance_mm"
+    )
 
 
 def meanings():
@@ -19,23 +22,44 @@ def meanings():
         "status": {word: status_text(word) for word in dict.fromkeys(statuses().values())},
         "flag": {word: _flag(word) for word in words.FLAGS},
         "event": words.EVENTS,
+        "quantity": words.QUANTITIES,
+    }
+
+
+def keys():
+    """{"key": [sentence …]}: what each key of a design is, for every table and family that means something else."""
+    found = {}
+    for family in description.families():
+        for entry in schema.keys(family):
+            said = "; ".join(filter(None, (entry["meaning"], " | ".join(map(str, entry["words"])))))
+            by_meaning = found.setdefault(entry["key"], {})
+            by_meaning.setdefault((entry["table"], said), []).append(family)
+    return {
+        key: [f"[{table}] {said} ({', '.join(families)})" for (table, said), families in meanings.items()]
+        for key, meanings in found.items()
     }
 
 
 def run(options):
-    known = meanings()
-    found = [(kind, meant[options.word]) for kind, meant in known.items() if options.word in meant]
-    if options.word is None:
-        lines = [f"{kind:<7} {word:<18} {text}" for kind, meant in known.items() for word, text in meant.items()]
-    elif found:
-        lines = [f"{kind} {options.word}: {text}" for kind, text in found]
+    known, word = meanings(), "_".join(options.word)
+    if not word:
+        lines = [f"{kind:<8} {name:<21} {text}" for kind, meant in known.items() for name, text in meant.items()]
     else:
-        every = [word for meant in known.values() for word in meant]
-        near = difflib.get_close_matches(options.word, every, n=1)
-        remedy = f"did you mean {near[0]!r}?" if near else "`meshwright explain` lists them"
-        raise UsageError(f"explain {options.word}: no such flag, status or event; {remedy}")
+        lines = [f"{kind} {word}: {meant[word]}" for kind, meant in known.items() if word in meant] or _key(word, known)
     write_text("-", "\n".join(lines) + "\n")
     return 0
+
+
+def _key(word, known):
+    """What a key, alone or as TABLE.KEY, means."""
+    listed = keys()
+    table, _, key = word.rpartition(".")
+    lines = [f"key {key} {text}" for text in listed.get(key, ()) if not table or text.startswith(f"[{table}]")]
+    if not lines:
+        near = difflib.get_close_matches(word, [*(name for meant in known.values() for name in meant), *listed], n=1)
+        remedy = f"did you mean {near[0]!r}?" if near else "`meshwright explain` lists them, `meshwright drives` keys"
+        raise UsageError(f"explain {word}: no such flag, status, event, quantity or key; {remedy}")
+    return lines
 
 
 def _flag(word):

@@ -27,8 +27,8 @@ def add_arguments(parser):
         type=common.positive,
         default=1800.0,
         metavar="S",
-        help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, seconds for "
-        "gears and about a minute for threads, and the mesh of each angle, seconds",
+        help="of the solver at one angle; default 1800. What comes before is not limited: the teeth, once, and the "
+        "mesh of each angle, some seconds",
     )
     parser.add_argument(
         "--threads", type=common.count, default=1, metavar="N", help="of the solver; a second one gains little"
@@ -44,7 +44,7 @@ def add_arguments(parser):
 
 
 def run(options):
-    fe = loading.finite_elements()
+    fe = loading.finite_elements("analysis", "pictures")
     drive = loading.checked_drive(options)
     angles = common.angles(options.phi_deg)
     density = fe.grading.MeshDensity().refined(options.refine)

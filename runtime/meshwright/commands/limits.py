@@ -45,11 +45,17 @@ def _page(drive, found, axial):
                 lines.append(f"what [blank] leaves open bounds nothing, a standard blank does not fit: {entries}")
         elif isinstance(entries, list):
             where = " at the axial positions given" if axial and name == "undercut" else ""
-            lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}")
+            lines.append(f"{name.replace('_', ' ')}{where}: {len(entries) or 'none'}{_on_flanks(entries)}")
             lines += [f"  {_line(entry)}" for entry in entries]
         elif entries is not None:
             lines.append(f"{name.replace('_', ' ')}: {_cell(entries)}")
     return "\n".join(lines) + "\n"
+
+
+def _on_flanks(entries):
+    """How many of the places lie on a flank, where that is known of them."""
+    known = [entry["on_flank"] for entry in entries if "on_flank" in entry]
+    return f", {sum(known) or 'none'} of them on a flank" if known else ""
 
 
 def _line(entry):

@@ -1,15 +1,14 @@
 """Loaded contact without a solver: transmission error under load, load share, contact pressure, mesh stiffness.
 
-Elastic teeth are factorised once, which takes seconds for gears and about a minute for threads, then every angle takes
-a second or a few; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the
-loaded member turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of
-pressure there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With
---measured a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid
-touches. Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method
-builds on, there are no figures: status ``not_first``; nor where a neighbouring pair without a tangency touches on an
-edge before those that have one.
-Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under load is not found, or the
-torque is too large for the method.
+Elastic teeth are factorised once, which takes a second for gears and a few for threads, then every angle takes a part
+of a second; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the loaded member
+turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of pressure
+there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
+a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
+Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method builds
+on, there are no figures: status ``not_first``; nor where a neighbouring pair without a tangency touches on an edge
+before those that have one. Exit status 1 then, and if no tooth pair touches at one of the angles, its contact under
+load is not found, or the torque is too large for the method.
 """
 
 import numpy as np
@@ -55,12 +54,14 @@ def run(options):
 
 def solved(fe, options, drive, angles, step, points=None):
     """The gear pair and the document ``meshwright.loaded/1`` at pinion angles, rad; ``step(text)`` is called
-    :data:`STEPS` times and once an angle. ``points`` are measured ones.
+    :data:`STEPS` times and once an angle. ``points`` are measured ones. A mirrored drive is solved as it is described,
+    and its mirror image written.
     """
-    gear, load, pairs = loading.loaded_gears(fe, options, drive, step)
+    mirror, described = drive.design.mirror, drive.as_described
+    gear, load, pairs = loading.loaded_gears(fe, options, described, step)
     late = [""] * len(angles)
     if points is None:
-        late = [_not_first(fe, drive, gear, angle, pairs) for angle in angles]
+        late = [_not_first(fe, described, gear, mirror.sign * angle, pairs, mirror) for angle in angles]
     else:
         from meshwright.fe.as_measured import as_measured
 
@@ -69,7 +70,12 @@ def solved(fe, options, drive, angles, step, points=None):
     found = []
     for angle, why in zip(angles, late, strict=True):
         step(f"pinion at {np.degrees(angle):.4g} deg")
-        found.append(_refused(angle, why) if why else _point(fe, gear, angle, pairs, load, compliance))
+        point = _nothing(angle)
+        if why:
+            found.append(point | {"status": "not_first", "message": why})
+        else:
+            solution = _point(fe, gear, mirror, mirror.sign * angle, pairs, load, compliance)
+            found.append(point | _mirrored(solution, mirror))
     return gear, {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -92,7 +98,7 @@ def _measured(options):
     return read_csv(options.measured)[0]
 
 
-def _not_first(fe, drive, gear, angle, pairs):
+def _not_first(fe, drive, gear, angle, pairs, mirror):
     """Why there are no figures at an angle: the pairs whose tangency lies inside the other flank, and what touches
     first; pairs without a tangency whose edges touch before all tangencies; "" if the tangencies are first.
     """
@@ -104,10 +110,10 @@ def _not_first(fe, drive, gear, angle, pairs):
     result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers + others]))
     first = drive.first_contact(result.angles, result)
     late = not_first(result, first).flags
-    overlaps = 1000.0 * first.overlaps(result.error)
+    overlaps, errors = 1000.0 * first.overlaps(result.error), mirror.sign * first.errors / ARCSEC
     inside = [
-        f"the tangency of pair {number:+d} would lie {overlaps[k]:.4g} um inside the other flank: first contact is "
-        f"{first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the method has no figures"
+        f"the tangency of pair {_number(number, mirror)} would lie {overlaps[k]:.4g} um inside the other flank: first "
+        f"contact is {first.words(k)} at {errors[k]:.5g} arcsec, of which the method has no figures"
         for k, number in enumerate(numbers)
         if NOT_FIRST in late[k]
     ]
@@ -116,8 +122,8 @@ def _not_first(fe, drive, gear, angle, pairs):
     return "; ".join(
         inside
         or [
-            f"pair {number:+d} would lie {1000.0 * ahead[k]:.4g} um inside the other flank where the tangencies begin "
-            f"to touch: its first contact is {first.words(k)} at {first.errors[k] / ARCSEC:.5g} arcsec, of which the "
+            f"pair {_number(number, mirror)} would lie {1000.0 * ahead[k]:.4g} um inside the other flank where the "
+            f"tangencies begin to touch: its first contact is {first.words(k)} at {errors[k]:.5g} arcsec, of which the "
             "method has no figures"
             for k, number in enumerate(others, len(numbers))
             if first.kinds[k] in ("edge", "corner") and ahead[k] > OVERLAP
@@ -125,8 +131,19 @@ def _not_first(fe, drive, gear, angle, pairs):
     )
 
 
-def _refused(angle, message):
-    return _nothing(angle) | {"status": "not_first", "message": message}
+def _mirrored(point, mirror):
+    """A point of the drive as described as one of its mirror image, in which a later pair is an earlier one."""
+    if mirror.sign > 0.0 or not point.get("pairs"):
+        return point
+    pairs = [
+        pair | {
+            "pairs_later": -pair["pairs_later"],
+            "line_mm": {name: (np.array(line) * mirror.flip).tolist() for name, line in pair["line_mm"].items()},
+        }
+        for pair in point["pairs"]
+    ]  # fmt: skip
+    error = mirror.sign * point["loaded_transmission_error_arcsec"]
+    return point | {"pairs": pairs, "loaded_transmission_error_arcsec": error}
 
 
 def _nothing(angle):
@@ -141,8 +158,9 @@ def _nothing(angle):
     }
 
 
-def _point(fe, gear, angle, pairs, load, compliance):
-    point = _nothing(angle)
+def _point(fe, gear, mirror, angle, pairs, load, compliance):
+    """What is known of an angle but the angle; {} where nothing touches."""
+    point = {}
     if not fe.pair.touches(gear, angle, pairs):
         return point
     try:
@@ -152,13 +170,14 @@ def _point(fe, gear, angle, pairs, load, compliance):
     if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
     total = sum(pair.force for pair in found.pairs)
+    lines = _lines(fe, gear, angle, found.pairs)
     return point | {
         "status": "converged",
-        "message": "; ".join(_edge_note(pair) for pair in found.pairs if pair.cut_off),
+        "message": "; ".join(_edge_note(pair, mirror) for pair in found.pairs if pair.cut_off),
         "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
-        "pairs": [_pair(pair, total) for pair in found.pairs],
+        "pairs": [_pair(pair, total) | {"line_mm": line} for pair, line in zip(found.pairs, lines, strict=True)],
     }
 
 
@@ -169,16 +188,37 @@ def _too_far(found, limit):
     )
 
 
-def _edge_note(pair):
+def _number(pairs_later, mirror):
+    """The number of a pair of the drive as described, as it is of the design's hand."""
+    return f"{int(mirror.sign) * pairs_later:+d}"
+
+
+def _edge_note(pair, mirror):
     """That an edge cuts a contact area off, and whether the peak of pressure is there."""
     edges = " and the ".join(pair.edges)
-    note = f"pair {pair.contact.pairs_later:+d} is cut off by {f'the {edges}' if edges else 'an edge of a flank'}"
+    by = f"the {edges}" if edges else "an edge of a flank"
+    note = f"pair {_number(pair.contact.pairs_later, mirror)} is cut off by {by}"
     if not pair.peaks_at_edge:
         return note
     return (
         f"{note}, where its pressure peaks with {pair.peak_pressure:.5g} MPa; without an edge the same force gives "
         f"{pair.hertz.peak_pressure:.5g} MPa (Hertz)"
     )
+
+
+def _lines(fe, gear, angle, pairs):
+    """The line of contact of each pair in the frames of both bodies, as they stand for the reference tooth, mm."""
+    turned = {"pinion": angle, "wheel": fe.pair.unloaded_wheel_angle(gear, tuple(pair.contact for pair in pairs))}
+    return [
+        {name: _in_body(member.pose(turned[name] - pair.contact.pairs_later * member.pitch), pair.line)
+         for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel))}
+        for pair in pairs
+    ]  # fmt: skip
+
+
+def _in_body(pose, points):
+    """Points (M, 3) of the fixed frame in the frame of a body that stands at ``pose`` (4, 4), to 1e-6 mm."""
+    return np.round((points - pose[:3, 3]) @ pose[:3, :3], 6).tolist()
 
 
 def _pair(pair, total):

@@ -24,10 +24,13 @@ def add_arguments(parser):
     )
 
 
-def finite_elements():
-    """The package of loaded contact, whose libraries are an extra."""
+def finite_elements(*parts):
+    """The package of loaded contact with these parts of it, whose libraries are an extra."""
+    from meshwright import fe
+
     try:
-        from meshwright import fe
+        for part in ("solids", "compliance", "loaded", *parts):
+            getattr(fe, part)
     except ModuleNotFoundError as error:
         raise UsageError(f"{error.name} is not installed; `pip install 'meshwright[fe]'` brings it") from error
     return fe

@@ -32,6 +32,28 @@ def add_arguments(parser):
     )
     parser.add_argument("--name", help="name of the design and, unless --out says otherwise, of the file")
     parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml, which must not exist")
+    plain = parser.format_help
+    parser.format_help = lambda: plain() + _offered()
+
+
+def _offered():
+    """What --m, --z and --a mean and which words --profile takes, by family; read only when help is asked for."""
+    lines = ["", "families:"]
+    for name, family in description.families().items():
+        if family.outline is None:
+            continue
+        lines.append(f"  {name}")
+        lines += [f"    --{option:<9} {text}" for option, text in family.outline["options"].items()]
+        offered = _offers(family)
+        lines += [f"    --profile   {':'.join(offered)}"] if offered else []
+        lines += [f"      {key:<13} {', '.join(words)}" for key, words in offered.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _offers(family):
+    """The words that each key of --profile takes, in its order."""
+    drives = family.variants.values()
+    return {key: sorted({w for variant in drives for w in variant.get(key, ())}) for key in family.outline["words"]}
 
 
 def _teeth(text):
@@ -95,8 +117,7 @@ def _words(family, text):
         defaults = family.variant_defaults.items()
         whole = words | {key: words.get(key, words.get(other, other)) for key, other in defaults}
         if not any(all(whole.get(k) in v for k, v in variant.items()) for variant in family.variants.values()):
-            offered = {k: sorted({w for v in family.variants.values() for w in v.get(k, ())}) for k in keys}
-            listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in offered.items())
+            listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in _offers(family).items())
             raise UsageError(f"--profile {text}: no drive of this family has these words; {listed}")
     return words
 

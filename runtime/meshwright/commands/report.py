@@ -29,7 +29,7 @@ def add_arguments(parser):
     )  # fmt: skip
     parser.add_argument(
         "--torque-nm", type=common.positive, metavar="T",
-        help="adds error, load share and pressure under this torque over one pitch, in up to some minutes",
+        help="adds error, load share and pressure under this torque over one pitch, in some seconds",
     )  # fmt: skip
     parser.add_argument("--torque-on", choices=("pinion", "wheel"), help="whose torque it is; default: the usual one")
     parser.set_defaults(pairs=None, rim_mm=None)

@@ -4,7 +4,8 @@ Body frame, normals out of the material. The region goes as far as blank, tool a
 exist, and where they set no limit, what contact uses. JSON holds a grid, with null off the region, and triangles with
 the border resolved; VTU and STL hold the triangles, STEP trimmed B-spline surfaces. Exit status 1 if the STEP file
 departs from the exact surface by more than 1 µm. With --solid: the closed body of the member, all its teeth or some,
-as STL or STEP; its volume is printed, and the departure of its facets, above 1 µm with exit status 1.
+as STL (triangles) or STEP (B-spline faces); volume and departure from the flanks are printed, above 1 µm with exit
+status 1.
 """
 
 import re
@@ -17,7 +18,6 @@ from meshwright.base.files import write_bytes, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.flank import exports
-from meshwright.flank.polyhedron import solid_step
 from meshwright.flank.step import step
 from meshwright.limits.sections import section
 
@@ -82,21 +82,32 @@ def _write_solid(options, drive):
     if not (options.stl or options.step) or options.json or options.vtu or options.section is not None:
         raise UsageError("--solid: a body is written with --stl FILE or --step FILE, and with nothing else")
     try:
-        from meshwright.fe.closed_body import closed_body
+        from meshwright.fe.closed_body import solid_body
+        from meshwright.flank.solid_step import solid_step
     except ModuleNotFoundError as error:
         raise UsageError(f"--solid: {error.name} is not installed; `pip install 'meshwright[fe]'` brings it") from error
-    body = closed_body(drive, options.member, options.teeth, MOST_DEVIATION)
+    body = solid_body(drive, options.member, options.teeth)
     name = f"{drive.design.tables['name'] or drive.design.family} {options.member}, {body.teeth} teeth"
+    departures = []
     if options.stl:
-        write_bytes(options.stl, exports.stl(body.points, body.triangles, name))
+        faceted = body.faceted(MOST_DEVIATION)
+        write_bytes(options.stl, exports.stl(faceted.points, faceted.triangles, name))
+        _say(name, faceted.volume, f"{len(faceted.triangles)} facets", faceted.departure)
+        departures.append(faceted.departure)
     if options.step:
-        write_bytes(options.step, solid_step(body.points, body.triangles, name))
+        patches, departure = body.splined(MOST_DEVIATION)
+        content, volume = solid_step(patches, name)
+        write_bytes(options.step, content)
+        _say(name, volume, f"{len(patches)} faces", departure)
+        departures.append(departure)
+    return 0 if max(departures) <= MOST_DEVIATION else 1
+
+
+def _say(name, volume, count, departure):
     print(
-        f"{name}: volume {body.volume:.6g} mm³, {len(body.triangles)} facets, those of the flanks within "
-        f"{1000.0 * body.departure:.3g} µm of them",
+        f"{name}: volume {volume:.6g} mm³, {count}, those of the flanks within {1000.0 * departure:.3g} µm of them",
         file=sys.stderr,
     )
-    return 0 if body.departure <= MOST_DEVIATION else 1
 
 
 def _refuse_with_section(options):

@@ -6,6 +6,14 @@ contact (``gap``, ``halfspace``, ``compliance``, ``loaded``) and on to finite el
 or not; ``analysis``: all of it for one position).
 """
 
-from meshwright.fe import analysis, compliance, gate, grading, loaded, model, pair, pictures, solids, solver
+from importlib import import_module
+from types import ModuleType
 
+#: The parts, imported when they are first used: loaded contact does not wait for what draws and what runs a solver.
 __all__ = ["analysis", "compliance", "gate", "grading", "loaded", "model", "pair", "pictures", "solids", "solver"]
+
+
+def __getattr__(name: str) -> ModuleType:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return import_module(f"{__name__}.{name}")

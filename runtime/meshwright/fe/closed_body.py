@@ -1,30 +1,41 @@
 """The closed body of a member, some of its teeth or all of them with their rim: a watertight surface and its volume.
 
-Flanks, fillets, tip, root lands, end faces and bore are the boundary of the structured mesh of the teeth, refined until
-the flanks' facets depart from the exact surfaces by no more than is asked for.
+Flanks, fillets, tips, root lands, end faces and bore are patches with common edges, refined until the facets of the
+flanks, or B-splines through the patches' points, depart from the exact surfaces by no more than is asked for.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.drive import Drive
-from meshwright.fe.generated import about_z
-from meshwright.fe.grading import MeshDensity
-from meshwright.fe.hexahedra import FACES, Floats, HexMesh, Ints, merge
-from meshwright.fe.rim import check_rim
+from meshwright.fe.facets import facet_departures, finer_rows
+from meshwright.fe.hexahedra import Floats, Ints
+from meshwright.fe.rim import DEEPEST_RIM, check_rim
+from meshwright.fe.sides import RegionSide, Side
 from meshwright.fe.sizes import other_flank, solid_sizes
-from meshwright.fe.solids import RIM_MODULES, teeth_of
-from meshwright.fe.thread_body import facet_departures, finer_rows, thread_body
+from meshwright.fe.solids import RIM_MODULES
+from meshwright.fe.thread_body import ThreadSide
 from meshwright.fe.thread_flanks import thread_sides
-from meshwright.fe.tooth import Stations, ToothForm, mesh_tooth, moved
+from meshwright.fe.tooth_patches import Grid, Rows, Tooth, between
+from meshwright.flank.mesh import mesh
+from meshwright.flank.patches import Patch, triangulated
+from meshwright.flank.region import Region
+from meshwright.flank.sections import EVEN, Sections
+from meshwright.flank.step import Spline
 
-_MERGE_TOLERANCE = 1e-8
-# Rows over profile and face from which the refinement starts, and at which it ends.
-_FEWEST, _MOST = (8, 8), (96, 96)
+# Rows over flank and face from which the refinement of facets starts, and at which it ends.
+_FEWEST, _MOST = (8, 16), (96, 4096)
+# The same for B-splines; how far they may be from tips, root lands and end faces of the blank, mm.
+_FIRST, _LAST, _ON_BLANK = Rows(8, 6, 8, 3, 3), 1024, 5e-7
+# The rim is as deep below the root as the teeth are high, so many times.
+_RIM_HEIGHTS = 2.0
+_SAMPLES = 17
 
 
 @dataclass(frozen=True)
@@ -41,60 +52,202 @@ class ClosedBody:
     teeth: int
 
 
+@dataclass(frozen=True)
+class Body:
+    """So many ``teeth`` of a member of ``whole``, as the design's hand has them."""
+
+    tooth: Tooth
+    teeth: int
+    whole: int
+    flip: Floats | None
+
+    def faceted(self, departure: float) -> ClosedBody:
+        """Its closed surface of triangles, with flanks within a departure in mm if that takes not too many."""
+        with _whole(self.tooth.name):
+            grid, reached = _fine_enough(self.tooth, departure)
+            points, triangles = triangulated(self._patches(grid))
+            _check_closed(triangles)
+        return ClosedBody(points, triangles, volume(points, triangles), reached, self.teeth)
+
+    def splined(self, departure: float) -> tuple[list[Patch], float]:
+        """Its patches, through whose points B-splines go that are within a departure in mm of the exact surfaces if
+        that takes not too many points; and how far they are from them.
+        """
+        with _whole(self.tooth.name):
+            grid, reached = _smooth_enough(self.tooth, departure)
+        return self._patches(grid), reached
+
+    def _patches(self, grid: Grid) -> list[Patch]:
+        patches = grid.patches(self.teeth, self.whole)
+        if self.flip is None:
+            return patches
+        return [Patch(p.kind, p.points * self.flip).turned_over() for p in patches]
+
+
 def closed_body(
     drive: Drive, member: str, teeth: int | None = None, departure: float = 1e-3, rim_thickness: float | None = None
 ) -> ClosedBody:
-    """The body of a member with so many teeth; None: all of them.
+    """The body of a member with so many teeth, as triangles; None: all of them. Errors as of :func:`solid_body`."""
+    return solid_body(drive, member, teeth, rim_thickness).faceted(departure)
 
-    departure, rim_thickness in mm. Raises UsageError for a member without a closed body, DesignError for teeth that are
-    not whole.
+
+def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thickness: float | None = None) -> Body:
+    """The body of a member with so many teeth; None: all of them. rim_thickness in mm.
+
+    Raises UsageError for a member without a closed body, DesignError for teeth that are not whole.
     """
     whole, _ = drive.design.with_whole_blank()
     drive = Drive(whole, drive.backend)
-    sizes = solid_sizes(drive, member)
-    if not sizes:
-        what = "has no declared sizes of solid teeth"
-        raise UsageError(f"--solid: the {member} of this drive {what}; export its flank and fillet instead")
-    if "tip_radius" in sizes:
-        return _threaded(drive, member, teeth, departure, rim_thickness or RIM_MODULES * sizes["module"])
-    count = round(sizes["teeth"])
+    sizes, count = solid_sizes(drive, member), _teeth(drive, member)
+    make = _thread if "tip_radius" in sizes else _gear
+    if make is _thread and teeth not in (None, count):
+        raise UsageError(f"--teeth {teeth}: the {member} is one body with {count} threads; leave --teeth out")
     if teeth is not None and not 1 <= teeth <= count:
         raise UsageError(f"--teeth {teeth}: the {member} has {count} teeth; choose from 1 to {count}")
-    if rim_thickness is not None and "root_radius" in sizes:
-        check_rim(rim_thickness, {member: sizes["root_radius"]})
+    with _whole(member):
+        tooth = make(drive, member, sizes, rim_thickness)
+    flip = drive.design.mirror.flip if drive.design.mirror.sign < 0 else None
+    return Body(tooth, teeth or count, count, flip)
+
+
+@contextmanager
+def _whole(member: str) -> Iterator[None]:
+    """Makes what is missing of the teeth of a member an error of its design."""
     try:
-        form = teeth_of(drive, member, rim_thickness or RIM_MODULES * sizes["module"]).at(0.0)
-    except DesignError:
+        yield
+    except (UsageError, DesignError):
         raise
     except ValueError as error:
         raise DesignError("blank", None, f"the {member} has no whole teeth: {error}", "change its blank") from error
-    density, reached = _density(form, departure)
-    body = _teeth(form, density, teeth or count, _to_next(form, count))
-    return _of_design(drive, *_boundary(body), reached, teeth or count)
 
 
-def _threaded(drive: Drive, member: str, teeth: int | None, departure: float, rim_thickness: float) -> ClosedBody:
-    """All threads of a member, along its axis as far as what contact uses of its flanks."""
-    count = round(2.0 * np.pi / drive.pitch())
-    if teeth not in (None, count):
-        raise UsageError(f"--teeth {teeth}: the {member} is one body with {count} threads; leave --teeth out")
+def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The tooth of a gear from the regions of its flank and fillet."""
+    fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
+    sides, sections = [], Sections.of(drive.flank(member))
+    for one in (drive, other_flank(drive)):
+        regions = [one.region(member), one.region(member, "fillet") if fillet else None]
+        if Sections.of(regions[0].flank) is None:
+            sections = sections or _of_blank(regions[0], member)
+            regions = [of and of.in_sections(sections) for of in regions]
+        sides.append(RegionSide.of(*regions))
+    faces = min(s.reach[0] for s in sides), max(s.reach[1] for s in sides)
+    return _between(drive, member, sides, faces, _teeth(drive, member), sizes, rim)
+
+
+def _of_blank(flank: Region, member: str) -> Sections:
+    """The sections of a tooth whose flank ends in two of them at the faces of its blank."""
+    if flank.empty:
+        raise UsageError(f"{flank.why_empty}; change [blank] or [design]")
+    found = mesh(flank, (_SAMPLES, _SAMPLES))
+    at_face = np.zeros(len(found.points), dtype=bool)
+    if "face" in flank.limits.names:
+        values = flank.limits.values(flank.flank(found.parameters))
+        at_face = np.abs(values[:, flank.limits.names.index("face")]) < EVEN
+    sections = Sections.of_faces(found.points, found.border[at_face[found.border].all(axis=1)])
+    if sections is None:
+        raise UsageError(
+            f'--solid: the description of the drive does not say where the {member} ends along its teeth: its body '
+            f'"{member}" needs a margin with the event "face", of planes, cylinders or cones about its axis, or, for a '
+            f"thread that goes on, the function solid_{member} with its sizes"
+        )
+    return sections
+
+
+def _teeth(drive: Drive, member: str) -> int:
+    """The number of teeth of a member."""
+    count = drive.design.value(drive.design.description["pinion_teeth"])
+    return round(count if member == "pinion" else count / drive.ratio)
+
+
+def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The thread of a member, along its axis as far as what contact uses of its flanks."""
+    if rim is not None:
+        check_rim(rim, {member: sizes["root_radius"]})
     used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in (drive, other_flank(drive))])
-    try:
-        sides = thread_sides(drive, member, rim_thickness)
-        sections, reached = thread_body(sides, drive.pitch(), (float(used.min()), float(used.max())), departure)
-    except DesignError:
-        raise
-    except ValueError as error:
-        raise DesignError("blank", None, f"the {member} has no whole thread: {error}", "change its blank") from error
-    return _of_design(drive, *sections.triangles(), reached, count)
+    ends = float(used.min()), float(used.max())
+    threads = thread_sides(drive, member, rim or RIM_MODULES * sizes["module"])
+    sides = [ThreadSide.of(threads.flanks[name], threads.blank, ends) for name in ("left", "right")]
+    bore = threads.blank.bored
+
+    def height(values: Floats) -> Floats:
+        at = np.stack(np.broadcast_arrays(1.0, 0.0, values), axis=-1)
+        return bore(at)[..., 0]
+
+    low, high, _ = _in_order(member, sides, ends)
+    return between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height)
 
 
-def _of_design(drive: Drive, points: Floats, triangles: Ints, reached: float, teeth: int) -> ClosedBody:
-    """The body with the hand of the design; raises ValueError where it is not closed."""
-    if drive.design.mirror.sign < 0:
-        points, triangles = points * drive.design.mirror.flip, triangles[:, ::-1]
-    _check_closed(triangles)
-    return ClosedBody(points, triangles, volume(points, triangles), reached, teeth)
+def _between(
+    drive: Drive, member: str, sides: list[RegionSide], faces: tuple[float, float], count: int,
+    sizes: dict[str, float], rim: float | None,
+) -> Tooth:  # fmt: skip
+    pitch = 2.0 * np.pi / count
+    low, high, swapped = _in_order(member, sides, faces)
+    turn = 0.0
+    if drive.design.description["flanks_apart"]:
+        turn = 0.5 * pitch - _thickness(low, high, 0.5 * sum(faces), sizes.get("middle"))
+        turn = -turn if swapped else turn
+    values = np.linspace(*faces, _SAMPLES)
+    below, above, _ = low.grids(values, np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    heights = [low.sections.height(points) for points in (below[:, 0], above[:, -1])]
+    outward = 1.0 if np.mean(heights[1] - heights[0]) > 0.0 else -1.0
+    root = float((outward * heights[0]).min())
+    if rim is None:
+        rim = RIM_MODULES * sizes["module"] if "module" in sizes else _RIM_HEIGHTS * float(
+            (outward * (heights[1] - heights[0])).max()
+        )
+        rim = min(rim, _deepest(low.sections, values, root))
+    elif low.sections.sides[1] > 0.0 and rim > (deepest := _deepest(low.sections, values, root)):
+        check_rim(rim, {member: deepest / DEEPEST_RIM})
+    bore = outward * (root - rim)
+    tooth = between(
+        member, low, high, turn, pitch, faces, outward, lambda values: np.full(np.shape(values), bore)
+    )
+    if not swapped or turn == 0.0:
+        return tooth
+    # the flank in hand keeps its place: the other one was to be turned
+    return Tooth(
+        member, tooth.sides, (turn, tooth.turns[1] - turn), pitch, faces, tooth.breaks, tooth.bore, outward
+    )
+
+
+def _deepest(sections: Sections, values: Floats, root: float) -> float:
+    """The deepest rim in mm that leaves a bore in all sections; without end where sections do not meet the axis."""
+    sine, cosine = sections.sides
+    if not cosine:
+        return np.inf
+    return DEEPEST_RIM * float((sine * values + cosine * root).min()) / cosine
+
+
+def _in_order(member: str, sides: list[Side], faces: tuple[float, float]) -> tuple[Side, Side, bool]:
+    """The sides at the smaller and larger azimuth of the tooth, told by their normals, and whether they are swapped."""
+    at = np.array([0.5 * sum(faces)])
+    signs = []
+    for side in sides:
+        _, points, normals = side.grids(at, np.array([0.0, 1.0]), np.array([0.0, 0.5, 1.0]))
+        point, normal = points[0, 1], normals[0, 1]
+        signs.append(np.sign(point[0] * normal[1] - point[1] * normal[0]))
+    if signs[0] == signs[1]:
+        raise UsageError(
+            f"--solid: both flanks of the {member} face the same way round its axis; the description of the drive has "
+            "to make the one the other side of its teeth where the flank's sign changes"
+        )
+    return (*(sides if signs[0] < 0.0 else sides[::-1]), bool(signs[0] > 0.0))
+
+
+def _thickness(low: RegionSide, high: RegionSide, section: float, profile: float | None) -> float:
+    """Angle in rad from one side to the other at a profile parameter, else half-way up the flank."""
+    azimuths = []
+    for side in (low, high):
+        line = side.flank.at(np.array([section]))
+        q = line.even(np.array([0.0, 0.5, 1.0]))[1]
+        if profile is not None:
+            q[:, line.region.profile] = profile
+            q = line.onto(q)
+        point = line.region.flank(q).points[0]
+        azimuths.append(np.arctan2(point[1], point[0]))
+    return float(azimuths[1] - azimuths[0])
 
 
 def volume(points: Floats, triangles: Ints) -> float:
@@ -103,66 +256,78 @@ def volume(points: Floats, triangles: Ints) -> float:
     return float(np.sum(np.cross(a, b) * c) / 6.0)
 
 
-def _density(form: ToothForm, departure: float) -> tuple[MeshDensity, float]:
-    """The rows at which the sagitta of the flanks' facets is below ``departure``, and that sagitta."""
-    profile, face = _FEWEST
+def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
+    """The tooth at steps with which the facets of its flanks are within ``departure``, and how far they are."""
+    flank, along = _FEWEST
+    pieces = len(tooth.ends) - 1
     while True:
-        across, along, reached = np.max([_off(form, name, profile, face) for name in ("left", "right")], axis=0)
-        finer = finer_rows((profile, face), (across, max(along, reached - across)), departure, _MOST)
-        if reached <= departure or finer == (profile, face):
+        grid = tooth.grid(Rows(2 * along, 2, 2 * flank, 1, 1))
+        found = [facet_departures(points, normals) for _, points, normals in (grid.low, grid.high)]
+        across, by_length, reached = np.max(found, axis=0)
+        finer = finer_rows((flank, along), (across, max(by_length, reached - across)), departure, _MOST)
+        if reached <= departure or finer == (flank, along):
             break
-        profile, face = finer
-    fillet = max(8, 2 * (profile // 4))
-    return MeshDensity(coarse_rows=(2, profile, face), coarse_fillet_rows=fillet), reached
+        flank, along = finer[0], min(finer[1], _MOST[1] // pieces)
+    radius = float(np.hypot(grid.low[1][..., 0], grid.low[1][..., 1]).max())
+    step = np.sqrt(8.0 * departure / radius)
+    tip, land = (max(1, int(np.ceil(angle / step))) for angle in _widths(tooth, grid))
+    return tooth.grid(Rows(along, max(8, flank // 2), flank, tip, land)), float(reached)
 
 
-def _off(form: ToothForm, name: str, profile: int, face: int) -> tuple[float, float, float]:
-    """:func:`~meshwright.fe.thread_body.facet_departures` of one flank's facets."""
-    values = np.linspace(*form.faces, 2 * face + 1)
-    fractions = np.broadcast_to(np.linspace(0.0, 1.0, 2 * profile + 1), (len(values), 2 * profile + 1))
-    rail = form.side(name).flank.rail(values)
-    places = rail.parameters(fractions)
-    return facet_departures(*rail.curves.surface(places, rail.curves.solve(values, places)))
+def _widths(tooth: Tooth, grid: Grid) -> tuple[float, float]:
+    """Largest angles in rad of tip and root land."""
+    ends = [np.arctan2(side[part][:, place, 1], side[part][:, place, 0]) for part, place in ((1, -1), (0, 0))
+            for side in (grid.low, grid.high)]  # fmt: skip
+    tip, root = (ends[1] - ends[0]) % (2.0 * np.pi), (ends[3] - ends[2]) % (2.0 * np.pi)
+    return float(tip.max()), float((tooth.pitch - root).max())
 
 
-def _to_next(form: ToothForm, count: int) -> Floats:
-    """4 x 4 motion from a tooth to its right neighbour, on whose left cut its own right cut lies."""
-    section = np.array([0.5 * sum(form.faces)])
-    right, left = form.right_cut(section), form.left_cut(section)
-    for sign in (-1.0, 1.0):
-        motion = about_z(sign * 2.0 * np.pi / count)
-        if np.allclose(right, moved(motion, left), atol=1e-6):
-            return motion
-    raise ValueError("neighbouring teeth do not join")
+def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
+    """The tooth at steps with which B-splines are within half of ``departure``, and how far they are."""
+    rows = _FIRST
+    while True:
+        fine = tooth.grid(rows.times(along=2, fillet=2, flank=2, tip=2, land=2))
+        patches = fine.patches(1, 1)
+        along, growth, reached = 1.0, {}, 0.0
+        for patch in (p for p in patches if p.kind in ("flank", "fillet", "tip", "land", "bore")):
+            off, blank = _off(tooth, patch)
+            reached = max(reached, float(off.max()))
+            excess = np.maximum(off / (0.5 * departure), blank / _ON_BLANK)
+            if patch.kind != "bore":
+                growth[patch.kind] = max(growth.get(patch.kind, 1.0), _growth(excess[1::2, ::2]))
+                along = max(along, _growth(excess[::2, 1::2]))
+            else:
+                along = max(along, _growth(excess[1::2, ::2]))
+        wanted = rows.times(along=along, **growth)
+        wanted = Rows(*(min(n, _LAST) for n in (wanted.along, wanted.fillet, wanted.flank, wanted.tip, wanted.land)))
+        if wanted == rows:
+            return tooth.grid(rows), reached
+        rows = wanted
 
 
-def _teeth(form: ToothForm, density: MeshDensity, teeth: int, to_next: Floats) -> HexMesh:
-    stations = np.linspace(*form.faces, density.coarse_rows[2] + 1)
-    (own,) = Stations.between([stations])
-    single = mesh_tooth(form, None, density, own).mesh
-    placed, motion = [], np.eye(4)
-    for _ in range(teeth):
-        placed.append(HexMesh(moved(motion, single.nodes), single.elements))
-        motion = to_next @ motion
-    return merge(placed, _MERGE_TOLERANCE)[0]
+def _growth(excess: Floats) -> float:
+    """How many times more steps bring an excess below 1, of splines of the fifth degree."""
+    most = float(excess.max(initial=0.0))
+    return min(3.0, 1.1 * most ** (1.0 / 5.0)) if most > 1.0 else 1.0
 
 
-def _boundary(mesh: HexMesh) -> tuple[Floats, Ints]:
-    """Points and triangles of the element faces that no other element shares."""
-    quads = mesh.elements[:, FACES].reshape(-1, 4)
-    _, inverse, counts = np.unique(np.sort(quads, axis=1), axis=0, return_inverse=True, return_counts=True)
-    outer = quads[counts[inverse.ravel()] == 1]
-    triangles = np.concatenate([outer[:, [0, 1, 2]], outer[:, [0, 2, 3]]])
-    distinct = np.sort(triangles, axis=1)
-    triangles = triangles[(np.diff(distinct, axis=1) > 0).all(axis=1)]
-    used, numbered = np.unique(triangles, return_inverse=True)
-    return mesh.nodes[used], numbered.reshape(-1, 3)
+def _off(tooth: Tooth, patch: Patch) -> tuple[Floats, Floats]:
+    """Distances (I, J) in mm of the spline through every other point of a patch from all of them: in space on flanks
+    and fillets, and off the blank on tips, root lands and bores.
+    """
+    points = patch.points
+    spline = Spline.through(points[::2, ::2])
+    found = spline.sampled(*(np.linspace(0.0, 1.0, n) for n in points.shape[:2]))
+    if patch.kind in ("flank", "fillet"):
+        return np.linalg.norm(found - points, axis=2), np.zeros(points.shape[:2])
+    return np.zeros(points.shape[:2]), np.abs(tooth.sections.height(found) - tooth.sections.height(points))
 
 
 def _check_closed(triangles: Ints) -> None:
     """Every edge belongs to two triangles that run along it in opposite senses."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    forward, counts = np.unique(edges, axis=0, return_counts=True)
-    backward = np.unique(edges[:, ::-1], axis=0)
-    if (counts != 1).any() or len(forward) != len(backward) or (forward != backward).any():
+    count = int(edges.max()) + 1
+    forward = np.sort(edges[:, 0] * count + edges[:, 1])
+    backward = np.sort(edges[:, 1] * count + edges[:, 0])
+    if (np.diff(forward) == 0).any() or not np.array_equal(forward, backward):
         raise ValueError("the surface of the body is not closed")

@@ -61,6 +61,16 @@ class LoadedPair:
         return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & self._area_and_around))
 
     @property
+    def line(self) -> Floats:
+        """Where the pressure is highest across the contact area, (M, 3) from end to end of it on the pinion's flank:
+        the line of contact under load, fixed frame.
+        """
+        side = math.isqrt(len(self.pressures))
+        rows = self.pressures.reshape(side, side)
+        highest = side * np.arange(side) + rows.argmax(axis=1)
+        return self.grid.points[highest[rows.max(axis=1) > 0.0]]
+
+    @property
     def _area_and_around(self) -> Bools:
         return _and_around(self.pressures > 0.0)
 

@@ -10,22 +10,22 @@ from meshwright.base.errors import UsageError
 from meshwright.fe.hexahedra import Floats
 
 # The rim reaches at most so many root radii below the root.
-_DEEPEST_RIM = 0.8
+DEEPEST_RIM = 0.8
 
 
 def check_rim(rim_thickness: float, root_radii: dict[str, float]) -> None:
     """Refuse a rim in mm deeper than members with these root radii in mm allow."""
     for member, root in root_radii.items():
-        if rim_thickness > _DEEPEST_RIM * root:
+        if rim_thickness > DEEPEST_RIM * root:
             raise UsageError(
                 f"--rim-mm {rim_thickness:g}: no bore is left in the {member}, whose root radius is {root:.4g} mm; "
-                f"give at most {_DEEPEST_RIM * root:.4g}"
+                f"give at most {DEEPEST_RIM * root:.4g}"
             )
 
 
 def bore_radius(root: float, rim_thickness: float) -> float:
     """Radius in mm of a bore so far below the root, not deeper than the rim may reach."""
-    return root - min(rim_thickness, _DEEPEST_RIM * root)
+    return root - min(rim_thickness, DEEPEST_RIM * root)
 
 
 def bored(radius: float) -> Callable[[Floats], Floats]:

@@ -38,6 +38,12 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     rim_thickness: depth of the rims below the root in mm; None takes 4.5 modules.
     Raises UsageError for a drive that has no solid model, DesignError where the flanks touch along a line.
     """
+    if drive.design.mirrored:
+        hand, described = drive.design.tables["design"]["hand"], drive.design.description["handed"]
+        raise UsageError(
+            f"design.hand = {hand!r}: solids in contact are made of the hand of the drive's equations alone; analyse "
+            f"its mirror image, hand = {described!r}, at angles of the other sign"
+        )
     whole, assumed = drive.design.with_whole_blank()
     drive = Drive(whole, drive.backend)
     sizes = {member: solid_sizes(drive, member) for member in ("pinion", "wheel")}

@@ -15,9 +15,9 @@ from meshwright.fe.followed import Bools, Generated, held, in_section, level
 from meshwright.fe.hexahedra import Floats
 from meshwright.flank.surface import FlankPoints
 
-# Sections from face to face, and how much closer they may have to be; halvings of the step that holds an end of the
-# flank; how far beyond its ends the profile is followed, in parts of it.
-_SECTIONS, _CLOSEST, _BISECTIONS, _BEYOND = 65, 2.0**-8, 12, 0.05
+# Sections from face to face, and how much closer they may have to be; how often the step that holds an end of the flank
+# is divided, and into how many parts; how far beyond its ends the profile is followed, in parts of it.
+_SECTIONS, _CLOSEST, _ROUNDS, _PARTS, _BEYOND = 65, 2.0**-8, 3, 16, 0.05
 
 
 @dataclass(frozen=True)
@@ -117,14 +117,22 @@ class _Section:
             if self._good(section, further, trial):
                 profile, face = further, trial
                 continue
-            for _ in range(_BISECTIONS):
-                middle = 0.5 * (profile + further)
-                trial = self._solved(section, middle, face)
-                if self._good(section, middle, trial):
-                    profile, face = middle, trial
-                else:
-                    further = middle
-            break
+            return self._last(section, profile, face, further)
+        return profile, face
+
+    def _last(self, section: float, profile: Floats, face: Floats, further: Floats) -> tuple[Floats, Floats]:
+        """The last place (1,), (1,) inside on the way from one that is to a profile parameter (1,) that is not."""
+        shares, here = np.arange(1, _PARTS) / _PARTS, np.full(_PARTS - 1, section)
+        for _ in range(_ROUNDS):
+            places = profile + shares * (further - profile)
+            trials = in_section(self.flank, places, np.full(len(places), face[0]), here)
+            found = self.flank(places, trials)
+            outside = np.append(~(held(found, here) & self.inside(found)), True)
+            first = int(np.argmax(outside))
+            if first < len(places):
+                further = places[first : first + 1]
+            if first:
+                profile, face = places[first - 1 : first], trials[first - 1 : first]
         return profile, face
 
     def _solved(self, section: float, profile: Floats, face: Floats) -> Floats:

@@ -16,11 +16,10 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import pointer
+from meshwright.flank.lines import SINGULAR, lines
 from meshwright.flank.mesh import mesh
+from meshwright.flank.sections import Sections, lengthwise, solved
 from meshwright.flank.surface import Flank
-
-#: Limits that come from the surface itself, not from a size of blank or tool.
-SINGULAR = ("undercut", "regression", "spurious_sheet")
 
 #: Name of the limit where nothing in the design bounds the surface, and how far beyond what contact uses it then goes
 #: unless more is asked for, in natural sizes of the parameters.
@@ -32,6 +31,9 @@ FIRST_STEP, GROWTH, MAX_STEPS = 1.0 / 64.0, 1.3, 48
 
 #: The first lattice has this many cells between the ends of the rays, and reaches so many times as far.
 CELLS, REACH = 24, 2.0
+
+#: A parameter that changes by less than this part of another one, in natural sizes, does not run along a line.
+UNCHANGED = 1e-3
 
 #: Fewer cells than this across the region are too few to show its form.
 FEWEST = 8
@@ -217,6 +219,20 @@ class Region:
             + (f"these limits at once: {', '.join(self.conflict)}" if self.conflict else "the limits of the design")
         )
 
+    @cached_property
+    def profile(self):
+        """Number of the parameter that runs across the tooth: the first one, if lines across the tooth change it."""
+        found = self.flank(self.seed)
+        _, slopes = lengthwise(self.flank, found)
+        equations = np.concatenate([slopes[:, None], found.conditions[:, :, 1:]], axis=1)[0] * self.chart.sizes
+        way = np.abs(np.linalg.svd(equations)[2][-1])
+        return 0 if way[0] > UNCHANGED * way.max() else int(np.argmax(way))
+
+    def in_sections(self, sections):
+        """The same region, the tooth cut by other :class:`~meshwright.flank.sections.Sections`."""
+        flank = replace(self.flank, body=self.flank.body | {"lengthwise": sections})
+        return replace(self, chart=replace(self.chart, flank=flank), limits=replace(self.limits, flank=flank))
+
     def lattice(self, cells):
         """The :class:`Lattice` of cells × cells over the box, a cell more on every side: nodes that hang together with
         the seed through nodes that only singular lines may part.
@@ -235,6 +251,8 @@ def region(drive, member, name, uses):
     places, sizes = uses.on(flank)
     limits = _limits(drive, flank, uses)
     start, conflict = _start(flank, limits, places, sizes)
+    if start is None and name != "flank":
+        start, conflict = _start(flank, limits, _beside(drive, flank, uses), sizes)
     if start is None:
         if not np.isfinite(flank(places).points).all(axis=1).any():
             raise UsageError(f"the {name} of the {member} is not defined: give its sizes in [blank]")
@@ -245,33 +263,14 @@ def region(drive, member, name, uses):
     return _boxed(chart, limits, _deeper(chart, limits, start))
 
 
-def solved(matrix, residual):
-    """Solutions (N, c) of N systems of linear equations; NaN for singular ones."""
-    step = np.full(residual.shape, np.nan)
-    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
-    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
-    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
-    return step
-
-
-def _along(flank, points):
-    """The coordinate along the tooth (N,) of points (N, 3), for a flank on which it is one of space."""
-    return points[:, 2] if flank.body["lengthwise"] == "axial" else np.hypot(points[:, 0], points[:, 1])
-
-
-def lengthwise(flank, found):
-    """The coordinate along the tooth (N,) at flank points and its slopes by the parameters (N, k)."""
-    match flank.body["lengthwise"]:
-        case "axial":
-            return _along(flank, found.points), found.tangents[:, :, 2]
-        case "radius":
-            radius = _along(flank, found.points)
-            slopes = np.einsum("nkj,nj->nk", found.tangents[:, :, :2], found.points[:, :2])
-            return radius, slopes / radius[:, None]
-        case _:
-            slopes = np.zeros(found.parameters.shape)
-            slopes[:, -1] = 1.0
-            return found.parameters[:, -1], slopes
+def _beside(drive, flank, uses):
+    """Places (N, k) of another region of a member beside the border of its flank: surfaces that one tool cuts have
+    parameters of one kind.
+    """
+    whole = region(drive, flank.body["name"], "flank", uses)
+    found = mesh(whole, (CELLS, CELLS))
+    places = found.parameters[np.unique(found.border)]
+    return places if places.shape[1] == len(flank.parameters) else np.empty((0, len(flank.parameters)))
 
 
 def _limits(drive, flank, uses):
@@ -286,8 +285,8 @@ def _limits(drive, flank, uses):
             return limits
         visited, _ = lengthwise(flank, found)
         visited = visited[np.isfinite(visited)]
-        if flank.body["lengthwise"]:
-            visited = np.concatenate([visited, _along(flank, uses.edges(flank.body["name"]))])
+        if sections := Sections.of(flank):
+            visited = np.concatenate([visited, sections.at(uses.edges(flank.body["name"]))])
         if not len(visited):
             return limits
         beyond = uses.beyond * _lengthwise_size(flank, found, sizes)
@@ -296,9 +295,8 @@ def _limits(drive, flank, uses):
         whole = region(drive, flank.body["name"], "flank", uses)
         if whole.empty:
             raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
-        inner = mesh(whole, (CELLS, CELLS))
-        along, _ = lengthwise(whole.flank, whole.flank(inner.parameters))
-        low, high, name = along.min(), along.max(), "face"
+        along = lines(whole).along
+        low, high, name = along[0], along[-1], "face"
     return limits.with_(name, lambda at: _beyond(flank, at, 1.0, low)).with_(
         name, lambda at: _beyond(flank, at, -1.0, high)
     )
@@ -312,7 +310,7 @@ def _beyond(flank, found, sign, end):
 
 def _lengthwise_size(flank, found, sizes):
     """Natural size of the lengthwise coordinate: a parameter's own, or the least length of one that is a length."""
-    if flank.body["lengthwise"] not in ("axial", "radius"):
+    if not flank.body["lengthwise"]:
         return float(sizes[-1])
     units = {u["name"]: u["unit"] for u in flank.drive.design.description["unknowns"]}
     lengths = [size for name, size in zip(flank.parameters, sizes, strict=True) if units.get(name) == "mm"]

@@ -8,6 +8,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.border import DEGREE, cornered, loops
+from meshwright.flank.lines import corners, lines
 from meshwright.flank.mesh import mesh
 
 #: The surface is refined until it departs by no more than this from the exact one, mm, or has as many points as that.
@@ -96,16 +97,72 @@ def step(drive, region, shape):
     far enough to be trimmed.
     """
     needs_open_cascade()
+    if region.empty:
+        raise UsageError(f"{region.why_empty}; change [blank] or [design]")
+    name = f"{drive.design.tables['name'] or drive.design.family} {region.flank.body['name']} {region.flank.region}"
+    flip = np.array([1.0, -1.0, 1.0]) if drive.design.mirrored else np.ones(3)
+    try:
+        made = _trimmed(region, shape, flip, name)
+    except (UsageError, ValueError, np.linalg.LinAlgError):
+        made = None
+    if made is None or made.deviation > TOLERANCE:
+        # the chart's coordinates are no good measure of the surface everywhere: lengths along lines are
+        by_lines = _between_lines(region, shape, flip, name)
+        made = by_lines if made is None or by_lines.deviation < made.deviation else made
+    return made
+
+
+def _trimmed(region, shape, flip, name):
+    """One surface over the region's chart, trimmed along its limits."""
     triangles = _resolved(region, tuple(n - 1 for n in shape))
     free = list(region.chart.free)
     frame = Frame.about(triangles.parameters[:, free], region.chart.sizes[free])
     spline, deviation = _fitted(region, frame, triangles, shape)
     border = loops(region, triangles)
     deviation = max([deviation, *(side.deviation for loop in border for side in loop)])
-    if drive.design.mirrored:
-        spline = Spline(spline.poles * [1.0, -1.0, 1.0], spline.knots, spline.degrees)
-    name = f"{drive.design.tables['name'] or drive.design.family} {region.flank.body['name']} {region.flank.region}"
+    spline = Spline(spline.poles * flip, spline.knots, spline.degrees)
     return StepFile(written(_faces(spline, frame, border), name), deviation)
+
+
+def _between_lines(region, shape, flip, name):
+    """Surfaces from line to line across the region and along them from end to end, with a seam at every corner of its
+    border.
+    """
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+
+    guides = lines(region)
+    ends = [guides.along[0], *corners(guides), guides.along[-1]]
+    faces, deviation = [], 0.0
+    for first, last in zip(ends[:-1], ends[1:], strict=True):
+        spline, departure = _along_lines(guides, first, last, [max(n, DEGREE + 1) for n in shape])
+        spline = Spline(spline.poles * flip, spline.knots, spline.degrees)
+        faces.append(BRepBuilderAPI_MakeFace(as_surface(spline), 1e-7).Face())
+        deviation = max(deviation, departure)
+    return StepFile(written(faces, name), deviation)
+
+
+def _along_lines(guides, first, last, counts):
+    """The spline over the lines between two coordinates along the tooth and its departure from the surface, mm."""
+    flank = guides.region.flank
+    while True:
+        q = guides.at(np.linspace(first, last, 2 * counts[1] - 1)).even(np.linspace(0.0, 1.0, 2 * counts[0] - 1))
+        points = flank(q.reshape(-1, q.shape[2])).points.reshape(*q.shape[:2], 3)
+        if not np.isfinite(points).all():
+            raise UsageError(
+                f"the {flank.region} of the {flank.body['name']} is no surface between two ends of each of its lines; "
+                "write --vtu or --stl, or limit it in [blank]"
+            )
+        spline = Spline.through(points[::2, ::2])
+        away = np.linalg.norm(spline.sampled(*(np.linspace(0.0, 1.0, n) for n in points.shape[:2])) - points, axis=2)
+        deviation = float(away.max())
+        if deviation <= TOLERANCE:
+            return spline, deviation
+        worst = np.array([away[1::2, ::2].max(), away[::2, 1::2].max()])
+        more = (worst > 0.25 * worst.max()) & (2 * np.array(counts) <= MOST)
+        finer = [2 * n - 1 if grows else n for n, grows in zip(counts, more, strict=True)]
+        if finer == counts:
+            return spline, deviation
+        counts = finer
 
 
 def _resolved(region, cells):
@@ -248,7 +305,7 @@ def _plane_curve(frame, side):
     poles = TColgp_Array1OfPnt2d(1, len(spline.c))
     for k, place in enumerate(frame.places(spline.c)):
         poles.SetValue(k + 1, gp_Pnt2d(*map(float, place)))
-    return Geom2d_BSplineCurve(poles, *_knots(spline.t), spline.k)
+    return Geom2d_BSplineCurve(poles, *knots(spline.t), spline.k)
 
 
 def as_surface(spline):
@@ -262,11 +319,11 @@ def as_surface(spline):
     for i in range(n):
         for j in range(m):
             poles.SetValue(i + 1, j + 1, gp_Pnt(*map(float, spline.poles[i, j])))
-    (u, at_u), (v, at_v) = (_knots(full) for full in spline.knots)
+    (u, at_u), (v, at_v) = (knots(full) for full in spline.knots)
     return Geom_BSplineSurface(poles, u, v, at_u, at_v, *spline.degrees)
 
 
-def _knots(full):
+def knots(full):
     """Distinct knots and their multiplicities."""
     from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 

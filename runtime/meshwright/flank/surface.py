@@ -110,20 +110,26 @@ class Flank:
 
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
-        q = np.atleast_2d(np.asarray(parameters, dtype=float))
-        k, n, c = len(self.parameters), len(q), self.body["conditions"]
-        rows = np.empty((n, self.body["outputs"]))
-        buffers = (pointer(np.ascontiguousarray(a)) for a in (self.state, q))
-        results = pointer(rows)
-        library().mw_flank(self.pointer.flank, k, self.body["outputs"], *buffers, n, results)
+        q = np.asarray(parameters, dtype=float, order="C")
+        q = q if q.ndim == 2 else np.atleast_2d(q)
+        evaluate, state, k, outputs, margins, c = self._evaluated
+        n = len(q)
+        rows = np.empty((n, outputs))
+        library().mw_flank(evaluate, k, outputs, state, pointer(q), n, pointer(rows))
         at = 7 + 3 * k
-        margins = {m["event"]: rows[:, at + i] for i, m in enumerate(self.body["margins"])}
         return FlankPoints(
             parameters=q,
             points=rows[:, 0:3],
             normals=rows[:, 3:6],
             tangents=rows[:, 6 : 6 + 3 * k].reshape(n, k, 3),
             regular=rows[:, at - 1],
-            margins=margins,
+            margins={event: rows[:, at + i] for i, event in enumerate(margins)},
             conditions=rows[:, at + len(margins) :].reshape(n, c, 1 + k) if c else np.empty((n, 0, 1 + k)),
         )
+
+    @cached_property
+    def _evaluated(self):
+        """What a call hands to C: the function, the state, numbers of parameters and results; margins; conditions."""
+        margins = tuple(m["event"] for m in self.body["margins"])
+        sizes = len(self.parameters), self.body["outputs"], margins, self.body["conditions"]
+        return self.pointer.flank, pointer(self.state), *sizes

@@ -55,6 +55,7 @@ def pictures(analysis):
         drawn.append(_SLIDING)
     if analysis.loaded and any(point["pairs"] for point in analysis.loaded["points"]):
         drawn.append(_loaded(analysis.loaded))
+        drawn += [_loaded_lines(member, analysis.loaded) for member in analysis.whole]
     if analysis.running is not None and analysis.running.varies:
         drawn.append(_SPECTRUM)
     if known and any(effect.touches for effect in effects):
@@ -93,6 +94,17 @@ def _loaded(document):
         "Over one pitch, elastic teeth: transmission error, how the pairs share the load, and their peak pressure. "
         "Gaps are angles for which the method has no figures.",
         loaded_figure.draw,
+    )
+
+
+def _loaded_lines(member, document):
+    return Picture(
+        f"loaded-lines-{member}",
+        f"Contact lines under load on the {member}, true scale",
+        f"Under {text_of(document['torque_nm'])} N m on the {document['torque_on']}, at the positions of the figure "
+        "above: where each pair's pressure is highest across its contact area, from end to end of it. The wider the "
+        "line, the higher the pair's peak pressure.",
+        lambda analysis: whole_figure.loaded_lines(analysis, member),
     )
 
 

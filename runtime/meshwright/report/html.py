@@ -2,11 +2,12 @@
 
 import html
 import json
+import re
 from dataclasses import dataclass
 from importlib import resources
 
 import jinja2
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from meshwright.report import style, validity
 from meshwright.report.figures import pictures
@@ -58,7 +59,14 @@ def page(analysis):
 def _environment():
     loader = jinja2.FunctionLoader(_file)
     strict = {"autoescape": True, "undefined": jinja2.StrictUndefined}
-    return jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strict)
+    environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strict)
+    environment.filters["breakable"] = _breakable
+    return environment
+
+
+def _breakable(cell):
+    """The text of a cell, whose long words may break after an underscore or a solidus, and nowhere else."""
+    return Markup(re.sub(r"(?<=[a-z])([_/])(?=[a-z])", r"\1<wbr>", str(escape(cell))))
 
 
 def _file(name):

@@ -18,6 +18,9 @@ LONG, MOST_ROWS = 16.0, 8
 #: Width and least height of a figure, inches; room around a flank, as a share of its extent.
 WIDTH, LEAST_HEIGHT, ROOM = 6.4, 1.9, 0.04
 
+#: Width of the line of contact whose pressure is highest, points.
+WIDEST = 2.4
+
 #: Where the mate never comes the distance counts as this many times the thickness of the marking compound.
 UNMET = 4.0
 
@@ -108,6 +111,21 @@ def pattern(analysis, member):
             axes.plot(*np.vstack([ring, ring[:1]]).T, color=colour, linewidth=0.6)
         for line in lines[:: max(1, len(lines) // 24)]:
             axes.plot(*line.T, color=colour, linewidth=0.9)
+        sheet.border(axes, colour)
+        sheet.path(axes, analysis, member)
+    return figure
+
+
+def loaded_lines(analysis, member):
+    """Lines of contact under load on the whole flank of a member, as wide as the pair's peak pressure is high."""
+    sheet, colour = Sheet(analysis.whole[member], member), style.MEMBERS[member]
+    figure, panels = sheet.axes()
+    pairs = [pair for point in analysis.loaded["points"] for pair in point["pairs"] if len(pair["line_mm"][member]) > 1]
+    highest = max((pair["peak_pressure_mpa"] for pair in pairs), default=1.0)
+    for axes in panels:
+        for pair in pairs:
+            line = sheet.flat(np.array(pair["line_mm"][member]))
+            axes.plot(*line.T, color=colour, linewidth=0.4 + WIDEST * pair["peak_pressure_mpa"] / highest, alpha=0.7)
         sheet.border(axes, colour)
         sheet.path(axes, analysis, member)
     return figure

@@ -13,7 +13,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
 from meshwright.drive import Drive
-from meshwright.flank.region import lengthwise
+from meshwright.flank.sections import lengthwise
 from meshwright.pattern.gap import smallest_margin
 from meshwright.shop.located import located
 from meshwright.shop.spline import Knots

@@ -2,7 +2,7 @@
  * pass through the buffers below. Compile with -DLIVE_DRIVE=NAME and -DLIVE_HEADER, its header in quotes.
  * SPDX-License-Identifier: MIT-0 */
 #include LIVE_HEADER
-#include "complete.c"
+#include "exact.h"
 
 #define JOIN2(drive, name) drive##_##name
 #define JOIN(drive, name) JOIN2(drive, name)
@@ -31,9 +31,8 @@ EXPORT int live_most_angles(void) { return MOST_ANGLES; }
  * if the k-th guard does not hold. */
 EXPORT int live_complete(void)
 {
-    double q[X(NP) + 1], s[X(NS)];
-    mw_info info;
-    const int system = mw_complete(&X(model), parameters, q, &info);
+    double s[X(NS)];
+    const int system = X(solve_design)(parameters, NULL);
     if (system) return system;
     const int guard = X(setup)(parameters, s);
     if (guard) return -guard;

@@ -123,14 +123,18 @@ const WHAT = [
   ["iterations", "steps", "Newton steps of the last solution at this angle."],
   ["peak-to-peak", "transmission error, peak to peak", "Largest less smallest transmission error of this pair over the cycle."],
   ["size", "derived sizes", "What follows from the keys by the drive's rules."],
+  ["contact", "contact equations", "Both flanks have one place and one normal."],
 ];
+
+/* What the contact equations are solved for, unknowns apart. */
+const SOLVED = ["transmission-error", "wheel-angle", "contact-point"];
 
 function table(id, listed) {
   const body = element(id).tBodies[0];
   body.replaceChildren(...listed.map(([what, name, value, unit]) => {
     const row = made("tr"), first = made("td"), number = made("td", { className: "number" }, shown(value));
     number.dataset.name = name;
-    first.append(made("a", { href: `#what-${what}` }, name));
+    first.append(made("a", { href: `#what-${what}` }, name.replaceAll("_", "_\u200b")));
     row.append(first, number, made("td", {}, unit));
     return row;
   }));
@@ -235,12 +239,14 @@ function path(row, separation) {
 }
 
 function explain() {
-  const listed = [...WHAT, ...data.unknowns.filter((u, k) => k !== data.error).map(u => [`unknown-${u.name}`, u.name, `${u.meaning} (unknown of the contact equations)`])];
+  const listed = [...WHAT, ...data.unknowns.filter((u, k) => k !== data.error).map(u => [`unknown-${u.name}`, u.name, `${u.meaning}; an unknown.`])];
   for (const [what, name, words] of listed) {
-    const from = what === "size" ? data.equations.derive : what.startsWith("unknown") || ["transmission-error", "wheel-angle", "contact-point"].includes(what) ? data.equations.eval : [];
-    element("what").append(made("dt", { id: `what-${what}` }, name), made("dd", {}, words + (from.length ? ` Statements of the audit record: ${from.join(", ")}.` : "")));
+    const proved = { size: data.equations.derive, contact: data.equations.eval }[what] ?? [], says = made("dd", {}, words);
+    if (proved.length) says.append(` Statements of the audit record: ${proved.join(", ")}.`);
+    if (what.startsWith("unknown") || SOLVED.includes(what)) says.append(" Solved from the ", made("a", { href: "#what-contact" }, "contact equations"), ".");
+    element("what").append(made("dt", { id: `what-${what}` }, name), says);
   }
-  for (const s of data.sources) element("sources").append(made("li", {}, `${s.author}, ${s.title}, ${s.year}, ${s.where}`));
+  for (const s of data.sources) element("sources").append(made("li", {}, [s.author, s.title, s.year, s.where].filter(part => part !== null).join(", ")));
 }
 
 const axis = data.end_on ? ["x on the wheel, mm", "y on the wheel, mm"] : ["axial position on the wheel, mm", "radius on the wheel, mm"];

@@ -1,0 +1,102 @@
+"""Surfaces of revolution that cut a member across its teeth: planes, cylinders, or the cones between them.
+
+A section holds points with one value of z·cos δ + ρ·sin δ, where ρ is the distance from the axis: planes across the
+axis for δ = 0, cylinders about it for δ = 90°, otherwise the cones that stand at right angles on a pitch cone of the
+angle δ. Height is measured within a section, away from the axis.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.design.description import table_and_key
+
+#: Angle δ of the sections by the word for what runs along a tooth.
+ANGLES = {"axial": 0.0, "radius": math.pi / 2.0}
+
+#: Faces are planes, cylinders or cones to this, mm or rad.
+EVEN = 1e-7
+
+
+@dataclass(frozen=True)
+class Sections:
+    """Sections of the angle δ in rad, body frame, mm."""
+
+    angle: float
+
+    @classmethod
+    def of(cls, flank):
+        """Those that a drive declares for a flank or another region, or None where a parameter runs along the tooth."""
+        word = flank.body["lengthwise"]
+        if isinstance(word, cls) or not word:
+            return word or None
+        if word in ANGLES:
+            return cls(ANGLES[word])
+        table, key = table_and_key(word)
+        return cls(flank.drive.design.value(key, table))
+
+    @classmethod
+    def of_faces(cls, points, edges):
+        """Those in which the edges (E, 2) between points (N, 3) lie, of which none is longer than they show; None if
+        there are no such ones.
+        """
+        radius, z = np.hypot(points[:, 0], points[:, 1])[edges], points[:, 2][edges]
+        ways = np.diff(radius, axis=1)[:, 0] + 1j * np.diff(z, axis=1)[:, 0]
+        if not np.abs(ways).sum() > 0.0:
+            return None
+        angle = -0.5 * np.angle(np.sum(ways**2 / np.maximum(np.abs(ways), 1e-300)))
+        angle = next((a for a in ANGLES.values() if abs(abs(angle) - a) < EVEN), angle)
+        found = cls(float(angle))
+        return found if np.ptp(found.at(points[edges]), axis=1).max() < EVEN else None
+
+    @property
+    def sides(self):
+        """Sine and cosine of the angle, exactly 0 and 1 at its ends."""
+        if self.angle == ANGLES["radius"]:
+            return 1.0, 0.0
+        return math.sin(self.angle), math.cos(self.angle)
+
+    def at(self, points):
+        """The section (...,) that points (..., 3) lie in."""
+        sine, cosine = self.sides
+        return cosine * points[..., 2] + (sine * np.hypot(points[..., 0], points[..., 1]) if sine else 0.0)
+
+    def height(self, points):
+        """Height (...,) of points (..., 3) within their sections."""
+        sine, cosine = self.sides
+        return (cosine * np.hypot(points[..., 0], points[..., 1]) if cosine else 0.0) - sine * points[..., 2]
+
+    def slopes(self, points, tangents):
+        """Slopes (N, k) of the section by the parameters at points (N, 3) with tangents (N, k, 3)."""
+        sine, cosine = self.sides
+        slopes = cosine * tangents[:, :, 2]
+        if sine:
+            radius = np.hypot(points[:, 0], points[:, 1])[:, None]
+            slopes = slopes + sine * np.einsum("nkj,nj->nk", tangents[:, :, :2], points[:, :2]) / radius
+        return slopes
+
+    def points(self, section, height, azimuth):
+        """Points (..., 3) of sections at heights and azimuths in rad."""
+        sine, cosine = self.sides
+        radius, z = sine * section + cosine * height, cosine * section - sine * height
+        return np.stack(np.broadcast_arrays(radius * np.cos(azimuth), radius * np.sin(azimuth), z), axis=-1)
+
+
+def lengthwise(flank, found):
+    """The coordinate along the tooth (N,) at flank points and its slopes by the parameters (N, k)."""
+    sections = Sections.of(flank)
+    if sections:
+        return sections.at(found.points), sections.slopes(found.points, found.tangents)
+    slopes = np.zeros(found.parameters.shape)
+    slopes[:, -1] = 1.0
+    return found.parameters[:, -1], slopes
+
+
+def solved(matrix, residual):
+    """Solutions (N, c) of N systems of linear equations; NaN for singular ones."""
+    step = np.full(residual.shape, np.nan)
+    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
+    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    return step
