@@ -119,6 +119,11 @@ def test_an_empty_word_is_named_as_it_was_typed(arguments, named, capsys):
     assert named in capsys.readouterr().err
 
 
+def test_a_region_without_its_sizes_names_the_keys_that_are_open(capsys):
+    assert main(["surface", "plain-za", "--member", "wheel", "--region", "fillet", "--grid", "3x3"]) == 2
+    assert "hob_tip_rounding_mm" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("value", "remedy"), [("277", "without quotes"), (True, "without quotes"), (277.5, "without a decimal point")]
 )

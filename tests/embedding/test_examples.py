@@ -108,6 +108,25 @@ def test_the_wheel_holds_library_metadata_and_headers(tmp_path):
     assert "converged" in done.stdout
 
 
+@pytest.mark.validate
+def test_from_the_wheel_to_a_report_of_a_drive_of_ones_own_takes_half_a_minute(tmp_path):
+    """Two commands in an empty folder, of a fresh environment; time of the processor, whatever else it has to do."""
+    built = ("--config-settings", "libraries=built")
+    c.run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *built, "--wheel-dir", tmp_path, c.ROOT)
+    (wheel,) = tmp_path.glob("*.whl")
+    c.run(sys.executable, "-m", "venv", tmp_path / "venv")
+    folder, programs = tmp_path / "empty", tmp_path / "venv" / "bin"
+    folder.mkdir()
+    begun = os.times()
+    c.run(programs / "pip", "install", "--quiet", f"{wheel}[plot]", cwd=folder)
+    meshwright = programs / "meshwright"
+    c.run(meshwright, "new", "cylindrical-worm", "--m", "4", "--z", "2:40", "--out", "pair.toml", cwd=folder)
+    c.run(meshwright, "report", "pair.toml", "--html", "report.html", cwd=folder)
+    taken = os.times()
+    assert "<canvas" in (folder / "report.html").read_text(encoding="utf-8")
+    assert taken.children_user + taken.children_system - begun.children_user - begun.children_system < 30.0
+
+
 def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
     """Every tracked file of the folders that count; core and drives compile from it."""
     c.run(sys.executable, "-m", "build", "--sdist", "--outdir", tmp_path, c.ROOT)

@@ -9,6 +9,29 @@ import time
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
+#: Widths of a window, px: a telephone's, a tablet's, a desk's.
+WIDTHS = (500, 900, 1400)
+
+#: What of a page is cut off: wider than the window without scrolling, hidden overflow, text outside its picture.
+CUT_OFF = """(() => {
+  const found = new Set(), width = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > width + 1) found.add("the page is wider than the window");
+  const scrolls = e => e && (["auto", "scroll"].includes(getComputedStyle(e).overflowX) || scrolls(e.parentElement));
+  for (const e of document.querySelectorAll("body *")) {
+    const box = e.getBoundingClientRect(), said = `${e.tagName} ${e.textContent.trim().slice(0, 40)}`;
+    const svg = e.ownerSVGElement?.getBoundingClientRect();
+    if (svg) {
+      const over = [svg.left - box.left, box.right - svg.right, svg.top - box.top, box.bottom - svg.bottom];
+      if (e.tagName === "text" && box.width && Math.max(...over) > 1) found.add(`outside its picture: ${said}`);
+      continue;
+    }
+    const hides = ["hidden", "clip"].includes(getComputedStyle(e).overflowX);
+    if (hides && e.clientWidth && e.scrollWidth > e.clientWidth + 1) found.add(`cut off: ${said} ${e.value ?? ""}`);
+    if (box.width && box.right > width + 1 && !scrolls(e.parentElement)) found.add(`beyond the window: ${said}`);
+  }
+  return [...found];
+})()"""
+
 
 class Browser:
     """One page. Raises :class:`AssertionError` with the page's words for what goes wrong in it."""
@@ -59,6 +82,15 @@ class Browser:
     def open(self, uri):
         self._call("Page.navigate", url=uri)
         self.wait("document.body && document.body.dataset.solved === 'yes'")
+
+    def cut_off(self, uri, width):
+        """What of a page is cut off in a window of this width, px."""
+        size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+        self._call("Emulation.setDeviceMetricsOverride", **size)
+        self._call("Page.navigate", url=uri)
+        self.wait("document.readyState === 'complete'")
+        time.sleep(0.5)
+        return self.value(CUT_OFF)
 
     def value(self, expression):
         """Value of a JavaScript expression."""

@@ -18,7 +18,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.design.design import given_vector, is_real
 from meshwright.live import module
 from meshwright.live.teeth import teeth
-from tests.live.browser import CHROMIUM, Browser
+from tests.live.browser import CHROMIUM, WIDTHS, Browser
 
 DESIGNS = ("recess-action-full", "face-worm-conical-convex", "spherical-table-2-2-concave-14-5")
 
@@ -232,5 +232,16 @@ def test_a_cycle_of_200_positions_is_solved_within_5_ms(name, pages, tmp_path):
         browser.open(pages(name).as_uri())
         assert browser.value("data.positions") == 200
         assert browser.value("Math.min(...Array.from({length: 40}, () => { solve(); return state.time; }))") < 5.0
+    finally:
+        browser.close()
+
+
+@pytest.mark.validate
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("name", [*DESIGNS, "bevel-hypoid"])
+def test_nothing_of_the_page_is_cut_off_in_any_width(name, pages, tmp_path):
+    browser = Browser(tmp_path / "profile")
+    try:
+        assert [browser.cut_off(pages(name).as_uri(), width) for width in WIDTHS] == [[]] * len(WIDTHS)
     finally:
         browser.close()

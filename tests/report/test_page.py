@@ -1,7 +1,6 @@
 """The page stands alone, escapes what it is given, and says every size with its unit."""
 
 import re
-import shutil
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -15,6 +14,7 @@ from meshwright.report import analyse, page, sensitivity_figures
 from meshwright.report.numbers import fixed, number, unit
 from meshwright.report.tables import groups
 from meshwright.sensitivity import on_member, sensitivity
+from tests.live.browser import CHROMIUM, WIDTHS, Browser
 
 from .conftest import DESIGNS, quiet
 
@@ -146,8 +146,6 @@ def test_a_rounded_zero_has_no_sign():
     assert fixed(-0.0001, 2) == "0.00"
 
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
 @pytest.mark.parametrize("name", DESIGNS)
@@ -188,3 +186,16 @@ def test_exact_derivatives_stand_beside_the_effect_of_a_step_and_agree_with_it(n
         slope = exact.error[0, exact.of(f"misalignment.{effect.key}")]
         assert slope * step == pytest.approx(changes[effect.key], rel=1e-2, abs=1e-3 * largest + 1e-8 * ARCSEC)
     assert len(effects.rows) == len(analysis.sensitivities)
+
+
+@pytest.mark.validate
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("name", DESIGNS)
+def test_nothing_of_the_page_is_cut_off_in_any_width(name, paged, tmp_path):
+    file = tmp_path / "report.html"
+    file.write_text(paged(name), encoding="utf-8")
+    browser = Browser(tmp_path / "profile")
+    try:
+        assert [browser.cut_off(file.as_uri(), width) for width in WIDTHS] == [[]] * len(WIDTHS)
+    finally:
+        browser.close()

@@ -1,11 +1,11 @@
 """Grids of a tooth flank with normals: JSON, VTU (ParaView), STL, STEP.
 
 Body frame, normals out of the material. The region goes as far as blank, tool and singular lines let the surface
-exist, and where they set no limit, what contact uses. JSON holds a grid, with null off the region, and triangles with
-the border resolved; VTU and STL hold the triangles, STEP trimmed B-spline surfaces. Exit status 1 if the STEP file
-departs from the exact surface by more than 1 µm. With --solid: the closed body of the member, all its teeth or some,
-as STL (triangles) or STEP (B-spline faces); volume and departure from the flanks are printed, above 1 µm with exit
-status 1.
+exist, and where they set no limit, what contact uses; an undercut flank ends where its fillet cuts it. JSON holds a
+grid, with null off the region, and triangles with the border resolved; VTU and STL hold the triangles, STEP trimmed
+B-spline surfaces. Exit status 1 if the STEP file departs from the exact surface by more than 1 µm. With --solid: the
+closed body of the member, all its teeth or some, as STL (triangles) or STEP (B-spline faces); volume and departure from
+the flanks are printed, above 1 µm with exit status 1.
 """
 
 import re
@@ -65,13 +65,14 @@ def run(options):
         step("where contact uses the flanks")
         drive.uses  # noqa: B018 (the drive keeps it)
         step(f"{options.region} of the {options.member}")
-        found = drive.surface(options.member, shape, options.region)
+        cut = _undercut(options, drive, shape)
+        found = drive.surface(options.member, shape, options.region) if cut is None else cut[0]
     if options.vtu:
         write_text(options.vtu, exports.vtu(found))
     if options.stl:
         triangles = found.mesh.points, found.mesh.triangles
         write_bytes(options.stl, exports.stl(*triangles, f"{found.member} {found.region}"))
-    good = _write_step(options.step, drive, options.member, shape, options.region) if options.step else True
+    good = _write_step(options, drive, shape, cut) if options.step else True
     if options.json or not (options.vtu or options.stl or options.step):
         write_json(options.json or "-", document(found))
     return 0 if good else 1
@@ -155,9 +156,25 @@ def _shape(text):
     return across, along
 
 
-def _write_step(place, drive, member, shape, region):
+def _undercut(options, drive, shape):
+    """What is left of a flank that its fillet cuts off, as a grid, and a function of its STEP file; else None."""
+    if options.region != "flank" or min(shape) < 2:
+        return None
+    try:
+        from meshwright.fe import undercut
+    except ModuleNotFoundError:
+        return None
+    side = undercut.undercut_side(drive, options.member)
+    if side is None:
+        return None
+    print(f"the flank of the {options.member} is undercut: written up to where its fillet cuts it", file=sys.stderr)
+    return undercut.left_of_flank(drive, side, shape), lambda: undercut.step_of_flank(drive, side, shape)
+
+
+def _write_step(options, drive, shape, cut):
     """Write the file, say how far it departs, and return whether that is little enough."""
-    made = step(drive, drive.region(member, region), shape)
+    place, region = options.step, options.region
+    made = step(drive, drive.region(options.member, region), shape) if cut is None else cut[1]()
     write_bytes(place, made.content)
     print(f"{place}: B-spline surface within {1000.0 * made.deviation:.3g} µm of the {region}", file=sys.stderr)
     return made.deviation <= MOST_DEVIATION

@@ -22,6 +22,9 @@ MOST_DIRECTIONS = 36_000
 #: A search for first contact that could have missed an overlap above this, mm, says so.
 RESOLVED = 1e-4
 
+#: A bound on that overlap above this, mm, says nothing: tooth depths are of its order.
+MEANINGFUL = 1.0
+
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5
 
@@ -89,10 +92,11 @@ def _say_unresolved(first):
     """On standard error, what the search for first contact could not exclude."""
     doubtful = first.unresolved > RESOLVED
     if doubtful.any():
-        most = 1000.0 * first.unresolved[doubtful].max()
+        most = first.unresolved[doubtful].max()
+        bound = f"by up to {1000.0 * most:.3g} µm" if most < MEANINGFUL else "by an amount that is not bounded"
         print(
             f"first contact: at {doubtful.sum()} of {len(doubtful)} angles a place that the search missed could "
-            f"overlap by up to {most:.3g} µm",
+            f"overlap {bound}",
             file=sys.stderr,
         )
 

@@ -289,7 +289,11 @@ def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         fine = tooth.grid(rows.times(along=2, fillet=2, flank=2, tip=2, land=2))
         patches = fine.patches(1, 1)
         along, growth, reached = 1.0, {}, 0.0
-        for patch in (p for p in patches if p.kind in ("flank", "fillet", "tip", "land", "bore")):
+        for patch in patches:
+            if patch.kind not in ("flank", "fillet", "tip", "land", "bore"):
+                continue
+            if tooth.outward < 0.0:  # sections along the second axis of all but bores, as where height grows outwards
+                patch = patch.turned_over()
             off, blank = _off(tooth, patch)
             reached = max(reached, float(off.max()))
             excess = np.maximum(off / (0.5 * departure), blank / _ON_BLANK)

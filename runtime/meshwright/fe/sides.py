@@ -7,6 +7,7 @@ without a fillet of its own ends at its root.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -100,6 +101,15 @@ class RegionSide:
         if not self.has_step:
             rounded[:, -1] = points[:, 0]
         return rounded, points, normals
+
+    @cached_property
+    def cut(self) -> bool:
+        """Whether the fillet cuts the flank off."""
+        return bool(self._crossed(np.linspace(*self.reach, PLACES_ALONG)).any())
+
+    def flank_lines(self, values: Floats) -> Lines:
+        """The flank in sections, up to where it meets the fillet."""
+        return self._at(values)[0]
 
     def breaks(self) -> Floats:
         """As :class:`Side` says."""

@@ -55,6 +55,26 @@ def grid(drive, member, shape, name, uses, inset=0.0):
     return _of_design(drive, whole.flank, shape, values, triangles)
 
 
+def between_lines(drive, across, count):
+    """The :class:`Grid` of ``count`` points on each of the lines ``across`` a region, whose ends need not be its own:
+    what is left of a flank that another surface cuts. The triangles are those of the grid.
+    """
+    flank, q = across.region.flank, across.places(np.linspace(0.0, 1.0, count))
+    flat = q.reshape(-1, q.shape[2])
+    at = flank(flat)
+    number = np.arange(len(flat)).reshape(q.shape[:2])
+    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    triangles = np.concatenate([np.stack(p, axis=-1).reshape(-1, 3) for p in ((a, b, c), (a, c, d))])
+    corner = at.points[triangles]
+    facing = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    if np.sum(facing * at.normals[triangles[:, 0]]) < 0.0:
+        triangles = triangles[:, ::-1]
+    rim = np.concatenate([number[:, 0], number[-1, 1:], number[-2::-1, -1], number[0, -2:0:-1]])
+    border = np.stack([rim, np.roll(rim, -1)], axis=1)
+    mesh = Triangulation(flat, at.points, at.normals, triangles, border, np.full(len(border), -1))
+    return _of_design(drive, flank, q.shape[:2], flat, mesh)
+
+
 def of_design(drive, triangles):
     """A triangulation as the drive of the design's hand has it."""
     if not drive.design.mirrored:

@@ -245,6 +245,12 @@ class Region:
         return flooded(self.chart, self.limits, lines, self.seed)
 
 
+def _open_sizes(design):
+    """Keys of [blank] that the design leaves open and no rule gives."""
+    listed = zip(design.parameters, design.description["parameters"], strict=True)
+    return [p["key"] for number, p in listed if p["table"] == "blank" and np.isnan(number) and not p["choices"]]
+
+
 def region(drive, member, name, uses):
     """The :class:`Region` ``name`` (flank, fillet, …) of a member; ``uses`` says where contact uses the flanks."""
     flank = drive.flank(member, name)
@@ -255,7 +261,8 @@ def region(drive, member, name, uses):
         start, conflict = _start(flank, limits, _beside(drive, flank, uses), sizes)
     if start is None:
         if not np.isfinite(flank(places).points).all(axis=1).any():
-            raise UsageError(f"the {name} of the {member} is not defined: give its sizes in [blank]")
+            keys = " or ".join(_open_sizes(drive.design)) or "other sizes"
+            raise UsageError(f"the {name} of the {member} is not defined with what [blank] leaves open: give {keys}")
         chart = Chart.at(flank, _on_surface(flank, places[:1], sizes)[0], sizes)
         return Region(chart, limits, None, np.zeros((2, 2)), conflict)
     chart = Chart.at(flank, start, sizes)

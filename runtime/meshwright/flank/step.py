@@ -107,7 +107,8 @@ def step(drive, region, shape):
         made = None
     if made is None or made.deviation > TOLERANCE:
         # the chart's coordinates are no good measure of the surface everywhere: lengths along lines are
-        by_lines = _between_lines(region, shape, flip, name)
+        guides = lines(region)
+        by_lines = between_lines(guides.at, [guides.along[0], *corners(guides), guides.along[-1]], shape, flip, name)
         made = by_lines if made is None or by_lines.deviation < made.deviation else made
     return made
 
@@ -124,28 +125,28 @@ def _trimmed(region, shape, flip, name):
     return StepFile(written(_faces(spline, frame, border), name), deviation)
 
 
-def _between_lines(region, shape, flip, name):
-    """Surfaces from line to line across the region and along them from end to end, with a seam at every corner of its
-    border.
+def between_lines(lines_at, ends, shape, flip, name):
+    """The :class:`StepFile` of surfaces between lines across a region, from end to end of it, with a seam at each
+    corner of its border.
+
+    ``lines_at`` gives the lines at coordinates along the tooth, ``ends`` are those of its ends and corners, ascending.
     """
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
 
-    guides = lines(region)
-    ends = [guides.along[0], *corners(guides), guides.along[-1]]
     faces, deviation = [], 0.0
     for first, last in zip(ends[:-1], ends[1:], strict=True):
-        spline, departure = _along_lines(guides, first, last, [max(n, DEGREE + 1) for n in shape])
+        spline, departure = _along_lines(lines_at, first, last, [max(n, DEGREE + 1) for n in shape])
         spline = Spline(spline.poles * flip, spline.knots, spline.degrees)
         faces.append(BRepBuilderAPI_MakeFace(as_surface(spline), 1e-7).Face())
         deviation = max(deviation, departure)
     return StepFile(written(faces, name), deviation)
 
 
-def _along_lines(guides, first, last, counts):
+def _along_lines(lines_at, first, last, counts):
     """The spline over the lines between two coordinates along the tooth and its departure from the surface, mm."""
-    flank = guides.region.flank
     while True:
-        q = guides.at(np.linspace(first, last, 2 * counts[1] - 1)).even(np.linspace(0.0, 1.0, 2 * counts[0] - 1))
+        across = lines_at(np.linspace(first, last, 2 * counts[1] - 1))
+        flank, q = across.region.flank, across.even(np.linspace(0.0, 1.0, 2 * counts[0] - 1))
         points = flank(q.reshape(-1, q.shape[2])).points.reshape(*q.shape[:2], 3)
         if not np.isfinite(points).all():
             raise UsageError(

@@ -26,7 +26,7 @@ function allowed(key, value) {
 function field(key) {
   const way = key.value !== 0 ? 0.2 * Math.abs(key.value) : WAY[key.unit] ?? 1;
   const box = made("div", { className: "key" }), id = `key-${key.place}`;
-  const number = made("input", { type: "number", step: "any", id, value: String(key.value) });
+  const number = made("input", { type: "number", step: "any", id, value: shown(key.value) });
   const slider = made("input", { type: "range", min: -STEPS, max: STEPS, step: 1, value: 0, id: `slide-${key.place}` });
   slider.setAttribute("aria-label", key.key);
   box.append(made("label", { htmlFor: id }, key.key.replaceAll("_", "_\u200b")), number, made("span", { className: "unit" }, key.unit.replaceAll("_", "_\u200b")), slider,
@@ -34,18 +34,20 @@ function field(key) {
   const it = { key, box, number, slider, value: key.value };
   slider.addEventListener("input", () => {
     const at = Number(slider.value);
-    number.value = at === 0 ? String(key.value) : String(Number((key.value + way * at / STEPS).toPrecision(DIGITS)));
-    changed(it);
+    const value = at === 0 ? key.value : Number((key.value + way * at / STEPS).toPrecision(DIGITS));
+    number.value = shown(value);
+    changed(it, value);
   });
   number.addEventListener("input", () => {
     slider.value = Math.round((Number(number.value) - key.value) / way * STEPS);
-    changed(it);
+    changed(it, number.value === "" ? NaN : Number(number.value));
   });
   return it;
 }
 
-function changed(it) {
-  it.value = it.number.value === "" ? NaN : Number(it.number.value);
+/* The value of a key, all its digits; its box shows those that there is room for. */
+function changed(it, value) {
+  it.value = value;
   ask();
 }
 
@@ -267,7 +269,7 @@ function begin(module) {
   position.value = Math.floor(data.positions / 2);
   position.addEventListener("input", draw);
   element("reset").addEventListener("click", () => {
-    for (const it of fields) { it.number.value = String(it.key.value); it.slider.value = 0; it.value = it.key.value; }
+    for (const it of fields) { it.number.value = shown(it.key.value); it.slider.value = 0; it.value = it.key.value; }
     ask();
   });
   window.addEventListener("resize", () => draw());
