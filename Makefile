@@ -90,10 +90,11 @@ sanitizers:
 		&& apt-get update -qq && apt-get install -y -qq --no-install-recommends clang-14 libclang-rt-14-dev; } \
 		>/dev/null 2>&1 || true
 
-# Mutated designs, the C interface under sanitizers and in threads, changed records: seeded and bounded, about two minutes
-# of a processor; with SIZE=full hours of it. Fails at the first traceback, hang, sanitizer's report or false contact.
+# Mutated designs, the C interface under sanitizers and in threads, changed records: seeded and bounded, some minutes of a
+# processor; with SIZE=full hours of it. BUDGETS="--designs 200000 --analyse 10000 --calls 10000000" are such of one's own.
+# Fails at the first traceback, hang, sanitizer's report or false contact.
 fuzz: build sanitizers
-	$(PY) -m tests.fuzz --size $(or $(SIZE),short) --seed $(or $(SEED),0)
+	$(PY) -m tests.fuzz --size $(or $(SIZE),short) --seed $(or $(SEED),0) $(BUDGETS)
 
 # Lines and branches that tests reach, of runtime/c and of the Python runtime, beside what is required of each.
 coverage: build
@@ -102,6 +103,7 @@ coverage: build
 # The bits of a trace from every compiler, level of optimisation and instruction set that can be had here.
 compilers: build
 	$(PY) -m pytest -m validate tests/embedding/test_compilers.py
+	$(PY) -m pytest tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
 test-fe: build solver

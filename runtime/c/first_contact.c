@@ -776,6 +776,7 @@ static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_
     h->given = 1;
     h->bound[1] = mesh->bound;
     if (h->nk > MAX_K || h->nw > MAX_K || h->nk != 2 + p->conditions || h->nw != 2 + w->conditions) return 0;
+    if (w->conditions ? mesh->bound < 0 || mesh->bound >= h->nw : mesh->bound != -1) return 0;
     if (p->outputs > MAX_OUTPUTS || w->outputs > MAX_OUTPUTS || limit_count(h) > MAX_LIMITS) return 0;
     others(h->nw, h->bound[1], h->free_[1]);
     for (int i = 0; i < 3; i++) {

@@ -22,8 +22,11 @@ TARGETS = {
 
 
 def compilers():
-    """C and C++ commands by name: the system's gcc where there is one, and clang from its Python package."""
+    """C and C++ commands by name: clang from its Python package, and gcc and clang of the system that has them."""
     found = {"clang": ((*CLANG, "cc"), (*CLANG, "c++"))}
+    for name in ("clang", "clang-14"):
+        if shutil.which(name) and shutil.which(name.replace("clang", "clang++")):
+            found["a clang of the system"] = ((name,), (name.replace("clang", "clang++"),))
     if shutil.which("gcc") and shutil.which("g++"):
         found["gcc"] = (("gcc",), ("g++",))
     return found

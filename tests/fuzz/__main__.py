@@ -8,64 +8,101 @@ import argparse
 import sys
 import tempfile
 import time
+from collections import Counter
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from meshwright.base.library import library
 from tests.fuzz import designs, interface, records
 
-#: (mutated designs, of these analysed, inputs of the C interface, inputs of threads, mutated records)
-SIZES = {"short": (1500, 100, 150, 40, 15), "full": (200_000, 10_000, 100_000, 2_000, 500)}
+
+@dataclass(frozen=True)
+class Size:
+    """Mutated designs, of these analysed, calls of the C interface, inputs of threads, mutated records."""
+
+    designs: int
+    analyse: int
+    calls: int
+    threads: int
+    records: int
+
+
+SIZES = {"short": Size(1500, 100, 80_000, 40, 15), "full": Size(200_000, 10_000, 10_000_000, 2_000, 500)}
 
 #: Packaged designs whose drives the short run compiles.
 FEW = ("spherical-table-2-3",)
 
-#: Inputs a process handles before the next one begins, seconds it may take for each at most.
-PIECE, LIMIT = 50_000, 60
+#: Inputs of a process, of random bytes and of bytes led by coverage, in turn; seconds an input may take.
+PIECE, LED, LIMIT = 200, 400, 60
 
 
 def _designs(size, seed):
-    total, failures = designs.run(size[0], size[1], seed)
+    total, failures = designs.run(size.designs, size.analyse, seed)
     wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
     again = "; show one again with python -m tests.fuzz.designs --show SEED" if wrong else ""
     return f"{sum(total.values())} loaded, {total['analysed']} analysed, {total['refused']} refused{again}", wrong
 
 
+def _pieces(led, random, size, seed):
+    """Program and arguments of one process after another."""
+    if led is None and size.threads:
+        yield random, [seed, size.threads], size.threads
+    for k in range(size.calls):
+        yield random, [seed, PIECE, k * PIECE], PIECE
+        if led:
+            arguments = [f"-runs={LED}", f"-seed={seed + k + 1}", f"-timeout={LIMIT}", "-max_len=384", "-len_control=0"]
+            yield led, [*arguments, "-verbosity=0"], LED
+
+
 def _interface(kind, size, seed, which):
     """Words and failures of one sanitizer; None where no compiler has it."""
     flags, by_gcc = interface.SANITIZERS[kind]
-    threads, led = kind == "thread", interface.clang()
-    compiler = led or (interface.gcc() if by_gcc else None)
+    led_by = interface.clang()
+    compiler = led_by or (interface.gcc() if by_gcc else None)
     if compiler is None:
         return None
-    guided = led and not threads
-    defines = () if guided else ("-DMW_FUZZ_ALONE", *(("-DMW_FUZZ_THREADS=4",) if threads else ()))
-    count = size[3] if threads else size[2]
+    threaded = kind == "thread"
+    size = replace(size, calls=1) if threaded else replace(size, threads=0)
+    total = Counter(calls=0)
     with tempfile.TemporaryDirectory(prefix="meshwright-fuzz-") as folder:
-        every = (*flags, *(("-fsanitize=fuzzer",) if guided else ()))
-        program = interface.build(Path(folder), compiler, every, defines, which)
-        if guided:
-            arguments = [f"-runs={count}", f"-seed={seed + 1}", f"-timeout={LIMIT}", "-max_len=384", "-verbosity=0"]
-        else:
-            arguments = [seed, count]
-        ended, said = interface.run(program, arguments, LIMIT + count * 5)
-    found = interface.counted(said)
-    words = (
-        f"{found['inputs']} inputs, {found['calls']} calls, {found['successes']} successes looked at, "
-        f"{Path(compiler).name}{', led by coverage' if guided else ', random bytes'}"
-    )
-    return words, [said[-6000:]] if ended or not found["calls"] else []
+        threads = ("-DMW_FUZZ_THREADS=4",) if threaded else ()
+        random, led = interface.build_both(Path(folder), compiler, flags, threads, which, led_by and not threaded)
+        for program, arguments, count in _pieces(led, random, size, seed):
+            ended, said = interface.run(program, arguments, LIMIT + count * 5)
+            found = interface.counted(said)
+            total.update(found)
+            if ended or not found["calls"]:
+                return "", [said[-6000:]]
+            if total["calls"] >= size.calls:
+                break
+    words = f"{total['inputs']} inputs, {total['calls']} calls, {total['successes']} successes looked at, "
+    return words + Path(compiler).name + (", random bytes and led by coverage" if led else ", random bytes"), []
+
+
+PARTS = ("designs", "record", *(f"C interface, {kind}" for kind in interface.SANITIZERS))
+
+BUDGETS = {
+    "designs": "mutated designs loaded", "analyse": "of these analysed", "calls": "calls of the C interface",
+    "threads": "inputs that four threads share", "records": "changed records",
+}  # fmt: skip
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__.split("\n")[0])
     parser.add_argument("--size", choices=SIZES, default="short")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--only", choices=PARTS, help="one part alone")
+    for name, what in BUDGETS.items():
+        parser.add_argument(f"--{name}", type=int, help=f"{what}, instead of those of the size")
     given = parser.parse_args(arguments)
     library()
-    size, few = SIZES[given.size], FEW if given.size == "short" else interface.DESIGNS
-    parts = {"designs": lambda: _designs(size, given.seed), "record": lambda: records.run(size[4], given.seed)}
+    asked = {name: value for name in BUDGETS if (value := getattr(given, name)) is not None}
+    size, few = replace(SIZES[given.size], **asked), FEW if given.size == "short" else interface.DESIGNS
+    parts = {"designs": lambda: _designs(size, given.seed), "record": lambda: records.run(size.records, given.seed)}
     for kind in interface.SANITIZERS:
         parts[f"C interface, {kind}"] = lambda kind=kind: _interface(kind, size, given.seed, few)
+    if given.only:
+        parts = {given.only: parts[given.only]}
     failed = missing = 0
     for name, part in parts.items():
         begin = time.monotonic()

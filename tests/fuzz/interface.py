@@ -221,32 +221,65 @@ static const seed seeds[] = {{
 
 def build(folder, compiler, flags, defines=(), designs=DESIGNS, link=()):
     """Compile the core library, the drives and the harness with these flags into ``folder/fuzz``; the path of it."""
+    objects = _objects(folder, compiler, flags, designs)
+    harness = _compiled(folder, compiler, flags, HERE / "interface.c", defines, "interface")
+    return _linked(folder / "fuzz", compiler, (*flags, *link), (*objects, harness))
+
+
+def build_both(folder, compiler, flags, defines, designs, led):
+    """A harness for random bytes and, if ``led``, libFuzzer's: (path, path or None)."""
+    traced = (*flags, "-fsanitize=fuzzer-no-link") if led else flags
+    objects = _objects(folder, compiler, traced, designs)
+    alone = _compiled(folder, compiler, traced, HERE / "interface.c", ("-DMW_FUZZ_ALONE", *defines), "random")
+    random = _linked(folder / "fuzz", compiler, traced, (*objects, alone))
+    if not led:
+        return random, None
+    every = (*flags, "-fsanitize=fuzzer")
+    harness = _compiled(folder, compiler, every, HERE / "interface.c", defines, "led")
+    return random, _linked(folder / "led", compiler, every, (*objects, harness))
+
+
+def build_quickly(folder, compiler, built, design):
+    """As :func:`build` for one drive, without sanitizers, of the objects in ``built`` that ``make build`` left."""
     folder.mkdir(parents=True, exist_ok=True)
-    command = compiler.split()
+    (name,) = write_seeds(folder, (design,))
+    left = [*built.glob("*.o"), *(built / name).glob("*.o")]
+    own = [
+        _compiled(folder, compiler, ("-O0",), SOURCE / "library.c", ('-DMW_DRIVES="drives.h"',), "library"),
+        _compiled(folder, compiler, ("-O0",), HERE / "alone.c", (f"-DMW_DRIVE={name}",), "alone"),
+        _compiled(folder, compiler, ("-O0",), HERE / "interface.c", ("-DMW_FUZZ_ALONE",), "interface"),
+    ]
+    return _linked(folder / "fuzz", compiler, (), (*own, *(str(o) for o in left if o.name != "library.o")))
+
+
+def _objects(folder, compiler, flags, designs):
+    """Objects of the core library and of the drives, and what the harness says of them."""
+    folder.mkdir(parents=True, exist_ok=True)
     names = write_seeds(folder, designs)
-    includes = (f"-I{folder}", f"-I{SOURCE}", f"-I{SOURCE / 'drive'}", f"-I{GENERATED}")
     units = [(unit, ('-DMW_DRIVES="drives.h"',), f"core_{unit.stem}") for unit in sorted(SOURCE.glob("*.c"))]
     straight = STRAIGHT if any("undefined" in flag for flag in flags) else ()
     for name in names:
         drive = (f"-DMW_DRIVE={name}", *straight)
         units += [(SOURCE / unit, drive, f"{name}_{Path(unit).stem}") for unit in DRIVE_UNITS]
         units.append((HERE / "alone.c", drive, f"alone_{name}"))
-    units.append((HERE / "interface.c", tuple(defines), "interface"))
-
-    def compiled(unit):
-        path, own, stem = unit
-        target = folder / f"{stem}.o"
-        line = (*command, *OPTIONS, *flags, *includes, *own, "-c", str(path), "-o", str(target))
-        done = subprocess.run(line, capture_output=True, text=True)
-        if done.returncode:
-            raise RuntimeError(f"{path} did not compile:\n{done.stderr}")
-        return str(target)
-
     with ThreadPoolExecutor(2) as pool:
-        objects = list(pool.map(compiled, units))
-    program = folder / "fuzz"
-    line = (*command, *flags, *link, *objects, "-o", str(program), "-lm", "-lpthread")
+        return list(pool.map(lambda unit: _compiled(folder, compiler, flags, *unit), units))
+
+
+def _compiled(folder, compiler, flags, path, own, stem):
+    target = folder / f"{stem}.o"
+    includes = (f"-I{folder}", f"-I{SOURCE}", f"-I{SOURCE / 'drive'}", f"-I{GENERATED}")
+    line = (*compiler.split(), *OPTIONS, *flags, *includes, *own, "-c", str(path), "-o", str(target))
     done = subprocess.run(line, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{path} did not compile:\n{done.stderr}")
+    return str(target)
+
+
+def _linked(program, compiler, flags, objects):
+    done = subprocess.run(
+        (*compiler.split(), *flags, *objects, "-o", str(program), "-lm", "-lpthread"), capture_output=True, text=True
+    )
     if done.returncode:
         raise RuntimeError(f"the fuzzer did not link:\n{done.stderr}")
     return program

@@ -54,9 +54,10 @@ def analyse(drive, angles):
 def _reference(drive, points):
     """Transmission error to which those of the points are relative: that at the reference angle, of one of the points
     where it is among them, so that its own is zero to the last bit; else that at the solved angle nearest to it.
+    Without any contact it is not looked for: that is the longest search there is.
     """
     angle = drive.design.reference_angle
-    if np.any(points.touching & (points.grid == angle)):
+    if not points.touching.any() or np.any(points.touching & (points.grid == angle)):
         return points.reference()
     x, found = trace(drive, np.array([angle], dtype=float))
     return float(x[0, points.description["error"]]) if found["status"][0] >= 0 else points.reference()
