@@ -6,6 +6,7 @@ READY  := $(VENV)/.ready
 
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
+CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
 .PHONY: fuzz benchmark coverage compilers sanitizers
@@ -40,10 +41,10 @@ generate: setup
 # Prove everything anew, write generated/audit/index.html and re-check record, code and descriptions with checkers of
 # their own.
 audit: generate
-	$(PY) generated/audit/check.py
-	$(PY) generated/audit/check_code.py
-	$(PY) generated/audit/check_description.py
-	$(PY) generated/audit/check_print.py
+	$(MAKE) --no-print-directory --jobs 2 $(CHECKERS:%=audit-%)
+
+audit-%:
+	$(PY) generated/audit/$*.py
 
 # Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
 kernel: generate

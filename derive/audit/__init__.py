@@ -6,8 +6,9 @@ ledger.py        every claim judged by the prover, every object hashed and linke
 provenance.py    which equations each generated function rests on
 record.py        the whole record, and the files it is written to; store.py pages.py render.py validation.py their text
 check.py         re-checks the record, check_code.py the generated C against calculus, check_description.py the C
-                 against the descriptions of the drives, check_print.py the descriptions against what their sources
-                 print (printed.txt) and the laws of enveloping; each runs alone, all ship beside the record
+                 against the descriptions of the drives, check_bounded.py edges, limits and CasADi, check_print.py the
+                 descriptions against what their sources print (printed.txt) and the laws of enveloping; each runs
+                 alone, all ship beside the record
 kernel/          every proof as a theorem that Coq accepts
 explain.py       from a C function or an equation back to the sources
 """

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from derive.audit import check, check_code, check_description, check_print, explain
+from derive.audit import check, check_bounded, check_code, check_description, check_print, explain
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     folder = options.generated / "audit"
     if options.command == "verify":
-        return max(c.main([str(folder)]) for c in (check, check_code, check_description, check_print))
+        return max(c.main([str(folder)]) for c in (check, check_code, check_description, check_bounded, check_print))
     if options.command == "kernel":
         return _kernel(folder, options.output)
     if options.command == "explain":

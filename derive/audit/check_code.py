@@ -173,7 +173,9 @@ def parsed(text: str) -> tuple[str, ...]:
 
 @cache
 def literal_of(text: str) -> tuple[Fraction, dict | None] | None:
-    """A decimal; one of all digits stands for the nearest simple multiple of pi or fraction, if it is its double."""
+    """A decimal; one of all digits stands for the nearest simple multiple of pi, fraction or short decimal that it is a
+    double of.
+    """
     if not re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text):
         return None
     exact = Fraction(text)
@@ -182,8 +184,11 @@ def literal_of(text: str) -> tuple[Fraction, dict | None] | None:
         near = exact.limit_denominator(DIVISOR)
         if times and abs(float(times * PI_ENCLOSED) - float(exact)) <= math.ulp(float(exact)):
             return times, {"pi": times}
+        short = Fraction(f"{float(exact):.6g}")
         if float(near) == float(exact):
             exact = near
+        elif abs(float(short) - float(exact)) <= math.ulp(float(exact)):
+            exact = short
     return exact, None
 
 
@@ -365,7 +370,7 @@ class Machine:
             case "+" | "-" | "*" | "/":
                 return self._binary(operands[0], operation, operands[1])
         (text,) = operands
-        if text[0] == "-" and (text[1:] in self.function.definitions or text[1:] in self.inputs):
+        if text[0] == "-" and literal_of(text) is None:
             return add(Number(0, (), {}), self.value(text[1:]), -1)
         return self.value(text)
 

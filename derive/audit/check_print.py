@@ -289,6 +289,14 @@ def subject_normal(drive: Described, statement: Statement, rng: Random) -> None:
         same(a, b, statement)
 
 
+def subject_condition(drive: Described, statement: Statement, rng: Random) -> None:
+    """A condition that a surface keeps, by its place."""
+    place, *number = statement.about
+    conditions = drive.entries[place]["surface"]["conditions"]
+    reader = drive.reader(rng)
+    same(reader(conditions[int(number[0]) - 1 if number else 0]), reader(statement.sides[0]), statement)
+
+
 def subject_function(drive: Described, statement: Statement, rng: Random) -> None:
     name, key = statement.about
     function = next(f for f in drive.description["functions"] if f["name"] == name)
@@ -320,6 +328,7 @@ SUBJECTS = {
     "sweep": subject_sweep,
     "curve": subject_curve,
     "normal": subject_normal,
+    "condition": subject_condition,
     "function": subject_function,
     "contact": subject_contact,
     "start": subject_start,

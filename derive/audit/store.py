@@ -13,7 +13,9 @@ from derive.prove.tree import canonical
 
 CHECKERS = tuple(
     Path(__file__).with_name(name)
-    for name in ("check.py", "check_code.py", "check_description.py", "check_print.py", "printed.txt")
+    for name in (
+        "check.py", "check_code.py", "check_description.py", "check_bounded.py", "check_print.py", "printed.txt",
+    )  # fmt: skip
 )
 
 

@@ -1,0 +1,78 @@
+"""Edge systems, limits beyond first order and CasADi's functions hold as generated; a changed sign or row does not."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from derive.audit import check_bounded as checker
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+SPUR = "spherical_convex_spur"
+
+
+def drive_of(name, change=lambda text: text):
+    texts = [(GENERATED / "c" / f"{name}{end}.h").read_text(encoding="utf-8") for end in ("", "_bounded")]
+    description = json.loads((GENERATED / "descriptions" / f"{name}.json").read_text(encoding="utf-8"))
+    return checker.Drive(description, texts[0], change(texts[1]))
+
+
+def only(drive, words, functions=None):
+    """Of all checks those whose words hold a text, where roots exist or may be any function."""
+    chosen = [check for name, check in checker.checks_of(drive, functions) if words in name]
+    assert chosen
+    draws = (checker.Salted(1), checker.Salted(-1), checker.DESCRIBED.Draws(1), checker.DESCRIBED.Draws(-1))
+    for check, *arguments in chosen:
+        checker.with_any_root(check, tuple(arguments), draws)
+
+
+@pytest.fixture(autouse=True)
+def few_attempts(monkeypatch):
+    monkeypatch.setattr(checker.CODE, "ATTEMPTS", 500)
+
+
+@pytest.mark.parametrize("name", [SPUR, pytest.param("face_worm", marks=pytest.mark.validate)])
+def test_edges_limits_and_casadi_hold(name):
+    header = GENERATED / "c" / f"{name}.h"
+    assert checker.check_drive(GENERATED / "descriptions" / f"{name}.json", header, GENERATED / "casadi") > 30
+
+
+@pytest.mark.parametrize(
+    ("function", "pattern", "other", "words"),
+    [
+        ("edges", r"R\[4\] = (\S+);", r"R[4] = -\1;", "edges"),
+        ("edges", r"R\[8\] = (\S+);", r"R[8] = -\1;", "edges"),
+        ("edges", r"J\[7\] = (\S+);", r"J[7] = -(\1);", "slopes of edges"),
+        ("slopes_flank_pinion", r"o\[4\] = (\S+);", r"o[4] = -(\1);", "derivatives of flank_pinion"),
+        ("second_flank_wheel", r"o\[1\] = (\S+);", r"o[1] = t1;", "derivatives of flank_wheel"),
+    ],
+)
+def test_a_changed_function_is_refused(function, pattern, other, words):
+    def change(text):
+        head, name, body = text.partition(f" {SPUR}_{function}(")
+        changed, count = re.subn(pattern, other, body, count=1)
+        assert count == 1
+        return head + name + changed
+
+    with pytest.raises(checker.Rejected):
+        only(drive_of(SPUR, change), words)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("{ 0, 1, 2, 4, 8 }", "{ 0, 1, 2, 4, 7 }"), ("{ { -1, 1 }", "{ { -1, 0 }")]
+)
+def test_a_system_of_other_equations_is_refused(old, new):
+    drive = drive_of(SPUR, lambda text: text.replace(old, new, 1))
+    with pytest.raises(checker.Rejected, match="edges"):
+        checker.check_systems(drive)
+
+
+def test_a_changed_instruction_of_casadi_is_refused():
+    drive, functions = drive_of(SPUR), checker.Casadi(GENERATED / "casadi", SPUR)
+    only(drive, "CasADi: residual", functions)
+    function, loaded = functions("")
+    at, _ = function.outputs["residual"]
+    function.definitions[f"o[{at + 1}]"] = ("expression", f"-{function.definitions[f'o[{at + 1}]'][1]}")
+    with pytest.raises(checker.Rejected, match="residual"):
+        only(drive, "CasADi: residual", functions)
