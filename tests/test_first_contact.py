@@ -164,6 +164,19 @@ def test_nothing_is_loaded_on_a_tangency_that_lies_inside_the_other_flank(tmp_pa
 
 
 @pytest.mark.validate
+def test_loaded_names_the_edge_of_another_pair_that_touches_before_every_tangency(capsys):
+    """Tilted crowned gears: one pair is tangent, the pair before it still rides on the edge of a face, 17″ ahead."""
+    (name, changes), _ = DESIGNS["helical, tilted"]
+    drive = Drive.load(name).with_(**changes)
+    first = drive.first_contact(np.radians(10.83) - drive.pitch() * np.array([0, 1]))
+    assert first.kinds == ("edge", "tangency") and first.errors[0] > first.errors[1] + 10.0 * ARCSEC
+    misalignment = [f"--set=misalignment.{key}={value}" for key, value in changes["misalignment"].items()]
+    main(["loaded", name, *misalignment, "--torque-nm", "20", "--phi-deg=10.83", "--json", "-"])
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert "pair +0 touches 3.9" in point["message"] and "edge of the pinion (face) at 33.4" in point["message"]
+
+
+@pytest.mark.validate
 def test_the_report_says_what_touches_before_a_tangency():
     analysis = analyse(Drive.from_tables(EDGE_FIRST), lambda text: None)
     said = [f.text for f in findings(analysis) if "first contact is" in f.text]

@@ -82,14 +82,15 @@ size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, co
 size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
                      const double *phi, size_t n, double *x, mw_info *info)
 {
+    const int nx = mwi_usable(m) ? m->nx : 0; /* nothing of a foreign table is believed */
     size_t succeeded = 0;
-    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
+    for (size_t k = 0; k < n; k++, x += nx, info++) {
         const size_t from = node[k] < 0 ? 0 : (size_t)node[k];
         *info = mwi_ended(MW_BAD_INPUT, 0);
-        if (node[k] >= 0 && mw_follow(m, s, phi0[from], x0 + from * (size_t)m->nx, phi + k, 1, x, info) == 1)
+        if (nx > 0 && node[k] >= 0 && mw_follow(m, s, phi0[from], x0 + from * (size_t)nx, phi + k, 1, x, info) == 1)
             succeeded++;
         else
-            for (int i = 0; i < m->nx; i++) x[i] = NAN;
+            for (int i = 0; i < nx; i++) x[i] = NAN;
     }
     return succeeded;
 }

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from meshwright import DesignError, Drive
 from meshwright.design import design
 from tests.audit import forger
-from tests.fuzz import designs, mutate, records
+from tests.fuzz import designs, interface, mutate, records
 
 SMALL = settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
@@ -49,6 +49,17 @@ def test_what_was_once_trouble_is_read_or_refused_and_analysed(path, tmp_path):
     found = designs.loaded(path.read_bytes(), tmp_path)
     if isinstance(found, Drive):
         designs.analysed(found, random.Random(0), deep=False)
+
+
+def test_the_c_interface_does_as_it_says_of_random_bytes(tmp_path):
+    """Some ten thousand calls of every function; what it calls a success or a proof is held against both surfaces."""
+    built = interface.ROOT / ".venv" / "objects"
+    if not built.exists() or not interface.gcc():
+        pytest.skip("the drives were not built in this checkout, or there is no gcc")
+    program = interface.build_quickly(tmp_path, "gcc", built, "spherical-table-2-3")
+    ended, said = interface.run(program, (5, 60), 300)
+    assert ended == 0, said
+    assert interface.counted(said)["calls"] > 8_000 and interface.counted(said)["successes"] > 300
 
 
 def test_a_changed_record_is_refused_with_a_reason(tmp_path):

@@ -6,8 +6,10 @@ turns by more than 0.01 rad there are no figures. A contact that an edge of a fl
 there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
 a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
 Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method builds
-on, there are no figures: status ``not_first``. Exit status 1 then, and if no tooth pair touches at one of the angles,
-its contact under load is not found, or the torque is too large for the method.
+on, there are no figures: status ``not_first``. Where a neighbouring pair without a tangency would touch on an edge
+before those that have one, the message says so: the load that it carries is not seen. Exit status 1 without figures,
+and if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is too large for
+the method.
 """
 
 import numpy as np
@@ -18,7 +20,7 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
-from meshwright.contact.flags import not_first
+from meshwright.contact.flags import NOT_FIRST, OVERLAP, not_first
 from meshwright.contact.results import ARCSEC
 from meshwright.shop.tables import read_csv
 
@@ -58,23 +60,23 @@ def solved(fe, options, drive, angles, step, points=None):
     """
     mirror, described = drive.design.mirror, drive.as_described
     gear, load, pairs = loading.loaded_gears(fe, options, described, step)
-    late = [""] * len(angles)
+    late = [("", "")] * len(angles)
     if points is None:
         late = [_not_first(fe, described, gear, mirror.sign * angle, pairs, mirror) for angle in angles]
     else:
         from meshwright.fe.as_measured import as_measured
 
         gear = as_measured(gear, drive, options.member, points, options.tooth)
-    compliance = None if all(late) else loading.compliances(fe, gear, pairs, step)
+    compliance = None if all(why for why, _ in late) else loading.compliances(fe, gear, pairs, step)
     found = []
-    for angle, why in zip(angles, late, strict=True):
+    for angle, (why, leading) in zip(angles, late, strict=True):
         step(f"pinion at {np.degrees(angle):.4g} deg")
         point = _nothing(angle)
         if why:
             found.append(point | {"status": "not_first", "message": why})
         else:
             solution = _point(fe, gear, mirror, mirror.sign * angle, pairs, load, compliance)
-            found.append(point | _mirrored(solution, mirror))
+            found.append(_with_note(point | _mirrored(solution, mirror), leading))
     return gear, {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -98,21 +100,38 @@ def _measured(options):
 
 
 def _not_first(fe, drive, gear, angle, pairs, mirror):
-    """Why there are no figures at an angle: the pairs whose tangency lies inside the other flank, and what touches
-    first; "" if every tangency is the first contact of its flanks.
+    """What touches at an angle before the tangencies that the method builds on, in two texts, "" for nothing: why there
+    are no figures, by pairs whose tangency lies inside the other flank; pairs without a tangency whose edges lead.
     """
     numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
     if not numbers:
-        return ""
-    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers]))
+        return "", ""
+    counted = fe.pair.pair_numbers(gear, angle, pairs)
+    others = [k for k in range(counted.start - 1, counted.stop + 1) if k not in numbers]
+    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers + others]))
     first = drive.first_contact(result.angles, result)
+    late = not_first(result, first).flags
     overlaps, errors = 1000.0 * first.overlaps(result.error), mirror.sign * first.errors / ARCSEC
-    return "; ".join(
+    inside = [
         f"the tangency of pair {_number(number, mirror)} would lie {overlaps[k]:.4g} um inside the other flank: first "
         f"contact is {first.words(k)} at {errors[k]:.5g} arcsec, of which the method has no figures"
         for k, number in enumerate(numbers)
-        if "not_first" in not_first(result, first).flags[k]
-    )
+        if NOT_FIRST in late[k]
+    ]
+    lead = max(result.error[: len(numbers)], key=lambda error: gear.sense * error)
+    ahead = first.overlaps(np.full(len(result.angles), lead))
+    leading = [
+        f"pair {_number(number, mirror)} touches {1000.0 * ahead[k]:.4g} um before these, by the {first.words(k)} at "
+        f"{errors[k]:.5g} arcsec unloaded: the load that it carries is not seen"
+        for k, number in enumerate(others, len(numbers))
+        if first.kinds[k] in ("edge", "corner") and ahead[k] > OVERLAP
+    ]
+    return "; ".join(inside), "; ".join(leading)
+
+
+def _with_note(point, note):
+    """A point whose message says more, where it has figures."""
+    return point | {"message": "; ".join(filter(None, (point["message"], note)))} if point["pairs"] else point
 
 
 def _mirrored(point, mirror):

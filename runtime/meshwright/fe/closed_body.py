@@ -290,6 +290,11 @@ def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         patches = fine.patches(1, 1)
         along, growth, reached = 1.0, {}, 0.0
         for patch in patches:
+            if patch.kind == "end":
+                across, around = _off_face(tooth, patch)
+                for kind, size in (("tip", around), ("land", around), ("flank", across), ("fillet", across)):
+                    growth[kind] = max(growth.get(kind, 1.0), _growth(size / _ON_BLANK))
+                continue
             if patch.kind not in ("flank", "fillet", "tip", "land", "bore"):
                 continue
             if tooth.outward < 0.0:  # sections along the second axis of all but bores, as where height grows outwards
@@ -307,6 +312,21 @@ def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         if wanted == rows:
             return tooth.grid(rows), reached
         rows = wanted
+
+
+def _off_face(tooth: Tooth, patch: Patch) -> tuple[Floats, Floats]:
+    """How far the spline through every other point of an end face is off its section, mm: midway between points along
+    its height, and around the axis.
+    """
+    points, at = patch.points, tooth.sections.at
+    value = float(at(points).mean())
+    if (value < 0.5 * sum(tooth.faces)) == (tooth.outward > 0.0):
+        points = np.swapaxes(points, 0, 1)
+    if len(points) == 2:  # straight lines
+        points = points[[0, 0, 1]] * [[[1.0]], [[0.5]], [[1.0]]] + points[[0, 1, 1]] * [[[0.0]], [[0.5]], [[0.0]]]
+    found = Spline.through(points[::2, ::2]).sampled(*(np.linspace(0.0, 1.0, n) for n in points.shape[:2]))
+    off = np.abs(at(found) - value)
+    return off[1::2, ::2], off[::2, 1::2]
 
 
 def _growth(excess: Floats) -> float:
