@@ -31,9 +31,11 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
+from itertools import repeat
 from pathlib import Path
 from random import Random, SystemRandom
 from types import ModuleType
@@ -153,6 +155,41 @@ TESTED = re.compile(r"\(.+\) \? (\S+) : NAN")
 
 #: A product and a number: a b + c, a b - c, c - a b.
 FUSED = re.compile(rf"MW_(FMA|FMS|FNMA)\(({OPERAND}), ({OPERAND}), ({OPERAND})\)")
+
+
+@cache
+def parsed(text: str) -> tuple[str, ...]:
+    """A right-hand side: its operation and operands."""
+    if match := TESTED.fullmatch(text):
+        return ("value", match[1])
+    if match := CALL.fullmatch(text):
+        return (match[1], *match[2].split(", "))
+    if match := FUSED.fullmatch(text):
+        return match.groups()
+    if match := BINARY.fullmatch(text):
+        return (match[2], match[1], match[3])
+    return ("value", text)
+
+
+@cache
+def literal_of(text: str) -> tuple[Fraction, dict | None] | None:
+    """A decimal; one of all digits stands for the nearest simple multiple of pi, fraction or short decimal that it is a
+    double of.
+    """
+    if not re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text):
+        return None
+    exact = Fraction(text)
+    if len(re.sub(r"e.*|\D", "", text)) >= 15:
+        times = Fraction(float(exact) / math.pi).limit_denominator(DIVISOR)
+        near = exact.limit_denominator(DIVISOR)
+        if times and abs(float(times * PI_ENCLOSED) - float(exact)) <= math.ulp(float(exact)):
+            return times, {"pi": times}
+        short = Fraction(f"{float(exact):.6g}")
+        if float(near) == float(exact):
+            exact = near
+        elif abs(float(short) - float(exact)) <= math.ulp(float(exact)):
+            exact = short
+    return exact, None
 
 
 @dataclass(frozen=True)
@@ -281,13 +318,22 @@ class Machine:
     inputs: dict[str, Number]
     function: Function
     earlier: Machine | None
-    circle: Callable[[object], tuple[int, int]]
-    known: dict[str, Number] = field(default_factory=dict)
+    circle: Circle
+    known: dict[str, Number | None] = field(default_factory=dict)
+    pairs: dict[str, tuple[Number, Number]] = field(default_factory=dict)
 
     def value(self, text: str) -> Number:
+        """A value by its name or text; one that rests on a missing root is not looked for twice."""
         if text not in self.known:
-            self.known[text] = self._compute(text)
-        return self.known[text]
+            try:
+                self.known[text] = self._compute(text)
+            except NoRoot:
+                self.known[text] = None
+                raise
+        number = self.known[text]
+        if number is None:
+            raise NoRoot
+        return number
 
     def _compute(self, text: str) -> Number:
         name = text.strip("()")
@@ -297,39 +343,34 @@ class Machine:
             kind, expression = self.function.definitions[name]
             if kind == "expression":
                 return self._expression(expression)
-            return self.turned(self.value(expression))[kind == "sin"]
-        if re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", name):
-            return self._literal(name)
+            if expression not in self.pairs:
+                self.pairs[expression] = self.turned(self.value(expression))
+            return self.pairs[expression][kind == "sin"]
+        if literal := literal_of(name):
+            exact, angle = literal
+            unit = PI if angle else 1
+            return Number(unit * exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), angle)
         require(self.earlier is not None, f"{name} has no value")
         return self.earlier.value(name)
 
-    @staticmethod
-    def _literal(text: str) -> Number:
-        """A decimal of all digits stands for the nearest simple multiple of pi or fraction, if it is its double."""
-        exact, unit, angle = Fraction(text), 1, None
-        if len(re.sub(r"e.*|\D", "", text)) >= 15:
-            times = Fraction(float(exact) / math.pi).limit_denominator(DIVISOR)
-            near = exact.limit_denominator(DIVISOR)
-            if times and abs(float(times * PI_ENCLOSED) - float(exact)) <= math.ulp(float(exact)):
-                exact, unit, angle = times, PI, {"pi": times}
-            elif float(near) == float(exact):
-                exact = near
-        return Number(unit * exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), angle)
-
     def _expression(self, text: str) -> Number:
-        if match := TESTED.fullmatch(text):
-            return self.value(match[1])
-        if match := CALL.fullmatch(text):
-            arguments = [self.value(argument) for argument in match[2].split(", ")]
-            return {"sqrt": root, "SIGN": sign, "atan2": self.arc}[match[1]](*arguments)
-        if match := FUSED.fullmatch(text):
-            product, number = self._product(match[2], match[3]), self.value(match[4])
-            if match[1] == "FNMA":
-                return add(number, product, -1)
-            return add(product, number, 1 if match[1] == "FMA" else -1)
-        if match := BINARY.fullmatch(text):
-            return self._binary(match[1], match[2], match[3])
-        if text.startswith("-") and text[1:] in self.function.definitions | self.inputs:
+        operation, *operands = parsed(text)
+        match operation:
+            case "sqrt":
+                return root(self.value(*operands))
+            case "SIGN":
+                return sign(self.value(*operands))
+            case "atan2":
+                return self.arc(*map(self.value, operands))
+            case "FMA" | "FMS" | "FNMA":
+                product, number = self._product(*operands[:2]), self.value(operands[2])
+                if operation == "FNMA":
+                    return add(number, product, -1)
+                return add(product, number, 1 if operation == "FMA" else -1)
+            case "+" | "-" | "*" | "/":
+                return self._binary(operands[0], operation, operands[1])
+        (text,) = operands
+        if text[0] == "-" and literal_of(text) is None:
             return add(Number(0, (), {}), self.value(text[1:]), -1)
         return self.value(text)
 
@@ -337,9 +378,9 @@ class Machine:
         a, b = self.value(left), self.value(right)
         product = multiply(a, b)
         for number, other in ((a, right), (b, left)):
-            literal = other.strip("()")
-            if number.angle is not None and re.fullmatch(r"-?[\d.]+", literal):
-                return scaled(number, Fraction(literal), product)
+            literal = None if number.angle is None else literal_of(other.strip("()"))
+            if literal and literal[1] is None:
+                return scaled(number, literal[0], product)
         return product
 
     def _binary(self, left: str, operator: str, right: str) -> Number:
@@ -364,13 +405,16 @@ class Machine:
     def turned(self, argument: Number) -> tuple[Number, Number]:
         """Cosine and sine of an angle, by complex multiplication over the independent angles."""
         cosine, sine = 1, 0
-        for name, factor in argument.form.items():
-            times = QUARTER * factor
+        for name, factor in self.circle.split(argument.form).items():
+            if name == "pi":
+                times = 2 * factor
+                c, s = 0, 1
+            else:
+                c, s, parts = self.circle(name, factor.denominator)
+                times = parts * factor
             require(times.denominator == 1, f"an angle is a fraction of {name} that is not foreseen")
-            c, s = (0, 1) if name == "pi" else self.circle(name)
-            times = int(2 * factor) if name == "pi" else int(times)
             s = s if times > 0 else -s
-            for _ in range(abs(times)):
+            for _ in range(abs(times.numerator)):
                 cosine, sine = (cosine * c - sine * s) % PRIME, (sine * c + cosine * s) % PRIME
         return Number(cosine, combined(argument.rates, -sine, (), 0)), Number(
             sine, combined(argument.rates, cosine, (), 0)
@@ -385,19 +429,41 @@ class Circle:
     """
 
     def __init__(self, rng: Random, arcs: bool):
-        self.rng, self.arcs, self.points, self.fine = rng, arcs, {}, {}
+        self.rng, self.arcs, self.points, self.fine, self.sums = rng, arcs, {}, {}, {}
 
-    def __call__(self, name: object) -> tuple[int, int]:
-        if self.arcs and isinstance(name, tuple) and name not in self.points:
-            _, y, x = name
-            length = square_root(x * x + y * y)
-            scale = pow(length, -1, PRIME)
-            self.points[name] = halved(*halved(x * scale % PRIME, y * scale % PRIME))
-        if isinstance(name, int) and name not in self.points:
-            self.points[name] = self._of_number(name)
+    def split(self, form: dict) -> dict:
+        """A sum of numbers as it was first met: of (a + b) c and a c + b c both are the same angle."""
+        numbers = {name: factor for name, factor in form.items() if isinstance(name, int)}
+        if not numbers:
+            return form
+        total = sum(factor.numerator * pow(factor.denominator, -1, PRIME) * name for name, factor in numbers.items())
+        for known, sign in ((total % PRIME, 1), (-total % PRIME, -1)):
+            if known in self.sums:
+                numbers = {name: sign * factor for name, factor in self.sums[known].items()}
+                break
+        else:
+            self.sums[total % PRIME] = numbers
+        return {name: factor for name, factor in form.items() if not isinstance(name, int)} | numbers
+
+    def __call__(self, name: object, parts: int = 1) -> tuple[int, int, int]:
+        """Cosine and sine of a part of an angle, and how many of them it has; at least as many as are asked for."""
+        if self.arcs and isinstance(name, tuple):
+            return *self._of_arc(name, parts), parts
         if name not in self.points:
-            self.points[name] = self._random()
-        return self.points[name]
+            self.points[name] = self._of_number(name) if isinstance(name, int) else self._random()
+        return *self.points[name], QUARTER
+
+    def _of_arc(self, name: tuple, parts: int) -> tuple[int, int]:
+        """A part of an arc that has the cosine and sine of its sides: halves are roots, so only where they are met."""
+        require(parts in (1, 2, 4), f"a part of an arc that is not foreseen: {parts}")
+        if (name, parts) not in self.points:
+            if parts == 1:
+                _, y, x = name
+                scale = pow(square_root(x * x + y * y), -1, PRIME)
+                self.points[name, parts] = x * scale % PRIME, y * scale % PRIME
+            else:
+                self.points[name, parts] = halved(*self._of_arc(name, parts // 2))
+        return self.points[name, parts]
 
     def _of_number(self, value: int) -> tuple[int, int]:
         """An angle that is a product is known by its value: a multiple of one met before lies at its multiple."""
@@ -448,7 +514,7 @@ def axes(frames: tuple[tuple[str, ...], ...], circle: Circle) -> dict[str, int]:
     """Parameters that are the axes of a placed frame: the columns of a random rotation."""
     values: dict[str, int] = {}
     for frame in frames:
-        (a, b), (c, s), (e, f) = (circle(f"axis {k} of {frame[0]}") for k in range(3))
+        (a, b), (c, s), (e, f) = (circle(f"axis {k} of {frame[0]}")[:2] for k in range(3))
         columns = (
             (c * e, b * s * e + a * f, -a * s * e + b * f),
             (-c * f, a * e - b * s * f, a * s * f + b * e),
@@ -716,16 +782,15 @@ def check_flank_tangent(header: Header, text: str, body: str, rng: Random) -> No
         require(tangent.value(f"dr[{k}]").value == rate, f"tangent of {body}: dr[{k}] is not the point's derivative")
 
 
-def attempt(check: Callable[..., None], *arguments: object, source: Random | None = None) -> None:
+def attempt(check: Callable[..., None], *arguments: object, sources: Iterable[Random] | None = None) -> None:
     """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
     has.
 
     Modulo a prime, sqrt(x*y*y) is y*sqrt(x) only up to sign, so a right program passes at a share of all inputs. A
     wrong one passes at none: one input at which everything holds is enough.
     """
-    rng = source or SystemRandom()
     refusals: list[Rejected] = []
-    for _ in range(ATTEMPTS):
+    for rng in sources or repeat(SystemRandom(), ATTEMPTS):
         try:
             return check(*arguments, rng)
         except NoRoot:

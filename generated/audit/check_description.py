@@ -50,6 +50,8 @@ Rejected, require, Number, Machine, Function = CODE.Rejected, CODE.require, CODE
 #: Axis of a rotation -> the two components that it mixes, in their order.
 MIXED = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 ONE = Number(1)
+#: Draws that all checks of a drive share.
+KEPT = 200
 
 
 class Reader:
@@ -57,6 +59,7 @@ class Reader:
 
     def __init__(self, named: Mapping[str, object], values: Mapping[str, Number], run: Machine):
         self.named, self.values, self.run = named, dict(values), run
+        self.missing: set[str] = set()
 
     def at(self, values: Mapping[str, Number]) -> Reader:
         """The same with some values replaced; definitions are evaluated anew."""
@@ -66,10 +69,7 @@ class Reader:
     def __call__(self, e: object) -> Number:
         match e:
             case str():
-                if e not in self.values:
-                    require(e in self.named, f"the description does not say what {e} is")
-                    self.values[e] = self(self.named[e])
-                return self.values[e]
+                return self.values[e] if e in self.values else self._defined(e)
             case int():
                 return Number(e % CODE.PRIME, (), {})
             case ["/", p, q]:
@@ -88,6 +88,18 @@ class Reader:
             case [name, *operands] if name in FUNCTIONS:
                 return FUNCTIONS[name](self.run, *map(self, operands))
         raise Rejected(f"{str(e)[:40]} has no meaning in a description")
+
+    def _defined(self, name: str) -> Number:
+        """A definition's value; one that rests on a missing root is not looked for twice."""
+        require(name in self.named, f"the description does not say what {name} is")
+        if name in self.missing:
+            raise CODE.NoRoot
+        try:
+            self.values[name] = self(self.named[name])
+        except CODE.NoRoot:
+            self.missing.add(name)
+            raise
+        return self.values[name]
 
     def _product(self, factors: list) -> Number:
         """Exact numbers last: a multiple of an angle stays one."""
@@ -189,6 +201,7 @@ class Drive:
 
     def __init__(self, description: dict, text: str, tangents: str = ""):
         self.description, self.text, self.tangents = description, text, tangents
+        self.functions: dict[str, Function] = {}
         self.header = CODE.read_header(text)
         self.prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
         self.named = {entry["name"]: entry["value"] for entry in description["definitions"]}
@@ -201,6 +214,11 @@ class Drive:
 
     def function(self, name: str) -> Function:
         """A function of the header by its name without the prefix; what it returns is o[0]."""
+        if name not in self.functions:
+            self.functions[name] = self._read(name)
+        return self.functions[name]
+
+    def _read(self, name: str) -> Function:
         found = re.search(
             rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}",
             self.text,
@@ -214,36 +232,61 @@ class Drive:
         body = re.sub(r"if \(q\[(\d+)\] != q\[\1\]\) (?=q\[\1\] = )", "", found[2])
         return Function(name, CODE.read_body(re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)), table)
 
+    def base(self, rng: Random) -> Machine:
+        """Parameters, input angle and unknowns of one draw, after setup and set_phi."""
+        return once(rng, "base", lambda: CODE.machine(self.header, "eval", rng, True))
+
     def design(
         self, name: str, rng: Random, symbols: list[str], filled: tuple[str, ...] = ()
     ) -> tuple[Machine, Reader]:
         """A function of a design system at random q (parameters, share of the path) and y; rates are those along y."""
-        base = CODE.machine(self.header, "eval", rng, True)
-        names = [*self.parameters, "path"]
-        random = {"path": Number(rng.randrange(1, CODE.PRIME))}
-        values = {name: random.get(name) or base.inputs[f"p[{k}]"] for k, name in enumerate(names)}
-        inputs = {f"q[{k}]": values[name] for k, name in enumerate(names) if name not in filled}
-        for k, symbol in enumerate(symbols):
-            rates = tuple(int(j == k) for j in range(len(symbols)))
-            number = Number(rng.randrange(1, CODE.PRIME), rates, {f"{name} {k}": Fraction(1)})
-            inputs[f"y[{k}]"] = values[symbol] = number
-        machine = Machine(inputs, self.function(name), None, base.circle)
-        return machine, Reader(self.named, values, machine)
+
+        def made() -> tuple[Machine, Reader]:
+            base = self.base(rng)
+            names = [*self.parameters, "path"]
+            path = once(rng, "path", lambda: Number(rng.randrange(1, CODE.PRIME)))
+            values = {name: path if name == "path" else base.inputs[f"p[{k}]"] for k, name in enumerate(names)}
+            inputs = {f"q[{k}]": values[name] for k, name in enumerate(names) if name not in filled}
+            for k, symbol in enumerate(symbols):
+                rates = tuple(int(j == k) for j in range(len(symbols)))
+                number = Number(rng.randrange(1, CODE.PRIME), rates, {f"{name} {k}": Fraction(1)})
+                inputs[f"y[{k}]"] = values[symbol] = number
+            machine = Machine(inputs, self.function(name), None, base.circle)
+            return machine, Reader(self.named, values, machine)
+
+        return once(rng, ("design", name), made)
+
+    def share(self, run: Machine) -> Number:
+        """How much of the path of a design system is done."""
+        return run.inputs[f"q[{len(self.parameters)}]"]
 
     def run(self, name: str, rng: Random, letter: str, symbols: list[str]) -> tuple[Machine, Reader]:
         """A function at random inputs, and the description at the same; rates are those along its own arguments."""
-        base = CODE.machine(self.header, "eval", rng, True)
-        inputs = {key: number for key, number in base.inputs.items() if key[:2] != "x["}
-        own = {}
-        for k in range(len(symbols)):
-            key = f"{letter}[{k}]"
-            rates = tuple(int(j == k) for j in range(len(symbols)))
-            own[key] = Number(rng.randrange(1, CODE.PRIME), rates, {f"{name} {key}": Fraction(1)})
-        machine = Machine(inputs | own, self.function(name), base.earlier, base.circle)
-        values = {symbol: inputs[f"p[{k}]"] for k, symbol in enumerate(self.parameters)}
-        values[self.description["contact"]["instant"]["name"]] = inputs["phi"]
-        values |= dict(zip(symbols, own.values(), strict=True))
-        return machine, Reader(self.named, values, machine)
+
+        def made() -> tuple[Machine, Reader]:
+            base = self.base(rng)
+            inputs = {key: number for key, number in base.inputs.items() if key[:2] != "x["}
+            own = {}
+            for k in range(len(symbols)):
+                key = f"{letter}[{k}]"
+                rates = tuple(int(j == k) for j in range(len(symbols)))
+                own[key] = Number(rng.randrange(1, CODE.PRIME), rates, {f"{name} {key}": Fraction(1)})
+            machine = Machine(inputs | own, self.function(name), base.earlier, base.circle)
+            values = {symbol: inputs[f"p[{k}]"] for k, symbol in enumerate(self.parameters)}
+            values[self.description["contact"]["instant"]["name"]] = inputs["phi"]
+            values |= dict(zip(symbols, own.values(), strict=True))
+            return machine, Reader(self.named, values, machine)
+
+        return once(rng, ("run", name), made)
+
+
+def once(rng: Random, key: object, make: Callable[[], object]) -> object:
+    """What several checks need at one draw, made by the first of them; anew where numbers are not kept."""
+    if not isinstance(rng, Draw):
+        return make()
+    if key not in rng.kept:
+        rng.kept[key] = make()
+    return rng.kept[key]
 
 
 def same(found: Number, expected: Number, words: str) -> None:
@@ -266,7 +309,7 @@ def check_rules(drive: Drive, number: int, rng: Random) -> None:
     place, body = int(blocks[number][0]), blocks[number][1]
     target, value = given[number]
     require(drive.parameters[place] == target, f"derive: rule {number} fills in {drive.parameters[place]}")
-    base = CODE.machine(drive.header, "eval", rng, True)
+    base = drive.base(rng)
     inputs = {key: entry for key, entry in base.inputs.items() if key[0] == "p" and key != f"p[{place}]"}
     run = Machine(inputs, Function("derive", CODE.read_body(body), {}), None, base.circle)
     values = {name: inputs[f"p[{k}]"] for k, name in enumerate(drive.parameters) if k != place}
@@ -347,6 +390,11 @@ def check_system(drive: Drive, system: dict, name: str, key: object, rng: Random
             same(run.value(f"q[{drive.parameters.index(key)}]"), reader(system["fills"][key]), words)
         case "eval":
             expected = reader(system["residual"][key])
+            if system["homotopy"]:
+                guess = {symbol: Number(number.value, (), number.angle) for symbol, number in guessed(reader, system)}
+                left = CODE.add(ONE, drive.share(run), -1)
+                begun = reader.at(guess)(system["residual"][key])
+                expected = CODE.add(expected, CODE.multiply(left, begun), -1)
             same(run.value(f"R[{key}]"), expected, words)
             for j in range(len(symbols)):
                 same(run.value(f"J[{key * len(symbols) + j}]"), rate(expected, j), f"{words} by {symbols[j]}")
@@ -358,6 +406,11 @@ def check_system(drive: Drive, system: dict, name: str, key: object, rng: Random
             reader = reader.at({s: Number(n.value, along[s], n.form) for s, n in here.items()})
             expected = CODE.multiply(reader(regular["sign"]), singular(Surface(reader, regular["surface"], []), places))
             same(run.value("o[0]"), expected, words)
+
+
+def guessed(reader: Reader, system: dict) -> Iterator[tuple[str, Number]]:
+    """Where the path of a system begins."""
+    return ((unknown["name"], reader(system["guess"][unknown["name"]])) for unknown in system["unknowns"])
 
 
 def check_open(drive: Drive, system: dict) -> None:
@@ -373,7 +426,7 @@ DIVISOR = re.compile(r"a division by zero: (?:(sin|cos)\((\w+)\)|(\w+)) must not
 def check_guard(drive: Drive, number: int, rng: Random) -> None:
     """A guard by its place: the description's come first, then divisors, of which the square must be positive."""
     function, tested = drive.header.guards
-    base = CODE.machine(drive.header, "eval", rng, True)
+    base = drive.base(rng)
     inputs = {key: entry for key, entry in base.inputs.items() if key[0] == "p"}
     run = Machine(inputs, function, None, base.circle)
     values = {name: inputs[f"p[{k}]"] for k, name in enumerate(drive.parameters)}
@@ -414,7 +467,7 @@ def check_changes(drive: Drive, number: int, rng: Random) -> None:
     require(drive.parameters[int(place)] == target, f"{words} fills in {drive.parameters[int(place)]}")
     reads = {drive.parameters.index(name) for name in names_in(value, drive.named) if name in drive.parameters}
     require({int(k) for k in re.findall(r"known\[(\d+)\] ==", waits)} == reads, f"{words} waits for others")
-    base = CODE.machine(drive.header, "eval", rng, True)
+    base = drive.base(rng)
     own = {key: entry for key, entry in base.inputs.items() if key[0] == "p" and key != f"p[{place}]"}
     moved = {f"d{key}": Number(rng.randrange(1, CODE.PRIME)) for key in own}
     run = Machine(own | moved, Function("derive_tangent", CODE.read_body(body), {}), None, base.circle)
@@ -575,17 +628,11 @@ def check_curvature(drive: Drive, entry: dict, name: str, rng: Random) -> None:
 
 
 def check_forms(drive: Drive, key: str, rng: Random) -> None:
-    """Tangent basis of the contact, second forms of both flanks and of the gap in it, curvatures of the gap."""
+    """Tangent basis of the contact and second forms of both flanks in it."""
     run, reader = drive.run("observe", rng, "x", drive.unknowns)
     places = {name: k for k, name in enumerate(drive.unknowns)}
     bodies = {body["name"]: body for body in drive.description["bodies"]}
-    forms = [f"second_form_{name}" for name in bodies]
-    if key == "curvature_gap":
-        check_principal(read(run, key), read(run, "second_form_gap"), f"observe: {key}")
-        return
-    if key == "second_form_gap":
-        expected = [Number(-(a.value + b.value)) for a, b in zip(*(read(run, name) for name in forms), strict=True)]
-    elif key == "tangent_basis":
+    if key == "tangent_basis":
         pinion = Surface(reader, bodies["pinion"]["surface"], bodies["pinion"]["motion"])
         first, second = tangent_basis(pinion.normal, pinion.tangents(places)[0])
         expected = [*first, *second]
@@ -595,6 +642,26 @@ def check_forms(drive: Drive, key: str, rng: Random) -> None:
         expected = Surface(reader, body["surface"], body["motion"]).second_form(places, [basis[:3], basis[3:]])
     for k, number in enumerate(read(run, key)):
         same(number, expected[k], f"observe: {key}[{k}]")
+
+
+def check_gap(drive: Drive, rng: Random) -> None:
+    """Second form of the gap and its principal curvatures follow from the forms of both flanks.
+
+    Where the program reads them where it writes them, any numbers stand for them: it then rests on no root of theirs.
+    """
+    run, _ = drive.run("observe", rng, "x", drive.unknowns)
+    forms = [f"second_form_{body['name']}" for body in drive.description["bodies"]]
+    try:
+        check_gap_of(cut(run, forms, rng), forms)
+    except Rejected:
+        check_gap_of(run, forms)
+
+
+def check_gap_of(run: Machine, forms: list[str]) -> None:
+    gap = read(run, "second_form_gap")
+    for k, (number, a, b) in enumerate(zip(gap, *(read(run, name) for name in forms), strict=True)):
+        same(number, Number(-(a.value + b.value)), f"observe: second_form_gap[{k}]")
+    check_principal(read(run, "curvature_gap"), gap, "observe: curvature_gap")
 
 
 def turning(reader: Reader, motion: list, place: int, point: list[Number]) -> list[Number]:
@@ -715,6 +782,16 @@ def read(run: Machine, key: str) -> list[Number]:
     return [run.value(f"o[{at + k}]") for k in range(size)]
 
 
+def cut(run: Machine, keys: list[str], rng: Random) -> Machine:
+    """The same program where some of its outputs are any numbers: what follows from them rests on no root of theirs."""
+    free = {}
+    for at, size in (run.function.outputs[key] for key in keys):
+        for k in range(size):
+            name = run.function.definitions[f"o[{at + k}]"][1].strip("()-")
+            free[name] = Number(rng.randrange(1, CODE.PRIME))
+    return Machine(run.inputs | free, run.function, run.earlier, run.circle)
+
+
 def check_surface(drive: Drive, entry: dict, name: str, key: str, rng: Random) -> None:
     """One named output of a flank or region, in its body's frame."""
     symbols = [q["name"] for q in entry["surface"]["parameters"]]
@@ -784,8 +861,9 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
             yield f"{key} of {name}", (check_surface, drive, entry, name, key)
         yield f"curvature of {name}", (check_curvature, drive, entry, name)
     names = [f"second_form_{body['name']}" for body in described["bodies"]]
-    for key in ("tangent_basis", *names, "second_form_gap", "curvature_gap"):
+    for key in ("tangent_basis", *names):
         yield f"{key} of the observation", (check_forms, drive, key)
+    yield "gap of the observation", (check_gap, drive)
     yield "lever arms of the observation", (check_arms, drive)
     for member, body in enumerate(described["bodies"]):
         yield f"placement of the {body['name']}", (check_placement, drive, member)
@@ -794,12 +872,12 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
             yield f"{result['name']} of {entry['name']}", (check_function, drive, entry, result)
 
 
-class Flank(Random):
-    """Numbers from the system's source, and one sign of the flank."""
+class Draw(Random):
+    """Numbers from the system's source, one sign of the flank, and what was computed from them."""
 
     def __init__(self, sign: int):
         super().__init__()
-        self.sign, self.source = sign, SystemRandom()
+        self.sign, self.source, self.kept = sign, SystemRandom(), {}
 
     def randrange(self, *bounds: int) -> int:
         return self.source.randrange(*bounds)
@@ -808,10 +886,26 @@ class Flank(Random):
         return self.sign % CODE.PRIME
 
 
-def attempt(check: Callable[..., None], *arguments: object) -> None:
+class Draws:
+    """Draws in their order; the first are kept, so that checks share what they compute at them."""
+
+    def __init__(self, sign: int):
+        self.sign, self.kept = sign, []
+
+    def __iter__(self) -> Iterator[Draw]:
+        for k in range(CODE.ATTEMPTS):
+            if k >= KEPT:
+                yield Draw(self.sign)
+                continue
+            if k == len(self.kept):
+                self.kept.append(Draw(self.sign))
+            yield self.kept[k]
+
+
+def attempt(check: Callable[..., None], *arguments: object, draws: tuple[Draws, Draws] | None = None) -> None:
     """A check on each of the two flanks; one alone would not notice where a sign of the flank is missing."""
-    for sign in (1, -1):
-        CODE.attempt(check, *arguments, source=Flank(sign))
+    for flank in draws or (Draws(1), Draws(-1)):
+        CODE.attempt(check, *arguments, sources=flank)
 
 
 def check_drive(description: Path, header: Path) -> int:
@@ -823,9 +917,9 @@ def check_drive(description: Path, header: Path) -> int:
             check_unit(drive, number)
         for system in drive.description["design_systems"]:
             check_open(drive, system)
-        checks = list(checks_of(drive))
+        checks, draws = list(checks_of(drive)), (Draws(1), Draws(-1))
         for _, check in checks:
-            attempt(*check)
+            attempt(*check, draws=draws)
     except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
         raise Rejected(f"{header.name}: {error}") from error
     return len(checks)

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 229, set_phi 7, R 116, R and J 270, step 304, observe 547.
- * Equations (hash 94756e91cfaeb2509925ad93750f7b45ac58af51a8f44d98254e84a933bfb2a6):
+ * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
@@ -206,8 +206,11 @@ typedef struct mw_contact {
 #define spherical_convex_spur_ABI 2
 #define spherical_convex_spur_SPEC_HASH "5389af9d65a086deda9f675fffc6f5633021421b56759e6e7cb2fd4f43205910"
 
-/* Places of parameters by key in p, of unknowns in x, and of outputs in o, where the first of their numbers is. */
+/* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
+ * o (O), where the first of their numbers is. */
 #define spherical_convex_spur_P_flank 0
+#define spherical_convex_spur_W_flank_left (1)
+#define spherical_convex_spur_W_flank_right (-1)
 #define spherical_convex_spur_P_module_mm 1
 #define spherical_convex_spur_P_pressure_angle_deg 2
 #define spherical_convex_spur_P_face_width_mm 3
@@ -231,6 +234,8 @@ typedef struct mw_contact {
 #define spherical_convex_spur_P_vertical_deg 21
 #define spherical_convex_spur_P_separation_mm 22
 #define spherical_convex_spur_P_limit 23
+#define spherical_convex_spur_W_limit_tip (1)
+#define spherical_convex_spur_W_limit_cutter (-1)
 #define spherical_convex_spur_U_l_pinion 0
 #define spherical_convex_spur_U_theta_pinion 1
 #define spherical_convex_spur_U_l_wheel 2
@@ -3907,7 +3912,7 @@ static const double MW_STEP_LIMIT = 0.7;
 
 #ifndef MWI_NEWTON_H
 #define MWI_NEWTON_H
-enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5 };
+enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5, MWI_NEWTON_PATIENCE = 8 };
 static const double MWI_NEWTON_STEP_DONE = 1e-9;
 static const double MWI_NEWTON_STEP_NOISE = 1e-4;
 static const double MWI_NEWTON_RANK_TOLERANCE = 1e-12;
@@ -3957,11 +3962,16 @@ static inline int mwi_newton(mwi_equations f, int n, const double *s, const doub
 {
     double R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], A[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
     double b[MW_MAX_UNKNOWNS], step[MW_MAX_UNKNOWNS], trial[MW_MAX_UNKNOWNS];
-    double previous = HUGE_VAL;
+    double previous = HUGE_VAL, halved = HUGE_VAL;
+    int since = 0;
     f(s, x, R, J);
     double error = mwi_merit(n, R, J, scale);
     for (info->iterations = 0; info->iterations < MWI_NEWTON_MAX_ITERATIONS; info->iterations++) {
         if (!(error < HUGE_VAL)) return mwi_finish(info, MW_LEFT_FLANK);
+        if (error < 0.5 * halved) {
+            halved = error;
+            since = info->iterations;
+        }
         for (int i = 0; i < n * n; i++) A[i] = J[i];
         for (int i = 0; i < n; i++) b[i] = R[i];
         const int rank = mwi_linear_solve(n, A, b, scale, MWI_NEWTON_RANK_TOLERANCE, step, &info->rank_gap);
@@ -3973,6 +3983,7 @@ static inline int mwi_newton(mwi_equations f, int n, const double *s, const doub
             info->iterations++;
             return mwi_finish(info, rank < n ? MW_SINGULAR : info->step < MWI_NEWTON_STEP_DONE ? MW_CONVERGED : MW_CONVERGED_NOISE);
         }
+        if (info->iterations - since > MWI_NEWTON_PATIENCE) break;
         previous = info->step;
         double factor = info->step > MW_STEP_LIMIT ? MW_STEP_LIMIT / info->step : 1.0;
         double after = HUGE_VAL;
@@ -3998,6 +4009,57 @@ static inline int mwi_newton_fused(const mw_model *m, const double *s, double *x
         }
         if (!(info->step < 0.5 * previous) || info->step > MW_STEP_LIMIT) return 0;
         previous = info->step;
+    }
+    return 0;
+}
+#endif
+
+#ifndef MWI_COMPLETE_H
+#define MWI_COMPLETE_H
+enum { MWI_PATH_STEPS = 32, MWI_PATH_MAX_HALVINGS = 8 };
+static inline int mwi_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
+{
+    double scale[MW_MAX_UNKNOWNS], last[MW_MAX_UNKNOWNS], slope[MW_MAX_UNKNOWNS];
+    double *path = q + m->np, at = 0.0, step = 1.0 / (double)MWI_PATH_STEPS;
+    mwi_clear(slope, MW_MAX_UNKNOWNS);
+    *path = 0.0;
+    system->guess(q, y);
+    system->scale(q, scale);
+    for (int halvings = 0; halvings <= MWI_PATH_MAX_HALVINGS;) {
+        mwi_copy(last, y, system->n);
+        for (int i = 0; i < system->n; i++) y[i] += slope[i] * (*path - at);
+        const int solved = mwi_newton(system->eval, system->n, q, scale, y, info) >= 0;
+        if (solved && system->watch && !(system->watch(q, y) > 0.0)) return info->status = MW_LEFT_FLANK;
+        if (solved) {
+            if (*path > at)
+                for (int i = 0; i < system->n; i++) slope[i] = (y[i] - last[i]) / (*path - at);
+            if (*path >= 1.0) return info->status;
+            at = *path;
+        } else {
+            if (at == *path) return info->status;
+            mwi_copy(y, last, system->n);
+            step *= 0.5;
+            halvings++;
+        }
+        *path = at + step < 1.0 ? at + step : 1.0;
+    }
+    return info->status;
+}
+static inline int mwi_complete(const mw_model *m, double *p, double *q, mw_info *info)
+{
+    *info = mwi_ended(MW_BAD_INPUT, 0);
+    if (!mwi_usable(m)) return -1;
+    info->status = MW_CONVERGED;
+    m->derive(p);
+    for (int k = 0; k < m->nsystems; k++) {
+        double y[MW_MAX_UNKNOWNS];
+        mwi_clear(y, MW_MAX_UNKNOWNS);
+        if (m->systems[k].open(p) == 0) continue;
+        mwi_copy(q, p, m->np);
+        if (mwi_solve_system(m, &m->systems[k], q, y, info) < 0) return 1 + k;
+        m->systems[k].fill(y, q);
+        mwi_copy(p, q, m->np);
+        m->derive(p);
     }
     return 0;
 }
@@ -4429,7 +4491,7 @@ static inline int mwi_walk(const mw_model *m, const mwi_history *h, double phi, 
 #ifndef MWI_START_H
 #define MWI_START_H
 enum { MWI_MAX_ATTEMPTS = 100 };
-static const double MWI_SMALLEST_STEP = 1e-8;
+static const double MWI_SMALLEST_STEP = 1e-8, MWI_SMALLEST_LOOK = 1.0 / 64.0;
 static const double MWI_SINGULAR_SHARE = 1e-2;
 static inline int mwi_ended_well(int status)
 {
@@ -4470,14 +4532,14 @@ static inline double mwi_pivot_gap(const mw_model *m, const double *s, const dou
     mwi_newton(m->eval, m->nx, s, scale, at, &info);
     return info.rank_gap;
 }
-static inline int mwi_raise_misalignments(const mw_model *m, const double *p, double phi, double from, double *s, double *work,
-                               double *x, mw_info *info)
+static inline int mwi_raise_misalignments(const mw_model *m, const double *p, double phi, double from, double smallest,
+                                          double *s, double *work, double *x, mw_info *info)
 {
     double good[MW_MAX_UNKNOWNS];
     double share = from, step = 1.0 - from;
     const double regular = mwi_pivot_gap(m, s, x);
     for (int i = 0; i < m->nx; i++) good[i] = x[i];
-    for (int attempt = 0; attempt < MWI_MAX_ATTEMPTS && step > MWI_SMALLEST_STEP && share < 1.0; attempt++) {
+    for (int attempt = 0; attempt < MWI_MAX_ATTEMPTS && step > smallest && share < 1.0; attempt++) {
         const double next = share + step < 1.0 ? share + step : 1.0;
         mwi_setup_share(m, p, next, phi, s, work);
         if (mwi_ended_well(mwi_refine(m, s, x, info))) {
@@ -4497,14 +4559,16 @@ static inline int mwi_raise_misalignments(const mw_model *m, const double *p, do
     }
     return info->status;
 }
-static inline int mwi_start(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+static inline int mwi_start(const mw_model *m, const double *p, double phi, double smallest, double *s, double *work,
+                            double *x, mw_info *info)
 {
     *info = mwi_ended(MW_CONVERGED, 0);
     info->guard = mwi_setup_share(m, p, 1.0, phi, s, work);
     if (info->guard) return info->status = MW_BAD_INPUT;
     if (!mwi_ended_well(mwi_from_middle(m, s, x, info))) {
         mwi_setup_share(m, p, 0.0, phi, s, work);
-        if (mwi_ended_well(mwi_from_middle(m, s, x, info))) mwi_raise_misalignments(m, p, phi, 0.0, s, work, x, info);
+        if (mwi_ended_well(mwi_from_middle(m, s, x, info)))
+            mwi_raise_misalignments(m, p, phi, 0.0, smallest, s, work, x, info);
         mwi_setup_share(m, p, 1.0, phi, s, work);
     }
     return info->status;
@@ -4675,9 +4739,11 @@ static inline double mwi_reference_angle(const mwi_pair *t)
 static inline int mwi_tangency_at(mwi_pair *t, double phi, mw_info *info)
 {
     double *x = t->at_reference;
-    const int started = mwi_start(t->m, t->p, phi, t->s, t->work, x, info) >= 0;
+    const int first = phi == mwi_reference_angle(t);
+    const double smallest = first ? MWI_SMALLEST_STEP : MWI_SMALLEST_LOOK;
+    const int started = mwi_start(t->m, t->p, phi, smallest, t->s, t->work, x, info) >= 0;
     if (started && mwi_worth_of(t->m, t->s, x) != MWI_IMPOSSIBLE) return 1;
-    return (phi == mwi_reference_angle(t) && mwi_search(t->m, t->s, x, info)) || started;
+    return (first && mwi_search(t->m, t->s, x, info)) || started;
 }
 static inline void mwi_find_reference(mwi_pair *t)
 {
@@ -4736,7 +4802,7 @@ static inline int mwi_possible(const mwi_pair *t, double phi, const double *x)
 }
 static inline void mwi_alone(mwi_pair *t, double phi, double *x, mw_info *info)
 {
-    const int status = mwi_start(t->m, t->p, phi, t->s, t->work, x, info);
+    const int status = mwi_start(t->m, t->p, phi, MWI_SMALLEST_STEP, t->s, t->work, x, info);
     if (status >= 0 && mwi_worth_of(t->m, t->s, x) != MWI_IMPOSSIBLE) return;
     if (!mwi_search(t->m, t->s, x, info) && status == MW_DIVERGED) info->status = MW_NO_CONTACT;
 }
@@ -4766,6 +4832,15 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
     return info->status;
 }
 #endif
+
+/* Complete a design: p[spherical_convex_spur_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
+ * design leaves to equations of its own. Returns 0, or 1 + k where spherical_convex_spur_model.systems[k] has no solution. */
+static inline int spherical_convex_spur_solve_design(double *p, mw_info *info)
+{
+    double work[spherical_convex_spur_NP + 1];
+    mw_info unused;
+    return mwi_complete(&spherical_convex_spur_model, p, work, info ? info : &unused);
+}
 
 /* The contact at input angle phi, rad: s[spherical_convex_spur_NS] from spherical_convex_spur_setup, left set up for phi; x[spherical_convex_spur_NX] result; info may be
  * NULL. Needs no start values: the contact is the one that mw_solve of the library finds, by the same steps. Returns
