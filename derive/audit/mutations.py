@@ -16,13 +16,13 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from derive.audit import check_code, check_description
+from derive.audit import check_bounded, check_code, check_description
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 MEASURED = Path(__file__).with_name("measured.json")
 SEED = 18
-ENDINGS = ("", "_lanes", "_sensitivity")
+ENDINGS = ("", "_lanes", "_sensitivity", "_bounded")
 #: What stands in a right-hand side, and what it is changed into.
 CHANGES = (
     (r" \+ ", " - "),
@@ -88,12 +88,12 @@ def _is_refused(drive: str, texts: dict[str, str]) -> bool:
     with tempfile.TemporaryDirectory() as folder:
         for ending, text in texts.items():
             (Path(folder) / f"{drive}{ending}.h").write_text(text, encoding="utf-8")
+        description, header = GENERATED / "descriptions" / f"{drive}.json", Path(folder) / f"{drive}.h"
         try:
-            check_code.check_header(Path(folder) / f"{drive}.h")
-            check_description.check_drive(
-                GENERATED / "descriptions" / f"{drive}.json", Path(folder) / f"{drive}.h"
-            )
-        except (check_code.Rejected, check_description.Rejected):
+            check_code.check_header(header)
+            check_description.check_drive(description, header)
+            check_bounded.check_drive(description, header, Path(folder) / "casadi")
+        except (check_code.Rejected, check_description.Rejected, check_bounded.Rejected):
             return True
     return False
 
