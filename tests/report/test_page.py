@@ -18,7 +18,7 @@ from tests.live.browser import CHROMIUM, WIDTHS, Browser
 
 from .conftest import DESIGNS, quiet
 
-VOID = {"meta", "input", "br", "path", "use", "rect", "image"}
+VOID = {"meta", "input", "br", "wbr", "path", "use", "rect", "image"}
 
 
 class Structure(HTMLParser):
@@ -27,11 +27,13 @@ class Structure(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.open, self.ids, self.references, self.cells = [], [], [], []
+        self.goes_on = False
         self.feed(text)
         self.close()
 
     def handle_starttag(self, tag, attributes):
         self.note(attributes)
+        self.goes_on = tag == "wbr"
         if tag not in VOID:
             self.open.append(tag)
 
@@ -44,7 +46,9 @@ class Structure(HTMLParser):
 
     def handle_data(self, data):
         if self.open and self.open[-1] in ("td", "th"):
-            self.cells.append(data.strip())
+            word = data.strip()
+            self.cells.append(self.cells.pop() + word if self.goes_on else word)
+        self.goes_on = False
 
     def note(self, attributes):
         for name, value in attributes:

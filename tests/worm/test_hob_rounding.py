@@ -99,7 +99,7 @@ def test_a_blank_without_rounding_has_no_fillet():
     """Not a number rather than a sharp edge that nobody asked for."""
     drive = Drive.load("plain-zn")
     assert np.isnan(drive.flank("wheel", "fillet")([[0.5, 12.0, 0.0]]).points).all()
-    with pytest.raises(UsageError, match="give its sizes in \\[blank\\]"):
+    with pytest.raises(UsageError, match="\\[blank\\] leaves open: give hob_tip_rounding_mm"):
         drive.surface("wheel", (3, 3), "fillet")
 
 
