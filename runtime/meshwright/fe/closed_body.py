@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,6 +36,10 @@ _FIRST, _LAST, _ON_BLANK = Rows(8, 6, 8, 3, 3), 1024, 5e-7
 # The rim is as deep below the root as the teeth are high, so many times.
 _RIM_HEIGHTS = 2.0
 _SAMPLES = 17
+# Sections in which a thread's azimuth is followed: many for each of its turns.
+_ALONG_THREAD = 513
+# So many turns has a face of it at most.
+_MOST_TURNS = 4.0
 
 
 @dataclass(frozen=True)
@@ -175,7 +179,20 @@ def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | Non
         return bore(at)[..., 0]
 
     low, high, _ = _in_order(member, sides, ends)
-    return between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height)
+    return replace(between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height), breaks=_turns(low, ends))
+
+
+def _turns(side: ThreadSide, ends: tuple[float, float]) -> Floats:
+    """Sections that divide a long thread into equal parts.
+
+    Of faces that wind about the axis many times Open CASCADE takes outside for inside, and reads the solid inside out.
+    """
+    values = np.linspace(*ends, _ALONG_THREAD)
+    _, points, _ = side.grids(values, np.array([0.0, 1.0]), np.array([0.0, 0.5, 1.0]))
+    azimuth = np.unwrap(np.arctan2(points[:, 1, 1], points[:, 1, 0]))
+    wound = np.abs(azimuth - azimuth[0])
+    parts = int(np.ceil(wound[-1] / (2.0 * np.pi * _MOST_TURNS)))
+    return np.interp(wound[-1] * np.arange(1, parts) / parts, wound, values)
 
 
 def _between(
