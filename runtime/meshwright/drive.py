@@ -88,6 +88,11 @@ class Drive:
         """Wheel turns per pinion turn: pinion teeth over wheel teeth, the inverse of the gear ratio."""
         return self.design.sizes["ratio"]
 
+    def teeth(self, member):
+        """Number of teeth or threads of ``"pinion"`` or ``"wheel"``."""
+        pinion = self.design.value(self.design.description["pinion_teeth"])
+        return round(pinion if member == "pinion" else pinion / self.ratio)
+
     def pitch(self):
         """Pinion angle from one tooth pair to the next, rad."""
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])

@@ -16,7 +16,7 @@ from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.shop.balls import sizes
-from meshwright.shop.nominal import flank_words, nominal, teeth_of
+from meshwright.shop.nominal import flank_words, nominal
 from meshwright.shop.tables import csv_text, dmis_text
 
 #: More points than this are taken for a mistake.
@@ -84,7 +84,7 @@ def _write_points(options, drive):
 
 def _remarks(options, drive, lines):
     """What a file of points says of itself."""
-    teeth = teeth_of(drive, options.member)
+    teeth = drive.teeth(options.member)
     remarks = {
         "design": drive.design.label,
         "member": options.member,

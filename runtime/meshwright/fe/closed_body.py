@@ -102,7 +102,7 @@ def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thicknes
     """
     whole, _ = drive.design.with_whole_blank()
     drive = Drive(whole, drive.backend)
-    sizes, count = solid_sizes(drive, member), _teeth(drive, member)
+    sizes, count = solid_sizes(drive, member), drive.teeth(member)
     make = _thread if "tip_radius" in sizes else _gear
     if make is _thread and teeth not in (None, count):
         raise UsageError(f"--teeth {teeth}: the {member} is one body with {count} threads; leave --teeth out")
@@ -136,7 +136,7 @@ def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None)
             regions = [of and of.in_sections(sections) for of in regions]
         sides.append(RegionSide.of(*regions))
     faces = min(s.reach[0] for s in sides), max(s.reach[1] for s in sides)
-    return _between(drive, member, sides, faces, _teeth(drive, member), sizes, rim)
+    return _between(drive, member, sides, faces, drive.teeth(member), sizes, rim)
 
 
 def _of_blank(flank: Region, member: str) -> Sections:
@@ -156,12 +156,6 @@ def _of_blank(flank: Region, member: str) -> Sections:
             f"thread that goes on, the function solid_{member} with its sizes"
         )
     return sections
-
-
-def _teeth(drive: Drive, member: str) -> int:
-    """The number of teeth of a member."""
-    count = drive.design.value(drive.design.description["pinion_teeth"])
-    return round(count if member == "pinion" else count / drive.ratio)
 
 
 def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:

@@ -23,10 +23,9 @@ def teeth(drive):
     is assumed), ``triangles``, the angle ``across`` from one to the other about the axis, rad, and the turns of
     ``copies``. Right hand.
     """
-    counts = {"pinion": drive.design.value(drive.design.description["pinion_teeth"])}
-    counts["wheel"] = round(counts["pinion"] / drive.ratio)
     bodies = []
-    for member, count in counts.items():
+    for member in ("pinion", "wheel"):
+        count = drive.teeth(member)
         region = drive.region(member)
         if region.empty:
             return None

@@ -14,7 +14,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, solved
-from meshwright.shop.nominal import flank_words, of_flank, rotation, teeth_of
+from meshwright.shop.nominal import flank_words, of_flank, rotation
 
 NEWTON_STEPS = 60
 
@@ -114,7 +114,7 @@ class _Space:
     def of(cls, drive, member):
         right = drive.with_(design={"hand": drive.design.description["handed"]}) if drive.design.mirrored else drive
         drives = [of_flank(right, word) for word in flank_words(right)]
-        teeth = teeth_of(drive, member)
+        teeth = drive.teeth(member)
         first, second = (_Side.of(d.region(member)) for d in drives)
         steps = [second.turned(2.0 * math.pi * k / teeth) for k in ((0,) if teeth == 1 else (-1, 0, 1))]
         second = min(steps, key=lambda side: _gap(first, side))

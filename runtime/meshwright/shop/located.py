@@ -7,7 +7,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import NEWTON_STEPS, solved
-from meshwright.shop.nominal import of_flank, rotation, teeth_of
+from meshwright.shop.nominal import of_flank, rotation
 
 #: Nominal points of a file lie on the flanks of its design this well, mm.
 ON_FLANK = 1e-3
@@ -27,7 +27,7 @@ class Rays:
 def rays(drive, member, points, tooth):
     """:class:`Rays` of points and normals (N, 3) of teeth ``tooth`` (N,), turned back to the first, unmirrored."""
     places, directions = points
-    turns = np.stack([rotation(-2.0 * np.pi * (k - 1) / teeth_of(drive, member)) for k in tooth])
+    turns = np.stack([rotation(-2.0 * np.pi * (k - 1) / drive.teeth(member)) for k in tooth])
     flip = drive.design.mirror.flip
     return Rays(*(flip * np.einsum("nij,nj->ni", turns, vectors) for vectors in (places, directions)))
 
@@ -76,7 +76,7 @@ def located(drive, member, points):
     """
     words = tuple(dict.fromkeys(points.flank))
     drives, rows, sorted_rays, parameters = [], [], [], []
-    count = teeth_of(drive, member)
+    count = drive.teeth(member)
     for wrong in np.flatnonzero((points.tooth < 1) | (points.tooth > count)):
         raise UsageError(f"tooth = {points.tooth[wrong]}: the {member} has teeth 1 to {count}; correct the file")
     for word in words:

@@ -10,7 +10,6 @@ import numpy as np
 
 from meshwright.shop.deviations import pitch_deviations, trace_deviations
 from meshwright.shop.located import located
-from meshwright.shop.nominal import teeth_of
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ def measured(drive, member, points):
         middle = own[(points.i[own] == shape[0] // 2) & (points.j[own] == shape[1] // 2)]
         if len(middle) and np.isfinite(points.deviations[middle[0]]):
             arcs.setdefault(word, {})[tooth] = _arc(points, middle[0])
-    count = teeth_of(drive, member)
+    count = drive.teeth(member)
     pitch = {
         word: (radius, pitch_deviations([by_tooth[k][1] for k in range(1, count + 1)]))
         for word, by_tooth in arcs.items()

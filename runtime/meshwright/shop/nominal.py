@@ -15,7 +15,7 @@ def nominal(drive, member, lines, margin, teeth=(1,), flanks=None):
     ``teeth`` are numbers from 1 on: tooth k is the drawn one turned by (k − 1)/T of a turn about +z. ``flanks`` are
     words, the design's own by default. Places of the grid where the tooth has no flank are left out.
     """
-    count = teeth_of(drive, member)
+    count = drive.teeth(member)
     for tooth in teeth:
         if not 1 <= tooth <= count:
             raise UsageError(f"--teeth {tooth}: the {member} has teeth 1 to {count}; name one of them")
@@ -54,12 +54,6 @@ def of_flank(drive, word):
             f"flank = {word!r}: each flank of this drive is a design of its own; use the design with that flank"
         )
     return drive.with_(flank=word)
-
-
-def teeth_of(drive, member):
-    """Number of teeth or threads of a member."""
-    pinion = drive.design.value(drive.design.description["pinion_teeth"])
-    return round(pinion if member == "pinion" else pinion / drive.ratio)
 
 
 def rotation(angle):
