@@ -169,8 +169,9 @@ def test_without_solver_the_input_is_written(monkeypatch, capsys, tmp_path):
     assert json.loads(capsys.readouterr().out)["elements"] > 1.5 * document["elements"]
 
 
-def test_no_pair_at_this_angle(capsys):
-    assert main(["fe", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg", "40"]) == 2
+def test_no_pair_at_this_angle(capsys, tmp_path):
+    arguments = ["spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg", "40", "--folder", str(tmp_path)]
+    assert main(["fe", *arguments]) == 2
     assert "--phi-deg" in capsys.readouterr().err
 
 
