@@ -4,8 +4,7 @@
  * -ffp-contract=off and without -ffast-math. GCC's vectoriser of straight-line code fuses products into pairs of a sum and
  * a difference in spite of that option where the target has fused products; here it may not. The promise ends at lanes
  * wider than two and at headers with MW_FUSED, which fuse products into sums by design and agree among themselves, and at
- * mw_first_contact and certified contact, which ask the C library for sines, cosines or arcs: there the same bits need the
- * same library. */
+ * mw_first_contact, which asks the C library for sines, cosines or arcs: there the same bits need the same library. */
 #ifndef MW_EXACT_H
 #define MW_EXACT_H
 
