@@ -214,6 +214,11 @@ int mw_certify_branch(const mw_model *m, const mw_wide *s, int crossing, double 
     e.size = m->nx + 1 + e.columns;
     if (e.tables->along.registers > MWC_REGISTERS || e.tables->slots + 2 * m->nx + 2 > MWC_ARGUMENTS) return ended(c, MW_REASON_DESIGN);
     for (int i = 0; i < e.tables->slots; i++) e.arguments[i] = mwc_of_wide(s[i]);
+    for (int i = 0; i < e.tables->equations.inputs; i++) {
+        const int at = e.tables->equations.input[i];
+        if (at < e.tables->design_slots && !(e.arguments[at].radius < HUGE_VAL && e.arguments[at].mid == e.arguments[at].mid))
+            return ended(c, MW_REASON_DESIGN);
+    }
     for (int i = 0; i <= m->nx; i++) e.scale[i] = 1.0;
     mw_ball at[NY];
     for (int i = 0; i < m->nx; i++) at[i] = mwc_make(x[i], 0.0);

@@ -5,6 +5,7 @@ What is proved is of the equations, for the decimals of the design: see :class:`
 """
 
 import re
+from collections import Counter
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -114,6 +115,19 @@ class Certificates:
     def impossible(self, k):
         """Names of the flags by which bodies surely cannot make the contact at point k."""
         return [name for name, word in self.flags(k).items() if word == "yes" and impossible(name)]
+
+    def said(self):
+        """In a sentence, how many contacts are certain, and why others are not."""
+        outcomes, errors = self.outcomes, self.error_arcsec()
+        shown, total = outcomes.count("unique"), len(outcomes)
+        others = Counter(reason.replace("_", " ") for reason in self.reasons if reason)
+        why = ", ".join(f"{count} {reason}" for reason, count in others.items())
+        if not shown:
+            return f"not certified: {why}"
+        width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
+        number = "every contact" if shown == total else f"{shown} of {total} contacts"
+        rest = f"; not: {why}" if why else ""
+        return f"certified: {number} the only one nearby, transmission error within {width:.0e} arcsec{rest}"
 
     def to_plain(self):
         """A certificate each, as plain data of the ``meshwright.tca/1`` schema."""
