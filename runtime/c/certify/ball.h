@@ -10,14 +10,8 @@
 #define MWC_BALL_H
 
 #include <math.h>
+#include "../circular.h"
 #include "../mw_enclosures.h"
-
-/* Operations are written out where they are used: without that, numbers travel through memory. */
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define MWC_INLINE static inline __attribute__((always_inline))
-#else
-#define MWC_INLINE static inline
-#endif
 
 /* a b + c, rounded once where MW_FUSED is defined: the bounds hold for either. */
 #ifdef MW_FUSED
@@ -29,7 +23,7 @@
 /* 2^-53; 2^-1073: what underflow loses in one operation, three halves of the least double at most; 1 + 2^-40. */
 static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931e-324, MWC_READ = 1.0000000000009095;
 
-/* Largest error of sine and cosine for |a| < MWC_FAR. With r the reduced argument, |r| < 0.7854:
+/* Largest error of mwi_sine for |a| < MWC_FAR. With r the reduced argument, |r| < 0.7854:
  *   reduction   a - k P1 is exact (Sterbenz; k P1 and k P2 are exact, P1 and P2 have 33 bits, |k| < 2^20); the two other
  *               differences round by a quarter of MWC_U each where |r| < 1/2, else by half of it;
  *   series      Taylor's, its first omitted term below 1e-19;
@@ -37,9 +31,9 @@ static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931
  *               roundings each; the square in 1 - r^2/2 a quarter of MWC_U.
  * Sine 0.88 + 0.5 + 0.35, cosine 0.71 + 0.5 + 0.25 + 0.08: below two units of MWC_U. Where k = 0 nothing is reduced, and the
  * sine's error is as small a share of the sine itself: 1 for the last sum and 0.6 for the terms before it. */
-static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = 1.6e6;
+static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = MWI_CIRCULAR_FAR;
 
-MWC_INLINE double mwc_abs(double a)
+MWI_INLINE double mwc_abs(double a)
 {
 #ifdef __GNUC__
     return __builtin_fabs(a);
@@ -49,12 +43,12 @@ MWC_INLINE double mwc_abs(double a)
 }
 
 /* The radius, with what its rounding lost. */
-MWC_INLINE double mwc_reach(mw_ball a)
+MWI_INLINE double mwc_reach(mw_ball a)
 {
     return MWC_READ * a.radius;
 }
 
-MWC_INLINE mw_ball mwc_make(double mid, double radius)
+MWI_INLINE mw_ball mwc_make(double mid, double radius)
 {
     mw_ball b;
     b.mid = mid;
@@ -63,43 +57,43 @@ MWC_INLINE mw_ball mwc_make(double mid, double radius)
 }
 
 /* Whatever the operation was, it is not defined everywhere here. */
-MWC_INLINE mw_ball mwc_where(int defined, double mid, double radius)
+MWI_INLINE mw_ball mwc_where(int defined, double mid, double radius)
 {
     return mwc_make(mid, defined ? radius : HUGE_VAL);
 }
 
-MWC_INLINE mw_ball mwc_add(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_add(mw_ball a, mw_ball b)
 {
     const double m = a.mid + b.mid;
     return mwc_make(m, MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));
 }
 
-MWC_INLINE mw_ball mwc_sub(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_sub(mw_ball a, mw_ball b)
 {
     const double m = a.mid - b.mid;
     return mwc_make(m, MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));
 }
 
-MWC_INLINE mw_ball mwc_neg(mw_ball a)
+MWI_INLINE mw_ball mwc_neg(mw_ball a)
 {
     return mwc_make(-a.mid, a.radius);
 }
 
-MWC_INLINE mw_ball mwc_mul(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_mul(mw_ball a, mw_ball b)
 {
     const double m = a.mid * b.mid;
     const double most = MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding = MWC_FMA(MWC_U, mwc_abs(m), MWC_TINY);
     return mwc_make(m, MWC_FMA(mwc_abs(a.mid), b.radius, MWC_FMA(a.radius, most, rounding)));
 }
 
-MWC_INLINE mw_ball mwc_sqr(mw_ball a)
+MWI_INLINE mw_ball mwc_sqr(mw_ball a)
 {
     const double m = a.mid * a.mid;
     return mwc_make(m, MWC_FMA(a.radius, 2.0 * mwc_abs(a.mid) + mwc_reach(a), MWC_FMA(MWC_U, m, MWC_TINY)));
 }
 
 /* a/b - ma/mb = ((a - ma) - (ma/mb)(b - mb))/b; the factors next to 1 round outwards. */
-MWC_INLINE mw_ball mwc_div(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_div(mw_ball a, mw_ball b)
 {
     const double q = a.mid / b.mid, least = mwc_abs(b.mid) - mwc_reach(b);
     const double spread = (mwc_abs(q) * (1.0 + 4.0 * MWC_U) * b.radius + a.radius) / (least * (1.0 - 8.0 * MWC_U));
@@ -107,33 +101,12 @@ MWC_INLINE mw_ball mwc_div(mw_ball a, mw_ball b)
 }
 
 /* |sqrt(a) - sqrt(m)| = |a - m|/(sqrt(a) + sqrt(m)) <= r/sqrt(m) */
-MWC_INLINE mw_ball mwc_sqrt(mw_ball a)
+MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
 {
     const double root = sqrt(a.mid);
     const int zero = a.mid == 0.0 && a.radius == 0.0;
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
-}
-
-/* Sine and cosine of a double, each within MWC_SINE. */
-MWC_INLINE void mwc_sine(double a, double *sine, double *cosine)
-{
-    const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it is rounded to a whole number */
-    const double k = (a * 0.6366197723675814 + magic) - magic;
-    const double r = ((a - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
-    const double z = r * r;
-    const double u = -0.16666666666666666 + z * (0.008333333333333333 + z * (-0.0001984126984126984 + z *
-        (2.7557319223985893e-06 + z * (-2.505210838544172e-08 + z * (1.6059043836821613e-10 + z *
-        (-7.647163731819816e-13 + z * (2.8114572543455206e-15)))))));
-    const double v = 0.041666666666666664 + z * (-0.001388888888888889 + z * (2.48015873015873e-05 + z *
-        (-2.755731922398589e-07 + z * (2.08767569878681e-09 + z * (-1.1470745597729725e-11 + z *
-        (4.779477332387385e-14 + z * (-1.5619206968586225e-16)))))));
-    const double s = r + (r * z) * u, w = 1.0 - 0.5 * z;
-    const double c = w + (((1.0 - w) - 0.5 * z) + (z * z) * v);
-    const int quadrant = (int)k, odd = quadrant & 1;
-    const double first = odd ? c : s, second = odd ? s : c;
-    *sine = (quadrant & 2) ? -first : first;
-    *cosine = ((quadrant + 1) & 2) ? -second : second;
 }
 
 /* By value: a compiler that takes several points at once does not do so with places in memory. */
@@ -142,43 +115,30 @@ typedef struct mwc_turn {
 } mwc_turn;
 
 /* |sin(m + d) - sin m| <= |cos m| |d| + d^2/2 */
-MWC_INLINE mwc_turn mwc_turned(mw_ball a)
+MWI_INLINE mwc_turn mwc_turned(mw_ball a)
 {
     double s, c;
     mwc_turn turn;
     const int near = mwc_abs(a.mid) < MWC_FAR;
-    mwc_sine(near ? a.mid : 0.0, &s, &c);
+    mwi_sine(near ? a.mid : 0.0, &s, &c);
     const double bend = 0.5 * a.radius * mwc_reach(a), size = mwc_abs(a.mid) < 0.78 ? mwc_abs(s) : 1.0;
     turn.sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend + (MWC_SINE * size + MWC_TINY));
     turn.cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend + MWC_SINE);
     return turn;
 }
 
-MWC_INLINE void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
+MWI_INLINE void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
 {
     const mwc_turn turn = mwc_turned(a);
     *sine = turn.sine;
     *cosine = turn.cosine;
 }
 
-/* Angle of the point (x, y) within 3e-8 of it (Abramowitz, Stegun, "Handbook of Mathematical Functions" (1964), 4.4.49). */
-MWC_INLINE double mwc_bearing(double y, double x)
-{
-    const double along = mwc_abs(x), across = mwc_abs(y);
-    const int steep = across > along;
-    const double q = (steep ? along : across) / (steep ? across : along), z = q * q;
-    const double near = q * (1.0 + z * (-0.3333314528 + z * (0.1999355085 + z * (-0.1420889944 + z * (0.1065626393 + z *
-        (-0.0752896400 + z * (0.0429096138 + z * (-0.0161657367 + z * 0.0028662257))))))));
-    const double first = steep ? 1.5707963267948966 - near : near;
-    const double half = x < 0.0 ? 3.141592653589793 - first : first;
-    return y < 0.0 ? -half : half;
-}
-
 /* Angle of the point (x, y): about any angle t near it, t + atan((y cos t - x sin t)/(x cos t + y sin t)), whose arc is
  * within |d|^3/3 of its tangent d. Nothing is asked of t but that it lies on the right side of the cut. */
-MWC_INLINE mw_ball mwc_atan2(mw_ball y, mw_ball x)
+MWI_INLINE mw_ball mwc_atan2(mw_ball y, mw_ball x)
 {
-    const double t = mwc_bearing(y.mid, x.mid);
+    const double t = mwi_angle(y.mid, x.mid);
     const int uncut = (x.mid - mwc_reach(x) > 0.0) | (mwc_abs(y.mid) - mwc_reach(y) > 0.0);
     const mwc_turn turn = mwc_turned(mwc_make(t, 0.0));
     const mw_ball s = turn.sine, c = turn.cosine, along = mwc_add(mwc_mul(x, c), mwc_mul(y, s));
@@ -189,13 +149,13 @@ MWC_INLINE mw_ball mwc_atan2(mw_ball y, mw_ball x)
 }
 
 /* -1 below 0, else 1: known only where the radius leaves no choice. */
-MWC_INLINE mw_ball mwc_sign(mw_ball a)
+MWI_INLINE mw_ball mwc_sign(mw_ball a)
 {
     const double reach = mwc_reach(a);
     return mwc_where(a.mid - reach >= 0.0 || a.mid + reach < 0.0, a.mid < 0.0 ? -1.0 : 1.0, 0.0);
 }
 
-MWC_INLINE mw_ball mwc_of_wide(mw_wide a)
+MWI_INLINE mw_ball mwc_of_wide(mw_wide a)
 {
     return mwc_make(a.hi, (mwc_abs(a.lo) + a.radius) * MWC_READ);
 }

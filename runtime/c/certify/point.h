@@ -10,7 +10,7 @@
 #include "lane.h"
 
 /* C = inverses of J's midpoints, in place, rows in the order that the first lane needs. */
-MWC_INLINE void MWC_LANE_NAME(mwc_inverses)(int n, const double *J, double (*C)[MW_LANES])
+MWI_INLINE void MWC_LANE_NAME(mwc_inverses)(int n, const double *J, double (*C)[MW_LANES])
 {
     int swapped[MWC_MAX];
     double by[MW_LANES], f[MW_LANES];
@@ -42,7 +42,7 @@ MWC_INLINE void MWC_LANE_NAME(mwc_inverses)(int n, const double *J, double (*C)[
 }
 
 /* z + M d by the bound above, all upper bounds. */
-MWC_INLINE void MWC_LANE_NAME(mwc_images)(int n, double (*z)[MW_LANES], double (*C)[MW_LANES], double (*N)[MW_LANES],
+MWI_INLINE void MWC_LANE_NAME(mwc_images)(int n, double (*z)[MW_LANES], double (*C)[MW_LANES], double (*N)[MW_LANES],
                                           double (*w)[MW_LANES], double (*d)[MW_LANES], double (*K)[MW_LANES])
 {
     const double share = (double)(n + 2) * MWC_U, tiny = (double)(4 * n) * MWC_TINY;
@@ -62,7 +62,7 @@ MWC_INLINE void MWC_LANE_NAME(mwc_images)(int n, double (*z)[MW_LANES], double (
 
 /* Of R and J as mw_enclosing has them, box half-widths d[n]: proved[l] is 1 where each box holds exactly one zero, which then
  * lies within e[i][l] of its centre, else 0. z = |C R| and K as above. */
-MWC_INLINE void MWC_LANE_NAME(mwc_prove)(int n, const double *R, const double *J, const double *d, double *proved,
+MWI_INLINE void MWC_LANE_NAME(mwc_prove)(int n, const double *R, const double *J, const double *d, double *proved,
                                          double (*z)[MW_LANES], double (*K)[MW_LANES], double (*e)[MW_LANES])
 {
     const double share = (double)(n + 2) * MWC_U, tiny = (double)(4 * n) * MWC_TINY;
