@@ -7,17 +7,17 @@ without a fillet of its own ends at its root.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshwright.base.errors import UsageError
-from meshwright.fe.followed import Bools
-from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.flank.lines import Lines, changes, ended_by, lines
 from meshwright.flank.region import Region
 from meshwright.flank.sections import Sections
+
+Floats, Ints, Bools = NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]
 
 #: Roles of the limits that end a flank at its tip.
 TIPS = ("tip", "throat")
@@ -63,7 +63,7 @@ class RegionSide:
     has_step: bool = False
 
     @classmethod
-    def of(cls, flank: Region, fillet: Region | None) -> RegionSide:
+    def of(cls, flank: Region, fillet: Region | None = None) -> RegionSide:
         """Raises UsageError where a region is empty, or no limit of the flank is a tip."""
         for one in (flank, fillet):
             if one is not None and one.empty:
@@ -102,11 +102,6 @@ class RegionSide:
             rounded[:, -1] = points[:, 0]
         return rounded, points, normals
 
-    @cached_property
-    def cut(self) -> bool:
-        """Whether the fillet cuts the flank off."""
-        return bool(self._crossed(np.linspace(*self.reach, PLACES_ALONG)).any())
-
     def flank_lines(self, values: Floats) -> Lines:
         """The flank in sections, up to where it meets the fillet."""
         return self._at(values)[0]
@@ -114,7 +109,7 @@ class RegionSide:
     def breaks(self) -> Floats:
         """As :class:`Side` says."""
         at = np.linspace(*self.reach, 4 * len(self.flank.along))[1:-1]
-        return np.unique(np.concatenate([changes(at, self._tips), changes(at, self._crossed)]))
+        return np.unique(np.concatenate([changes(at, self._tips), changes(at, self.crossed)]))
 
     def _tips(self, values: Floats) -> Floats:
         """Numbers (K,) of the limits that end the flank at its tip."""
@@ -133,7 +128,7 @@ class RegionSide:
             return False
         return all(hit is None for hit in self._hits(flank, fillet)[1])
 
-    def _crossed(self, values: Floats) -> Bools:
+    def crossed(self, values: Floats) -> Bools:
         """Whether (K,) flank and fillet cross."""
         if self.fillet is None or self.has_step:
             return np.zeros(len(values), dtype=bool)
@@ -171,7 +166,7 @@ class RegionSide:
             return flank
         some = _some(flank, apart)
         joint = _ends(fillet)[0 if self.land else 1][apart]
-        q = some.even(np.linspace(0.0, 1.0, PLACES))
+        q = some.spaced(np.linspace(0.0, 1.0, PLACES))
         near = np.argmin(np.linalg.norm(_points(some, q) - joint, axis=2), axis=0)
         column, points = np.arange(q.shape[1]), _points(some, q)
         pair = [q[np.clip(near + k, 0, PLACES - 1), column] for k in (-1, 1)]
@@ -205,7 +200,7 @@ class RegionSide:
         """
         shares = 1.0 - np.linspace(1.0, 0.0, PLACES) ** 3
         q = [
-            one.even(shares) if upper else one.even(1.0 - shares[::-1])[::-1]
+            one.spaced(shares) if upper else one.spaced(1.0 - shares[::-1])[::-1]
             for one, upper in ((flank, not self.tip), (fillet, not self.land))
         ]
         points = [_points(one, places) for one, places in zip((flank, fillet), q, strict=True)]
