@@ -199,7 +199,6 @@ def _between(
     turn = 0.0
     if drive.design.description["flanks_apart"]:
         turn = 0.5 * pitch - _thickness(low, high, 0.5 * sum(faces), sizes.get("middle"))
-        turn = -turn if swapped else turn
     values = np.linspace(*faces, _SAMPLES)
     below, above, _ = low.grids(values, np.array([0.0, 1.0]), np.array([0.0, 1.0]))
     heights = [low.sections.height(points) for points in (below[:, 0], above[:, -1])]
@@ -218,10 +217,8 @@ def _between(
     )
     if not swapped or turn == 0.0:
         return tooth
-    # the flank in hand keeps its place: the other one was to be turned
-    return Tooth(
-        member, tooth.sides, (turn, tooth.turns[1] - turn), pitch, faces, tooth.breaks, tooth.bore, outward
-    )
+    # the flank in hand keeps its place: the other one is to be turned
+    return replace(tooth, turns=(-turn, tooth.turns[1] - turn))
 
 
 def _deepest(sections: Sections, values: Floats, root: float) -> float:

@@ -19,8 +19,8 @@ from meshwright.flank.sections import Sections
 
 Floats, Ints, Bools = NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]
 
-#: Roles of the limits that end a flank at its tip.
-TIPS = ("tip", "throat")
+#: Roles of the limits that end a flank at its tip, and a fillet at the root land.
+TIPS, BOTTOMS = ("tip", "throat"), ("bottom",)
 
 #: Flank and fillet meet where their ends are no further apart, mm; else they are cut where they cross, found between so
 #: many places on each and then by Newton's method.
@@ -79,7 +79,9 @@ class RegionSide:
             return cls(sections, found, None, tip, False)
         root = _ends(found.at(np.array([middle])))[0 if tip else 1]
         away = [np.linalg.norm(end - root) for end in _ends(beside.at(np.array([middle])))]
-        side = cls(sections, found, beside, tip, bool(away[1] > away[0]))
+        # a fillet that crosses an undercut flank may go on far beyond it
+        lower, upper = (_ended(beside, end, BOTTOMS) for end in (False, True))
+        side = cls(sections, found, beside, tip, bool(upper > lower if upper != lower else away[1] > away[0]))
         return replace(side, has_step=side._stepped())
 
     @property
@@ -276,10 +278,15 @@ def _check(found: Lines, values: Floats) -> None:
         )
 
 
+def _ended(found: Lines, upper: bool, roles: tuple[str, ...]) -> int:
+    """How many lines have a limit of some roles at an end."""
+    limits = [k for k, name in enumerate(found.region.limits.names) if name in roles]
+    return int(np.isin(ended_by(found, upper), limits).sum())
+
+
 def _tip_is_upper(found: Lines) -> bool:
     """Which end of a flank's lines most of them have at a tip."""
-    tips = [k for k, name in enumerate(found.region.limits.names) if name in TIPS]
-    lower, upper = (np.isin(ended_by(found, end), tips).sum() for end in (False, True))
+    lower, upper = (_ended(found, end, TIPS) for end in (False, True))
     if lower == upper:
         name = found.region.flank.body["name"]
         raise UsageError(
