@@ -17,7 +17,9 @@ from meshwright.flank.lines import Lines, changes, ended_by, lines
 from meshwright.flank.region import Region
 from meshwright.flank.sections import Sections
 
-Floats, Ints, Bools = NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 #: Roles of the limits that end a flank at its tip, and a fillet at the root land.
 TIPS, BOTTOMS = ("tip", "throat"), ("bottom",)
@@ -95,7 +97,7 @@ class RegionSide:
 
     def grids(self, values: Floats, fillet: Floats, flank: Floats) -> tuple[Floats, Floats, Floats]:
         """As :class:`Side` says. Raises UsageError where a section holds no flank."""
-        above, below = self._at(values)
+        above, below = self.at(values)
         points, normals = _grid(above, flank, self.tip)
         if below is None:
             return points[:, :1], points, normals
@@ -104,9 +106,19 @@ class RegionSide:
             rounded[:, -1] = points[:, 0]
         return rounded, points, normals
 
+    def joint(self, values: Floats) -> tuple[Floats, Floats]:
+        """Parameters (K, k), (K, l) of flank and fillet where they meet in sections (K,); without a fillet both are the
+        flank's.
+        """
+        flank, fillet = self.at(values)
+        root = flank.lower if self.tip else flank.upper
+        if fillet is None:
+            return root, root
+        return root, (fillet.lower if self.land else fillet.upper)
+
     def flank_lines(self, values: Floats) -> Lines:
         """The flank in sections, up to where it meets the fillet."""
-        return self._at(values)[0]
+        return self.at(values)[0]
 
     def breaks(self) -> Floats:
         """As :class:`Side` says."""
@@ -144,8 +156,8 @@ class RegionSide:
     def _apart(self, flank: Lines, fillet: Lines) -> Bools:
         return self._away(flank, fillet) > TOGETHER
 
-    def _at(self, values: Floats) -> tuple[Lines, Lines | None]:
-        """Flank and fillet in sections, up to where they meet."""
+    def at(self, values: Floats) -> tuple[Lines, Lines | None]:
+        """Flank and fillet in sections, up to where they meet. Raises UsageError where one of them is missing."""
         flank = self.flank.at(values)
         _check(flank, values)
         if self.fillet is None:

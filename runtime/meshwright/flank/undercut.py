@@ -43,7 +43,7 @@ class Piece:
         count = FEWEST
         heights = _heights(side, _nodes(first, last, count))
         while True:
-            found = cls(first, last, chebyshev.chebfit(_cosines(count), heights, count))
+            found = cls(first, last, np.asarray(chebyshev.chebfit(_cosines(count), heights, count), dtype=float))
             between = _nodes(first, last, 2 * count)[1::2]
             exact = _heights(side, between)
             if np.abs(found(between)[0] - exact).max() <= EXACT or 2 * count > MOST:
@@ -55,7 +55,8 @@ class Piece:
         """Heights (N,) in mm in sections (N,), and their slopes."""
         half = 0.5 * (self.last - self.first)
         at = (along - 0.5 * (self.first + self.last)) / half
-        return chebyshev.chebval(at, self.series), chebyshev.chebval(at, chebyshev.chebder(self.series)) / half
+        slopes = chebyshev.chebval(at, chebyshev.chebder(self.series)) / half
+        return np.asarray(chebyshev.chebval(at, self.series), dtype=float), np.asarray(slopes, dtype=float)
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Crossing:
 def crossing(drive: Any, member: str) -> Crossing | None:
     """Where the fillet of a member cuts its flank off; None where it does not, or the design leaves it open."""
     side = undercut_side(drive, member)
-    return side and Crossing.of(side)
+    return None if side is None else Crossing.of(side)
 
 
 def undercut_side(drive: Any, member: str) -> RegionSide | None:
@@ -154,5 +155,4 @@ def _nodes(first: float, last: float, count: int) -> Floats:
 
 def _heights(side: RegionSide, values: Floats) -> Floats:
     """Heights (K,) in sections (K,) at which the flank ends on the fillet."""
-    lines = side.flank_lines(values)
-    return side.sections.height(lines.region.flank(lines.lower if side.tip else lines.upper).points)
+    return side.sections.height(side.flank.region.flank(side.joint(values)[0]).points)
