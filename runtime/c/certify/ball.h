@@ -139,13 +139,13 @@ MWI_INLINE void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
 MWI_INLINE mw_ball mwc_atan2(mw_ball y, mw_ball x)
 {
     const double t = mwi_angle(y.mid, x.mid);
-    const int uncut = (x.mid - mwc_reach(x) > 0.0) | (mwc_abs(y.mid) - mwc_reach(y) > 0.0);
+    const int uncut = x.mid - mwc_reach(x) > 0.0 || mwc_abs(y.mid) - mwc_reach(y) > 0.0;
     const mwc_turn turn = mwc_turned(mwc_make(t, 0.0));
     const mw_ball s = turn.sine, c = turn.cosine, along = mwc_add(mwc_mul(x, c), mwc_mul(y, s));
     const mw_ball d = mwc_div(mwc_sub(mwc_mul(y, c), mwc_mul(x, s)), along);
     const double m = t + d.mid, cube = mwc_abs(d.mid) * d.mid * d.mid;
-    const int side = (x.mid > 0.0) | ((t < 0.0) == (y.mid < 0.0)), right = (along.mid > 0.0) & (mwc_abs(t) < 3.15) & side;
-    return mwc_where(uncut & right, m, d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube));
+    const int side = x.mid > 0.0 || (t < 0.0) == (y.mid < 0.0), right = along.mid > 0.0 && mwc_abs(t) < 3.15 && side;
+    return mwc_where(uncut && right, m, d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube));
 }
 
 /* -1 below 0, else 1: known only where the radius leaves no choice. */
