@@ -12,7 +12,7 @@ from typing import TypedDict
 from derive.audit.check import root_of
 from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
 from derive.passes.guards import functions, partial_operations
-from derive.passes.schedule import Schedule
+from derive.passes.plan import Schedule
 
 
 class Provenance(TypedDict):
