@@ -23,7 +23,7 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(objects: Mapping[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
+def provenance(objects: dict[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
     """Root hash and equation ids of a drive, by function name without the drive's prefix.
 
     ``objects`` are those of the record by their hash, just proved or read from where it was written. A statement that

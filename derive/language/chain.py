@@ -317,9 +317,9 @@ def screw(angle: sp.Expr, parameter: sp.Expr) -> Motion:
     return Rz(angle) @ translation(z=parameter * angle)
 
 
-def swing(axis: str, angle: Number, centre: tuple[Number, Number, Number]) -> Motion:
+def swing(axis: str, angle: Number, centre: v.Vector) -> Motion:
     """Rotation about the line through ``centre`` parallel to ``axis``, free of cancellation for large radii."""
-    return Motion((Swing(axis, sp.sympify(angle), v.vector(*centre)),))
+    return Motion((Swing(axis, sp.sympify(angle), centre),))
 
 
 def station(x: Number = 0, y: Number = 0, z: Number = 0) -> Motion:

@@ -1,4 +1,5 @@
-"""The types of what this project uses of SymPy, which has none of its own: real expressions and how they are taken apart.
+"""The types of what this project uses of SymPy, which has none of its own: real expressions and what they
+consist of.
 
 A name that is missing here is one that nothing has used yet.
 """

@@ -8,6 +8,7 @@ axis and at the smaller of one along the radius. Sizes come from the drive's fun
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,7 +37,8 @@ def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     faces = (sizes["face_first"], sizes["face_last"])
     pitch = 2.0 * np.pi / sizes["teeth"]
     lie = _LIES[body_of(drive, member)["lengthwise"]]
-    sides = {name: _side(one, member, lie.section) for name, one in flank_pair(drive).items()}
+    pair = flank_pair(drive)
+    sides: dict[SideName, ToothSide] = {name: _side(one, member, lie.section) for name, one in pair.items()}
     own: SideName = "left" if drive.design.flank > 0 else "right"
     if lie is _LIES["axial"] and _points_inwards(sides[own], faces):
         lie = _INTERNAL
@@ -152,7 +154,7 @@ class _Lie:
 
     section: Section
     right: int
-    back: type(_bore)
+    back: Callable[..., Cut]
 
 
 _LIES = {"axial": _Lie(_axial, -1, _bore), "radius": _Lie(_radius, 1, _plane_back)}

@@ -96,12 +96,13 @@ def build_model(
     arms = [abs(lever_arm(loaded, contact.touch.point, contact.touch.normal)) for contact in contacts]
     least = _LEAST_FORCE * float(max(forces))
     hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
-    angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
+    angles: dict[BodyName, float] = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
     carrying = [(c, h) for c, h, f in zip(contacts, hertz, forces, strict=True) if f > 0.0]
     numbers = pair_numbers(gear, pinion_angle, pairs)
     numbers = range(numbers.start - idle, numbers.stop + idle)
-    orders = {name: tooth_order(member, angles[name], numbers) for name, member in _members(gear).items()}
-    bodies = {
+    members = _members(gear).items()
+    orders: dict[BodyName, list[int]] = {name: tooth_order(member, angles[name], numbers) for name, member in members}
+    bodies: dict[BodyName, BodyMesh] = {
         name: mesh_body(_teeth(gear, name, angles[name], orders[name], carrying), density) for name in _members(gear)
     }
     lead = int(np.argmax(forces))
