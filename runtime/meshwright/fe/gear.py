@@ -15,8 +15,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
+from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
-from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter, turned
+from meshwright.fe.generated import constant, region_surface, tip_parameter, turned
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, SectionCurves
 from meshwright.fe.rim import bore_radius, bored

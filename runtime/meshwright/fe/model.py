@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from meshwright.contact.placement import about_z
 from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
 from meshwright.fe.grading import ContactZone, MeshDensity
@@ -112,7 +113,7 @@ def build_model(
     for name, member in _members(gear).items():
         motion = frame @ member.pose(angles[name])
         if name == load.member:
-            motion = _about_z(start) @ motion
+            motion = about_z(start) @ motion
         nodes = bodies[name].mesh.nodes @ motion[:3, :3].T + motion[:3, 3]
         parts.append(Part(name.upper(), HexMesh(nodes, bodies[name].mesh.elements), member.material))
     deck = Deck(
@@ -180,10 +181,3 @@ def _rims(bodies: dict[BodyName, BodyMesh], load: Load, direction: int) -> tuple
         )
         for name, body in bodies.items()
     )
-
-
-def _about_z(angle: float) -> Floats:
-    motion = np.eye(4)
-    c, s = np.cos(angle), np.sin(angle)
-    motion[:2, :2] = [[c, -s], [s, c]]
-    return motion
