@@ -215,7 +215,13 @@ class Drive:
         """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`."""
         from meshwright.flank.region import region
 
-        return region(self, member, name, self.uses)
+        if (member, name) not in self._regions:
+            self._regions[member, name] = region(self, member, name, self.uses)
+        return self._regions[member, name]
+
+    @cached_property
+    def _regions(self):
+        return {}
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

@@ -32,7 +32,7 @@ _SETTINGS = {
     "lines.linewidth": 1.5,
     "legend.frameon": False,
     "legend.fontsize": 8.5,
-    "figure.constrained_layout.use": True,
+    "axes.titley": 1.0,
     "svg.fonttype": "none",
 }
 
