@@ -7,10 +7,11 @@ LEAN   := $(VENV)/.lean
 
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
+compiled = $1 runtime/meshwright/base/compile.py generated $(SHIP) $$($1 -m derive.packaged) --objects $(OBJECTS)
 CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
-.PHONY: fuzz benchmark coverage compilers sanitizers
+.PHONY: precompiled fuzz benchmark coverage compilers sanitizers
 
 # What can be made.
 help:
@@ -62,16 +63,20 @@ kernel: setup generate
 # The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
 # with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them.
 build: $(LEAN)
-	@$(PY) runtime/meshwright/base/compile.py generated $(SHIP) $$($(PY) -m derive.packaged) --objects $(OBJECTS)
+	@$(call compiled,$(PY))
 	@test -z "$(DRIVES)" || $(PY) -m derive $(DRIVES) --into $(SHIP)
+
+precompiled:
+	@$(call compiled,$(PYTHON))
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site -x benchmark $$folder generated && rm -r $$folder
 
-# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table.
-run: $(LEAN)
-	$(MAKE) --no-print-directory generate
+# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed is compiled
+# meanwhile: build then compiles what has changed.
+run:
+	$(MAKE) --no-print-directory --jobs 2 generate precompiled
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
