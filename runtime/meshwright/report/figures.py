@@ -296,7 +296,7 @@ _SENSITIVITY_ERROR = Picture(
 _SENSITIVITY_PATH = Picture(
     "sensitivity-path",
     "Path of contact on the wheel under misalignment",
-    "With each misalignment alone, either way, on top of the design as given. One under which no point touches "
-    "has no panel.",
+    "With each misalignment alone, either way, on top of the design as given; the axes are stretched, each by its own "
+    "scale. One under which no point touches has no panel.",
     sensitivity_figures.path,
 )

@@ -73,12 +73,10 @@ def _height(label):
 
 
 def _above(axes):
-    """What stands above a panel, points: its title, a legend, the power of ten of its ordinate, notes at points."""
-    power = axes.yaxis.get_major_formatter().get_offset()
+    """What stands above a panel, points: its title, a legend, notes at points."""
     notes = any(isinstance(text, Annotation) for text in axes.texts)
-    line = LINE * axes.yaxis.label.get_fontsize()
-    others = line if power or notes else 0.0
-    return max(_height(axes.title), _height(axes._left_title), _legend(axes), others)
+    line = LINE * axes.yaxis.label.get_fontsize() if notes else 0.0
+    return max(_height(axes.title), _height(axes._left_title), _legend(axes), line)
 
 
 def _legend(axes):

@@ -33,6 +33,8 @@ _SETTINGS = {
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "axes.titley": 1.0,
+    "axes.formatter.limits": (-9, 9),
+    "axes.formatter.useoffset": False,
     "svg.fonttype": "none",
 }
 
