@@ -311,18 +311,19 @@ def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         if reached <= departure or finer == (flank, along):
             break
         flank, along = finer[0], min(finer[1], _MOST[1] // pieces)
-    radius = float(np.hypot(grid.low[1][..., 0], grid.low[1][..., 1]).max())
+    bore = tooth.sections.points(grid.values, tooth.bore(grid.values), 0.0)
+    radius = max(float(np.hypot(of[..., 0], of[..., 1]).max()) for of in (grid.low[1], bore))
     step = np.sqrt(8.0 * departure / radius)
     tip, land = (max(1, int(np.ceil(angle / step))) for angle in _widths(tooth, grid))
     return tooth.grid(Rows(along, max(8, flank // 2), flank, tip, land)), float(reached)
 
 
 def _widths(tooth: Tooth, grid: Grid) -> tuple[float, float]:
-    """Largest angles in rad of tip and root land."""
+    """Largest angles in rad of a tooth, at tip or root, below which there is as much of the bore, and of a root land."""
     ends = [np.arctan2(side[part][:, place, 1], side[part][:, place, 0]) for part, place in ((1, -1), (0, 0))
             for side in (grid.low, grid.high)]  # fmt: skip
     tip, root = (ends[1] - ends[0]) % (2.0 * np.pi), (ends[3] - ends[2]) % (2.0 * np.pi)
-    return float(tip.max()), float((tooth.pitch - root).max())
+    return float(max(tip.max(), root.max())), float((tooth.pitch - root).max())
 
 
 def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
