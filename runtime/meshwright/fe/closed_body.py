@@ -319,7 +319,7 @@ def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
 
 
 def _widths(tooth: Tooth, grid: Grid) -> tuple[float, float]:
-    """Largest angles in rad of a tooth, at tip or root, below which there is as much of the bore, and of a root land."""
+    """Largest angles in rad of a tooth, at tip or root, below which lies as much of the bore, and of a root land."""
     ends = [np.arctan2(side[part][:, place, 1], side[part][:, place, 0]) for part, place in ((1, -1), (0, 0))
             for side in (grid.low, grid.high)]  # fmt: skip
     tip, root = (ends[1] - ends[0]) % (2.0 * np.pi), (ends[3] - ends[2]) % (2.0 * np.pi)
