@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
+from typing import Any
 
 import sympy as sp
 
@@ -49,14 +50,14 @@ class Described:
         named = {entry["name"]: entry["value"] for entry in self.data["definitions"]}
         return {name: value for name, value in named.items() if name not in self.letters}
 
-    def tree(self, data: object) -> Tree:
+    def tree(self, data: Any) -> Tree:
         """An expression of the description."""
         written = self._read(data)
         for old, new in self.letters.items():
             written = written.subs(_parsed(old), _parsed(new))
         return _tree(description.prefix(written))
 
-    def _read(self, data: object) -> sp.Expr:
+    def _read(self, data: Any) -> sp.Expr:
         match data:
             case str():
                 return self._read(self._definitions[data]) if data in self._definitions else sp.Symbol(data)
@@ -164,7 +165,7 @@ class Described:
             product = ("@", part, product)
         return product
 
-    def _rotation(self, axis: object, angle: object = None) -> Tree:
+    def _rotation(self, axis: Any, angle: Any = None) -> Tree:
         if isinstance(axis, str):
             return (f"R{axis}", self.tree(angle))
         rows = zip(*(map(self.tree, column) for column in axis), strict=True)
@@ -217,7 +218,9 @@ def _is_negative(term: object) -> bool:
 
 
 def _product(factors: list) -> Tree:
-    sign, above, below = 1, [], []
+    sign = 1
+    above: list[Tree] = []
+    below: list[Tree] = []
     for factor in factors:
         match factor:
             case int():

@@ -12,6 +12,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from derive.audit import coverage
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
 from derive.audit.claims import Document
 from derive.audit.guarded import Row
@@ -79,6 +80,8 @@ class Entry:
     damage: str
     missing: str
     change: str
+    offset: int | None
+    """Where the verbatim text stands in the source; None for a transliteration."""
 
 
 def pages(
@@ -107,9 +110,22 @@ def pages(
         for entry in entries
         if entry.status in ("proved_with_correction", "false", "ambiguous")
     ]
+    claims = {chapter.document.key: chapter.claims for chapter in chapters if chapter.document.sha256}
+    covered = coverage.rows(claims)
+    names = {document.key: document.name for document, _ in sources}
     counts = {document.key: Counter(entry.status for entry in entries) for document, entries in shown}
     texts = {
-        "index.html": _render("index.html.jinja", **common, shown=shown, counts=counts, corrections=corrections),
+        "index.html": _render(
+            "index.html.jinja",
+            **common,
+            shown=shown,
+            counts=counts,
+            corrections=corrections,
+            covered=[(names[line[0]], *line) for line in coverage.summary(covered)],
+            unjudged=[(row, names[row.document]) for row in covered if not row.entries],
+            literal=sum(entry.offset is not None for _, entries in sources for entry in entries),
+            quoted=sum(bool(entry.verdict.claim.verbatim) for _, entries in sources for entry in entries),
+        ),
         "validation.html": _render(
             "validation.html.jinja",
             **common,
@@ -172,6 +188,7 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
         conditions + ((f"step: divided by {mathml.plain(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
         getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
         re.sub(r"\w+", lambda word: names.get(word[0], word[0]), verdict.change),
+        coverage.offset(verdict.id, verdict.claim.verbatim),
     )  # fmt: skip
 
 

@@ -223,7 +223,8 @@ CLAIMS = (
     Claim(
         "worm-surface",
         "§1",
-        "R(1) = ξ(u) e(λ) + η(u) e_1(λ) + (ζ(u) + pλ) k_1; e(λ) = cos λ i_1 + sin λ j_1, e_1(λ) = -sin λ i_1 + cos λ j_1",
+        "R(1) = ξ(u) e(λ) + η(u) e_1(λ) + (ζ(u) + pλ) k_1; e(λ) = cos λ i_1 + sin λ j_1, e_1(λ) = -sin λ i_1 + cos λ "
+        "j_1",
         "The drive's own screw motion, of any profile.",
         WORM,
         "R1 = xi*vec(cos(lam), sin(lam), 0) + eta*vec(-sin(lam), cos(lam), 0) + (zeta + p*lam)*k1",
@@ -388,8 +389,8 @@ CLAIMS = (
         "meshing-surface",
         "§3",
         "n_p = ∂r(2)/∂u × ∂r(2)/∂λ",
-        "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ, and keep "
-        "f = 0.",
+        "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ, and "
+        "keep f = 0.",
         LIMIT,
         [
             "dot(n_p, D_u) = 0",
@@ -455,9 +456,9 @@ CLAIMS = (
         "twice",
         "§4",
         "the instantaneous axis (pitch line) intersects this ruled surface twice for |φ_1| < 2π",
-        "f is a cos ψ + b sin ψ less a constant: two contacts a revolution where a² + b² exceeds its square. At φ1 - 2π f "
-        "is what it is at φ1, so each of the two contacts between 0 and 2π has a third and a fourth between -2π and 0: "
-        "|φ1| < 2π holds four. The text means a half-open interval of length 2π.",
+        "f is a cos ψ + b sin ψ less a constant: two contacts a revolution where a² + b² exceeds its square. At φ1 - "
+        "2π f is what it is at φ1, so each of the two contacts between 0 and 2π has a third and a fourth between -2π "
+        "and 0: |φ1| < 2π holds four. The text means a half-open interval of length 2π.",
         EARLIER,
         contradiction=[
             "f/I = a*cos(psi) + b*sin(psi) - R1j*n_k",
@@ -478,7 +479,8 @@ CLAIMS = (
         "second-line",
         "§5",
         "r_2f = R_2f i_1 + v(-cos α k_1 + sin α j_1)",
-        "With R2f = 0 and tan α = p/R1j every contact normal meets this line, whatever v: its moment about it is sin α f/I.",
+        "With R2f = 0 and tan α = p/R1j every contact normal meets this line, whatever v: its moment about it is sin "
+        "α f/I.",
         SECOND_AXIS,
         "dot(cross(r1 - r_2f, along), n) = sin(alpha)*f/I",
         conditions=["R1j ≠ 0"],
@@ -532,9 +534,10 @@ CLAIMS = (
         "§5",
         "It is known that in crossed-axis gear drives where one member has a helical surface (as in worm gear "
         "pairs), meshing axes exist.",
-        "A line that every contact normal of every helicoid meets belongs to a twist -(relative motion) + τ times the "
-        "screw motion, which is a rotation where p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ = 0. 4p times this is (2pτ "
-        "- …)² less the discriminant, which is -44/25 for p = I = A = 1 and cos Σ = -3/5: no real τ, no meshing axis.",
+        "A line that every contact normal of every helicoid meets belongs to a twist -(relative motion) + τ times "
+        "the screw motion, which is a rotation where p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ = 0. 4p times "
+        "this is (2pτ - …)² less the discriminant, which is -44/25 for p = I = A = 1 and cos Σ = -3/5: no real τ, no "
+        "meshing axis.",
         ANY_SHAFT_ANGLE,
         contradiction=[
             "dot(n, cross(D, r1) + W) = f_any",
@@ -555,9 +558,9 @@ CLAIMS = (
         "uniqueness",
         "§5",
         "This property is unique to cylindrical worm gear drives",
-        "What is needed is one helicoid, of any profile, not a worm: the pinion of crossed helical gears is one as well. "
-        "Helix angles of 45° on both, twice as many teeth on the gear (Σ = 90°, p = 1, I = 1/2, A = 3) give two distinct "
-        "meshing axes, at τ = 1 and τ = 3/2.",
+        "What is needed is one helicoid, of any profile, not a worm: the pinion of crossed helical gears is one as "
+        "well. Helix angles of 45° on both, twice as many teeth on the gear (Σ = 90°, p = 1, I = 1/2, A = 3) give "
+        "two distinct meshing axes, at τ = 1 and τ = 3/2.",
         RIGHT_ANGLE,
         contradiction=[
             "dot(n, cross(D, r1) + W) = f_any",

@@ -574,10 +574,10 @@ CLAIMS = (
         "Since |n_w(3)| = 1 and |n_w(2)| = 1, Eqs. (16)–(18) yield a system of six independent nonlinear equations "
         "with seven independent parameters",
         "One of the three equations (18) follows from the other two: the difference of two unit vectors is "
-        "perpendicular to their sum. No other one does: a small turn w moves a normal by w × n, which can be any change "
-        "e - n(n·e) at right angles to it, and a shift moves the three coordinates of (17) as it likes while the "
-        "normals stay. Nor does (16): (17) and (18) hold wherever a worm is laid against the locus of the hob, and "
-        "there f/ω1 may be m21 sin γ1 Z1 (φ1 = 0, N1 along X1, Y1 = 0).",
+        "perpendicular to their sum. No other one does: a small turn w moves a normal by w × n, which can be any "
+        "change e - n(n·e) at right angles to it, and a shift moves the three coordinates of (17) as it likes while "
+        "the normals stay. Nor does (16): (17) and (18) hold wherever a worm is laid against the locus of the hob, "
+        "and there f/ω1 may be m21 sin γ1 Z1 (φ1 = 0, N1 along X1, Y1 = 0).",
         COUNT,
         [
             "dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)",
@@ -668,8 +668,8 @@ CLAIMS = (
         "Eq (37)",
         "C1 = C3 + r1 � r3",
         "The hob rolls on the wheel's pitch cylinder where the relative velocity at the pitch point lies along its "
-        "thread. Across the thread that velocity is a factor times C1 - (C3 + r1 - r3): it vanishes, and the wheel gets "
-        "the hob's normal pitch, for this centre distance alone. The factor is not 0 for crossed axes.",
+        "thread. Across the thread that velocity is a factor times C1 - (C3 + r1 - r3): it vanishes, and the wheel "
+        "gets the hob's normal pitch, for this centre distance alone. The factor is not 0 for crossed axes.",
         ROLLING,
         [
             "dot(V, across) = T1/T2*sin(gamma1 - lam1)*(C1 - (C3 + r1 - r3))",
@@ -704,17 +704,17 @@ CLAIMS = (
         "hob-radius",
         "Table 1",
         "pitch radius 20.00 mm; 4.7% oversize; cutting center distance 297.38 mm",
-        "4.7% and 297.38 = 296.49 + 20 - 19.11 agree with r1 = 20 mm. Table 2 does not: its rows come out to the last "
-        "digit with r1 = 20.0638 mm (5.0%, 297.45 mm), and with 20 mm the kinematic error is 6% too small and θ1 0.4 deg "
-        "off. Which radius was meant cannot be told from the text.",
+        "4.7% and 297.38 = 296.49 + 20 - 19.11 agree with r1 = 20 mm. Table 2 does not: its rows come out to the "
+        "last digit with r1 = 20.0638 mm (5.0%, 297.45 mm), and with 20 mm the kinematic error is 6% too small and "
+        "θ1 0.4 deg off. Which radius was meant cannot be told from the text.",
         missing="the pitch radius of the hob with which Table 2 was computed",
     ),
     Claim(
         "lead-angle",
         "Table 1, §9",
         "lead angle 2.86 deg; cutting crossing angle 89.86 deg",
-        "2.86 deg follows from Eq (36) as printed with r1 = 20 mm, and from the corrected equation with the r1 = 20.0638 "
-        "mm of Table 2; the corrected equation with 20 mm gives 2.87 deg, and 89.87 deg for γ1.",
+        "2.86 deg follows from Eq (36) as printed with r1 = 20 mm, and from the corrected equation with the r1 = "
+        "20.0638 mm of Table 2; the corrected equation with 20 mm gives 2.87 deg, and 89.87 deg for γ1.",
         missing="the pitch radius of the hob with which it was computed",
     ),
     FigureClaim(
@@ -760,8 +760,8 @@ CLAIMS = (
         "table-2-hob-angle",
         "Table 2, column 7",
         "Full 400.0 6.0490 398.9639 1.4441 6.0494 400.0083 0.0585 7.58",
-        "Standard, semi and full differ by equal steps of dx, and θ1 with them: 401.0173, 401.0128, 401.0083 deg at 400 "
-        "deg as 801.7385, 801.7315, 801.7246 deg at 800 deg. One digit is wrong.",
+        "Standard, semi and full differ by equal steps of dx, and θ1 with them: 401.0173, 401.0128, 401.0083 deg at "
+        "400 deg as 801.7385, 801.7315, 801.7246 deg at 800 deg. One digit is wrong.",
         [Figure("2*401.0128 - 401.0173", "400.0083", "deg")],
     ),
     FigureClaim(

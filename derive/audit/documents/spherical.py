@@ -62,6 +62,9 @@ EDGE = scope(
     },
 )
 
+#: The middle section.
+MIDDLE = scope("spherical.middle", "theta = 0", extends=EDGE)
+
 #: The rack in the fixed frame is what the generating motion carries before the gear's own turn. What a gear's observer
 #: sees of the rack, turned back, is its velocity relative to the gear.
 RACK = scope(
@@ -244,6 +247,14 @@ CLAIMS = (
         "At Z = 0 the condition is r sin² αn ≥ a: it fails for 31 teeth and holds for 32.",
         [Figure("62*sin(radians(14.5))**2 - 4", "<0"), Figure("64*sin(radians(14.5))**2 - 4", ">0")],
     ),
+    Claim(
+        "middle-section",
+        "§2.6",
+        "球形齒輪在中央截面處(Z=0 mm)的過切情形 \n與正齒輪相同，此乃由於在中央截面處之轉位量為零。",
+        "At the middle section the edge of the convex and of the concave rack is that of a spur gear's, not shifted.",
+        MIDDLE,
+        ["convex = edge", "concave = edge", "middle = vec(0, 0, 0)"],
+    ),
     FigureClaim(
         "free-24",
         "§2.6",
@@ -255,8 +266,8 @@ CLAIMS = (
         "free-36",
         "§2.6",
         "凸狀 14.5°, face width 20 mm: no undercut at the ends from 36 teeth on",
-        "With R = mT/2 36 teeth are undercut at the ends of the face; with R = 150 mm they are free of undercut, as the "
-        "24 teeth at 20° are then. The text can be meant either way.",
+        "With R = mT/2 36 teeth are undercut at the ends of the face; with R = 150 mm they are free of undercut, as "
+        "the 24 teeth at 20° are then. The text can be meant either way.",
         missing="the spherical radius R that was used",
     ),
     Claim(

@@ -64,8 +64,8 @@ GROOVE = Described(
 SIZE = Described(
     DRIVE,
     {
-        "dx": "0", "m_n": "m_a*cos(lambda_worm)", "lambda_worm": "lam", "r_worm": "r1", "r_hob": "rh", "Sigma": "pi - gamma",
-        "T_2": "T2", "alpha": "alpha1", "u_worm": "0",
+        "dx": "0", "m_n": "m_a*cos(lambda_worm)", "lambda_worm": "lam", "r_worm": "r1", "r_hob": "rh",
+        "Sigma": "pi - gamma", "T_2": "T2", "alpha": "alpha1", "u_worm": "0",
     },
 )  # fmt: skip
 DISC = WORM.sweep("pinion")
@@ -127,6 +127,23 @@ DISTANCE = scope(
     "zk-zn.distance",
     "r2 = A - r1",
     described={"A": SIZE.rule("A"), "A2": SIZE.rule("A_gen"), "pitch_radius": SIZE.size("wheel_pitch_radius_mm")},
+)
+
+MESH = Described(
+    DRIVE,
+    {"transmission_error": "phi2p - T_1/T_2*phi_worm", "Sigma": "pi - gamma", "dh": "-dgh", "dv": "0", "da": "0"},
+)
+
+#: The wheel's axis in the fixed frame; and any two normals.
+ASSEMBLY = scope(
+    "zk-zn.assembly",
+    """
+axis = mounted@(turn@vec(0, 0, 1))
+n1 = vec(ax, ay, az)
+n2 = vec(bx, by, bz)
+e = vec(ex, ey, ez)
+""",
+    described={"turn": HALF_TURN, "mounted": MESH.matrix(MESH.motion("wheel"))},
 )
 
 LOST = "the signs are lost in the extraction"
@@ -274,8 +291,8 @@ CLAIMS = (
     Claim(
         "where-hob",
         "where, at Eq (5)",
-        "Xh = (rt � l cos α2) cos θ2 � l sin α2 sin λ sin θ2; Yh = �(rt � l cos α2) sin θ2 � l sin α2 sin λ cos θ2; Zh = "
-        "�l sin α2 cos λ � p2 θ2",
+        "Xh = (rt � l cos α2) cos θ2 � l sin α2 sin λ sin θ2; Yh = �(rt � l cos α2) sin θ2 � l sin α2 sin λ cos θ2; "
+        "Zh = �l sin α2 cos λ � p2 θ2",
         "The hob's surface, as in Eq (1) of the recess-action paper: the terms with l sin α2 follow the flank.",
         HOB_SURFACE,
         {
@@ -304,8 +321,8 @@ CLAIMS = (
     Claim(
         "where-coefficients",
         "where, at Eq (5)",
-        "a11 = sin φ2 cos γ sin φh � cos φ2 cos φh; a12 = sin φ2 cos γ cos φh � cos φ2 sin φh; a21 = cos φ2 cos γ sin φh � "
-        "sin φ2 cos φh; a22 = cos φ2 cos γ cos φh � sin φ2 sin φh",
+        "a11 = sin φ2 cos γ sin φh � cos φ2 cos φh; a12 = sin φ2 cos γ cos φh � cos φ2 sin φh; a21 = cos φ2 cos γ "
+        "sin φh � sin φ2 cos φh; a22 = cos φ2 cos γ cos φh � sin φ2 sin φh",
         "Entries of the rotation from hob to wheel: true with + - - +.",
         HOBBING,
         {
@@ -343,6 +360,31 @@ CLAIMS = (
         "f = N · V(h2) = 0; R_f(1) = M_f1 R_1; R_f(2) = M M M R_2; R_f(1) = R_f(2); n_f(1) - n_f(2) = 0",
         "Definitions and conditions to be solved.",
         kind="definition",
+    ),
+    Claim(
+        "assembly-angle",
+        "§4",
+        "axes Z_fw and Z_f form an angle of γ � Δγh during the meshing",
+        "The cosine of the angle between the two axes, as the drive mounts its wheel, without the vertical error: γ "
+        "+ Δγh in the sense in which γ is counted.",
+        ASSEMBLY,
+        {"+": "axis.z = cos(gamma + dgh)", "-": "axis.z = cos(gamma - dgh)"},
+        damage=LOST,
+    ),
+    Claim(
+        "count",
+        "§5",
+        "three independent equations; two independent equations; two additional independent equations of meshing; "
+        "totally seven independent equations with eight unknowns",
+        "Three coordinates; of the three equations between unit normals one follows from the other two and no more, "
+        "since any change of a normal at right angles to it can come about; Eqs (4) and (7) hold u1 and φ2, which "
+        "the others leave open.",
+        ASSEMBLY,
+        [
+            "dot(n1 - n2, n1 + n2) = dot(n1, n1) - dot(n2, n2)",
+            "cross(cross(n1, e), n1) = dot(n1, n1)*e - dot(n1, e)*n1",
+        ],
+        conditions=["near parallel normals (n1 + n2 ≠ 0)"],
     ),
     Claim(
         "eq-14",
@@ -401,15 +443,16 @@ CLAIMS = (
         "hand",
         "Table 1",
         "Right/Left handed of teeth RH LH",
-        "At γ = 45° the wheel's helix angle 90° - γ - λ is 15°, positive: of the hand opposite to the worm's. So it is at "
-        "30°.",
+        "At γ = 45° the wheel's helix angle 90° - γ - λ is 15°, positive: of the hand opposite to the worm's. So it "
+        "is at 30°.",
         [Figure("90 - 45 - 30", ">0"), Figure("90 - 30 - 30", ">0")],
     ),
     FigureClaim(
         "hand-of-the-others",
         "§7",
         "the right-handed ZK-type worm and left-handed ZN-type worm wheel",
-        "At γ = 60° the wheel's helix angle 90° - γ - λ is 0, a spur wheel; at 90° it is -30°, right-handed like the worm.",
+        "At γ = 60° the wheel's helix angle 90° - γ - λ is 0, a spur wheel; at 90° it is -30°, right-handed like the "
+        "worm.",
         [Figure("90 - 90 - 30", ">0")],
         final=True,
     ),
@@ -418,8 +461,9 @@ CLAIMS = (
         "Table 2, §§7, 8",
         "KE = 0.0 arc-second at γ = 30.0°, 45.0°, 60.0° and 90.0°",
         "Worm and hob have one screw motion and touch along a helix, on which contact stays: at 30°, 45° and 60° the "
-        "error of Eq (14) is constant, the axial gap between the two profiles turned into an angle, and 0 only relative "
-        "to its value at one position. At 90° it is so up to a pitchfork of the path of contact and not beyond.",
+        "error of Eq (14) is constant, the axial gap between the two profiles turned into an angle, and 0 only "
+        "relative to its value at one position. At 90° it is so up to a pitchfork of the path of contact and not "
+        "beyond.",
         missing="the grinding wheel's radius, the blanks and the origin of φ1′; Eq (14) gives a constant that is not 0",
     ),
     Claim(

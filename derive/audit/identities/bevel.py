@@ -185,8 +185,8 @@ CLAIMS = (
         identity(
             f"machine-{member}",
             "description",
-            f"The machine that cuts the {member}, of hand h = {hand}, is the motion of the drive's description, whatever "
-            "edge stands on the head.",
+            f"The machine that cuts the {member}, of hand h = {hand}, is the motion of the drive's description, "
+            f"whatever edge stands on the head.",
             ["r_body = cut", "n_body = cut_normal"],
             context,
         )

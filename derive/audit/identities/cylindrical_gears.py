@@ -222,8 +222,8 @@ CLAIMS = (
     identity(
         "described",
         "description",
-        "The rack's edge, with any modification, plunge and feed, and its rolling on the reference circle are those of the "
-        "drive's description.",
+        "The rack's edge, with any modification, plunge and feed, and its rolling on the reference circle are those "
+        "of the drive's description.",
         ["traced = rack", "cut = free"],
         DESCRIBED,
         conditions=["cos β ≠ 0"],

@@ -80,8 +80,8 @@ removed = total - kept
     signs=["s"],
 )
 
-#: A surface S(u, v) that moves in the frame of a blank: any rotation (three angles), any shift, each at a rate of its own;
-#: and any family of surfaces r(u, v, φ) at all.
+#: A surface S(u, v) that moves in the frame of a blank: any rotation (three angles), any shift, each at a rate of its
+#: own; and any family of surfaces r(u, v, φ) at all.
 FAMILY = scope(
     "derivation.family",
     """
@@ -294,10 +294,10 @@ CLAIMS = (
     identity(
         "envelope",
         "envelope: normal",
-        "Any tangent of the envelope moves u, v and φ at rates of its own. The generating surface's normal against it is "
-        "the rate of φ times the equation of meshing n·∂r/∂φ: where that holds the normal is square to every tangent, and "
-        "the vector product of two tangents is a multiple of it. For a rigid motion, of any axis and pitch, the equation "
-        "is the turned normal of the tool against the velocity.",
+        "Any tangent of the envelope moves u, v and φ at rates of its own. The generating surface's normal against "
+        "it is the rate of φ times the equation of meshing n·∂r/∂φ: where that holds the normal is square to every "
+        "tangent, and the vector product of two tangents is a multiple of it. For a rigid motion, of any axis and "
+        "pitch, the equation is the turned normal of the tool against the velocity.",
         [
             "dot(n, T_1) = phi_1*meshing",
             "cross(cross(T_1, T_2), n) = meshing*(phi_1*T_2 - phi_2*T_1)",
@@ -342,9 +342,9 @@ CLAIMS = (
         "elimination",
         "Newton step: pivots",
         "Elimination in a fixed order of pivots down to two equations, Cramer's rule for these, then substitution "
-        "backwards solves the linear system: with the pivot's unknown from its own row, any other row holds exactly where "
-        "the reduced row does. Shown with every entry free for 6, 5, 4 and 3 unknowns, the sizes that the packaged drives "
-        "pass through, and for the last two.",
+        "backwards solves the linear system: with the pivot's unknown from its own row, any other row holds exactly "
+        "where the reduced row does. Shown with every entry free for 6, 5, 4 and 3 unknowns, the sizes that the "
+        "packaged drives pass through, and for the last two.",
         [
             *(text for n in range(UNKNOWNS, 2, -1) for text in _stage(n)),
             "a11*y1 + a12*y2 = b1",
@@ -356,9 +356,9 @@ CLAIMS = (
     identity(
         "angles",
         "Newton step: angles as variables",
-        "An angle on which several unknowns act may be a variable of the linear system. The Jacobian is the chain rule's, "
-        "and the changes that it gives, with the angle's own beside them, solve the equations in which the angle is a "
-        "variable.",
+        "An angle on which several unknowns act may be a variable of the linear system. The Jacobian is the chain "
+        "rule's, and the changes that it gives, with the angle's own beside them, solve the equations in which the "
+        "angle is a variable.",
         [
             "J11 = g[1, 0, 0] + g[0, 0, 1]*A_1",
             "g[1, 0, 0]*dp + g[0, 1, 0]*dq + g[0, 0, 1]*da = b1",
@@ -370,8 +370,9 @@ CLAIMS = (
     identity(
         "step-size",
         "Newton step: size",
-        "Steps are measured in natural sizes. With each column times its size and each unknown over it the system is the "
-        "same, and its determinant that of the Jacobian times the sizes: which steps solve it does not depend on them.",
+        "Steps are measured in natural sizes. With each column times its size and each unknown over it the system is "
+        "the same, and its determinant that of the Jacobian times the sizes: which steps solve it does not depend on "
+        "them.",
         [
             "sized@measured = J@change",
             "triple(s1*c1, s2*c2, s3*c3) = s1*s2*s3*triple(c1, c2, c3)",
@@ -382,9 +383,9 @@ CLAIMS = (
     identity(
         "relative",
         "limits of validity",
-        "A function whose sign has no meaning of its own, such as the singular function of a surface, is divided by its "
-        "value at a regular point. The quotient does not change with the length or the side of the normals it was made "
-        "with, and has the sign of the product of both values: positive where there is no zero between.",
+        "A function whose sign has no meaning of its own, such as the singular function of a surface, is divided by "
+        "its value at a regular point. The quotient does not change with the length or the side of the normals it "
+        "was made with, and has the sign of the product of both values: positive where there is no zero between.",
         [
             "triple(A, B, k*n)/triple(A0, B0, k*n0) = g/g0",
             "g/g0*g0**2 = g*g0",

@@ -86,8 +86,8 @@ CLAIMS = (
     identity(
         "tools",
         "description",
-        "Cone, torus and parabolic blade are the swept edges of the drive's description, seen from the tool's axis, and "
-        "their normals its outward normals.",
+        "Cone, torus and parabolic blade are the swept edges of the drive's description, seen from the tool's axis, "
+        "and their normals its outward normals.",
         [
             "gear_tool = cone",
             "gear_normal = n_cone",
@@ -101,8 +101,8 @@ CLAIMS = (
     identity(
         "hobbing",
         "description",
-        "The equation of meshing in the fixed frame is the normal against the velocity in the motion of the description "
-        "that cuts the reference wheel.",
+        "The equation of meshing in the fixed frame is the normal against the velocity in the motion of the "
+        "description that cuts the reference wheel.",
         "f = dot(n_wheel, d(wheel, (psi, 1), (phi2, m)))",
         HOB,
     ),

@@ -236,8 +236,8 @@ CLAIMS = (
     identity(
         "za-normal",
         "ZA",
-        "The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to the "
-        "helicoid of the straight axial edge.",
+        "The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to "
+        "the helicoid of the straight axial edge.",
         [
             "dot(n, d(P, rho)) = 0",
             "dot(n, vec(-P.y, P.x, p)) = 0",
@@ -310,8 +310,8 @@ CLAIMS = (
     identity(
         "zc-limit",
         "ZC",
-        "On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of form K, at "
-        "every θ: the arc touches the cone's generatrix there.",
+        "On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of "
+        "form K, at every θ: the arc touches the cone's generatrix there.",
         ["arc = cone", "arc_normal = cone_normal"],
         ARC_END,
     ),
