@@ -55,7 +55,7 @@ class Described:
         written = self._read(data)
         for old, new in self.letters.items():
             written = written.subs(_parsed(old), _parsed(new))
-        return _tree(description.prefix(written))
+        return as_tree(description.prefix(written))
 
     def _read(self, data: Any) -> sp.Expr:
         match data:
@@ -188,7 +188,7 @@ def _names(text: str) -> set[str]:
     return {name for name in re.findall(r"[A-Za-z_]\w*", text) if name not in _KNOWN}
 
 
-def _tree(data: object) -> Tree:
+def as_tree(data: object) -> Tree:
     """Prefix lists in the closed grammar, with differences and quotients as a reader writes them."""
     match data:
         case str() | int():
@@ -198,15 +198,15 @@ def _tree(data: object) -> Tree:
         case ["/", int() as p, int() as q]:
             return ("-", ("/", -p, q)) if p < 0 else ("/", p, q)
         case ["+", *terms]:
-            return ("+", *map(_tree, sorted(terms, key=_is_negative)))
+            return ("+", *map(as_tree, sorted(terms, key=_is_negative)))
         case ["*", *factors]:
             return _product(factors)
         case ["^", base, int() as power] if power > 0:
-            return ("^", _tree(base), power)
-        case ["^", _, _]:
+            return ("^", as_tree(base), power)
+        case ["^", _, int() | ["/", -1, 2]]:
             return _product([data])
         case ["sqrt" | "cos" | "sin" | "tan" | "atan2" as name, *operands]:
-            return (name, *map(_tree, operands))
+            return (name, *map(as_tree, operands))
     raise TypeError(f"{data!r} is not part of the closed grammar")
 
 
@@ -231,13 +231,13 @@ def _product(factors: list) -> Tree:
                 above += [p] if p != 1 else []
                 below.append(q)
             case ["^", base, -1]:
-                below.append(_tree(base))
+                below.append(as_tree(base))
             case ["^", base, int() as power] if power < 0:
-                below.append(("^", _tree(base), -power))
+                below.append(("^", as_tree(base), -power))
             case ["^", base, ["/", -1, 2]]:
-                below.append(("sqrt", _tree(base)))
+                below.append(("sqrt", as_tree(base)))
             case _:
-                above.append(_tree(factor))
+                above.append(as_tree(factor))
     value = _joined(above)
     if below:
         value = ("/", value, _joined(below))
