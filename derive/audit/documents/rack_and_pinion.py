@@ -115,8 +115,6 @@ n_p = cross(D_u, D_lam)
 w = cross(omega2, r2)
 T_u = D_u - phi_u*w
 T_lam = D_lam - phi_lam*w
-slope_u = -d(f, u)/d(f, phi1)
-slope_lam = -d(f, lam)/d(f, phi1)
 """,
     extends=WORM,
 )
@@ -392,12 +390,7 @@ CLAIMS = (
         "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ, and "
         "keep f = 0.",
         LIMIT,
-        [
-            "dot(n_p, D_u) = 0",
-            "dot(n_p, D_lam) = 0",
-            "d(f, (u, 1), (phi1, slope_u)) = 0",
-            "d(f, (lam, 1), (phi1, slope_lam)) = 0",
-        ],
+        ["dot(n_p, D_u) = 0", "dot(n_p, D_lam) = 0"],
         conditions=["∂f/∂φ1 ≠ 0"],
     ),
     Claim(

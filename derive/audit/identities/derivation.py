@@ -24,8 +24,8 @@ DOCUMENT = Document(
         "k": ("k", "-", "share of the normal"),
         "s": ("s", "-", "a sign"),
         "phi": ("φ", "-", "parameter of the motion"),
-        "c0": ("c₀", "-", "equation of meshing where the parameter is 0"),
-        "c1": ("c₁", "-", "its slope in the parameter"),
+        "c0": ("c0", "-", "equation of meshing where the parameter is 0"),
+        "c1": ("c1", "-", "its slope in the parameter"),
         "r": ("r", "mm", "point"),
         "n": ("n", "-", "normal"),
     },
@@ -165,9 +165,9 @@ J = mat([a11, a12, a13], [a21, a22, a23], [a31, a32, a33])
 sized = mat([a11*s1, a12*s2, a13*s3], [a21*s1, a22*s2, a23*s3], [a31*s1, a32*s2, a33*s3])
 change = vec(x1, x2, x3)
 measured = vec(x1/s1, x2/s2, x3/s3)
-c1 = vec(a11, a21, a31)
-c2 = vec(a12, a22, a32)
-c3 = vec(a13, a23, a33)
+j1 = vec(a11, a21, a31)
+j2 = vec(a12, a22, a32)
+j3 = vec(a13, a23, a33)
 """,
 )
 
@@ -375,7 +375,7 @@ CLAIMS = (
         "them.",
         [
             "sized@measured = J@change",
-            "triple(s1*c1, s2*c2, s3*c3) = s1*s2*s3*triple(c1, c2, c3)",
+            "triple(s1*j1, s2*j2, s3*j3) = s1*s2*s3*triple(j1, j2, j3)",
         ],
         SIZED,
         conditions=["size ≠ 0"],
