@@ -185,7 +185,8 @@ def words(plan: Schedule):
 
 def _comment(name, meaning):
     """Words that cannot end a comment, nor be taken for operations."""
-    return re.sub(r"[^A-Za-z0-9_ ,.;:'()/]", " ", f"{name}: {meaning}" if meaning else name).replace("*/", "")
+    told = f"{name}: {meaning}" if meaning else name
+    return re.sub(r"[^A-Za-z0-9_ ,.:'()/-]|(?<![a-z])-|-(?![a-z])| / ", " ", told)
 
 
 def header(plan: Schedule, description: dict, runtime):
