@@ -4,6 +4,7 @@ A process is killed before any of its writes, locks, renamings and removals: see
 """
 
 import gzip
+import itertools
 import os
 import random
 import subprocess
@@ -22,29 +23,34 @@ from meshwright.design import design as designs
 from meshwright.fe.solver import SolverRun
 from meshwright.sweep import run as sweep
 from tests import kills
-from tests.quick import quick
+from tests.quick import full, quick
 
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
 
 def _resumed(run, folder, times, seed):
-    """Folders in which ``run(place)`` was killed again and again, ``times`` in all, and then came to its end."""
+    """Folders in which ``run(place)`` was killed again and again, ``times`` in all, and then came to its end.
+
+    The first attempt in a folder is killed before a write of its own, in random order: every write's turn comes where
+    ``times`` allows, and in any case at full size.
+    """
     (folder / "counted").mkdir()
     count, chance = kills.writes(lambda: run(folder / "counted"), folder / "counted"), random.Random(seed)
     assert count > 5
     yield folder / "counted"
-    done = 0
-    for k in range(times):
-        if done == times:
+    done, turns = 0, chance.sample(range(1, count + 1), count)
+    for k, at in enumerate(itertools.cycle(turns)):
+        if done >= times and not (full() and k < count):
             break
         place = folder / f"killed-{k}"
         place.mkdir()
-        while done < times and kills.killed(lambda place=place: run(place), place, chance.randint(1, count)):
-            done += 1
+        fresh = True
+        while (fresh or done < times) and kills.killed(lambda place=place: run(place), place, at):
+            fresh, done, at = False, done + 1, chance.randint(1, count)
         kills.ended(lambda place=place: run(place), place)
         yield place
-    assert done == times
+    assert done >= times
 
 
 def _all_alike(run, folder, times, seed, but=(".lock",)):
