@@ -226,3 +226,41 @@ def test_a_folder_has_one_finite_element_run_at_a_time(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main([*arguments[:-1], str(tmp_path / "file" / "folder")]) == 2
     assert "cannot be made (Not a directory); name another folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("at", [1, 3])
+def test_a_finite_element_run_on_a_full_disk_says_so_and_goes_on(tmp_path, monkeypatch, analysis, at):
+    place = tmp_path / "full"
+    place.mkdir()
+    with kills.full_disk(monkeypatch, at), pytest.raises(UsageError, match="No space left on device.*make room"):
+        analysis(place)
+    analysis(place)
+    assert {"result.json", "pinion.vtu", "wheel.vtu", "model.inp"} <= {path.name for path in place.rglob("*")}
+
+
+# ---- a power cut -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("what", ["sweep", "derive", "fe"])
+def test_whatever_takes_a_place_is_on_the_disk_before(tmp_path, monkeypatch, request, what):
+    if what == "fe":
+        run = request.getfixturevalue("analysis")
+    else:
+        run = _sweep() if what == "sweep" else _derive(monkeypatch, request.getfixturevalue("derived"))
+    synchronised, placed, sync, replace = set(), [], os.fsync, os.replace
+
+    def noted(handle):
+        sync(handle)
+        found = os.fstat(handle)
+        synchronised.add((found.st_ino, found.st_size))
+
+    def checked(source, target):
+        found = os.stat(source)
+        placed.append((os.path.basename(target), (found.st_ino, found.st_size) in synchronised))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", noted)
+    monkeypatch.setattr(os, "replace", checked)
+    (tmp_path / "place").mkdir()
+    run(tmp_path / "place")
+    assert len(placed) >= 3 and all(safe for _, safe in placed), placed

@@ -95,13 +95,15 @@ def closed_body(
     return solid_body(drive, member, teeth, rim_thickness).faceted(departure)
 
 
-def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thickness: float | None = None) -> Body:
-    """The body of a member with so many teeth; None: all of them. rim_thickness in mm.
+def solid_body(
+    drive: Drive, member: str, teeth: int | None = None, rim_thickness: float | None = None, other: Drive | None = None
+) -> Body:
+    """The body of a member with so many teeth; None: all of them. rim_thickness in mm. ``other``: the drive of the
+    other flank, where flanks have designs of their own; None takes the packaged partner, or this one's other flank.
 
     Raises UsageError for a member without a closed body, DesignError for teeth that are not whole.
     """
-    whole, _ = drive.design.with_whole_blank()
-    drive = Drive(whole, drive.backend)
+    drive, other = _whole_blank(drive), _other(drive, other)
     sizes, count = solid_sizes(drive, member), drive.teeth(member)
     make = _thread if "tip_radius" in sizes else _gear
     if make is _thread and teeth not in (None, count):
@@ -109,9 +111,39 @@ def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thicknes
     if teeth is not None and not 1 <= teeth <= count:
         raise UsageError(f"--teeth {teeth}: the {member} has {count} teeth; choose from 1 to {count}")
     with _whole(member):
-        tooth = make(drive, member, sizes, rim_thickness)
+        tooth = make((drive, other), member, sizes, rim_thickness)
     flip = drive.design.mirror.flip if drive.design.mirror.sign < 0 else None
     return Body(tooth, teeth or count, count, flip)
+
+
+def _whole_blank(drive: Drive) -> Drive:
+    whole, _ = drive.design.with_whole_blank()
+    return Drive(whole, drive.backend)
+
+
+def _other(drive: Drive, given: Drive | None) -> Drive:
+    """The drive of the other flank: the one that is given, if it goes with the drive."""
+    apart, flank = drive.design.description["flanks_apart"], drive.design.other_flank
+    if given is None:
+        try:
+            return other_flank(_whole_blank(drive))
+        except DesignError as error:
+            if not apart:
+                raise
+            reason = f"with flank = {flank!r}, for the other side of the teeth, the same design is refused: {error}"
+            remedy = "give --other-flank a design of that flank, or change this one until both flanks can be made"
+            raise DesignError("flank", drive.design.tables["flank"], reason, remedy) from error
+    if not apart:
+        raise UsageError("--other-flank: one design makes both flanks of these teeth; leave --other-flank out")
+    for what, own, its in (
+        ("drive", drive.design.family, given.design.family), ("flank", flank, given.design.tables["flank"]),
+        ("number of teeth of the pinion", drive.teeth("pinion"), given.teeth("pinion")),
+        ("number of teeth of the wheel", drive.teeth("wheel"), given.teeth("wheel")),
+        ("hand", drive.design.mirrored, given.design.mirrored),
+    ):  # fmt: skip
+        if own != its:
+            raise UsageError(f"--other-flank {given.design.label}: its {what} is {its}; give a design with {own}")
+    return _whole_blank(given)
 
 
 @contextmanager
@@ -125,11 +157,12 @@ def _whole(member: str) -> Iterator[None]:
         raise DesignError("blank", None, f"the {member} has no whole teeth: {error}", "change its blank") from error
 
 
-def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
-    """The tooth of a gear from the regions of its flank and fillet."""
+def _gear(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The tooth of a gear from the regions of its flank and fillet, of either flank's drive."""
+    drive = drives[0]
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
     sides, sections = [], Sections.of(drive.flank(member))
-    for one in (drive, other_flank(drive)):
+    for one in drives:
         names = ("flank", "fillet") if fillet else ("flank",)
         regions = [region(one, member, name, one.uses) for name in names]
         if Sections.of(regions[0].flank) is None:
@@ -159,13 +192,14 @@ def _of_blank(flank: Region, member: str) -> Sections:
     return sections
 
 
-def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
-    """The thread of a member, along its axis as far as what contact uses of its flanks."""
+def _thread(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The thread of a member, along its axis as far as what contact uses of its flanks, of either flank's drive."""
+    drive = drives[0]
     if rim is not None:
         check_rim(rim, {member: sizes["root_radius"]})
-    used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in (drive, other_flank(drive))])
+    used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in drives])
     ends = float(used.min()), float(used.max())
-    threads = thread_sides(drive, member, rim or RIM_MODULES * sizes["module"])
+    threads = thread_sides(drive, member, rim or RIM_MODULES * sizes["module"], drives[1])
     sides = [ThreadSide.of(threads.flanks[name], threads.blank, ends) for name in ("left", "right")]
     bore = threads.blank.bored
 
@@ -277,18 +311,19 @@ def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         if reached <= departure or finer == (flank, along):
             break
         flank, along = finer[0], min(finer[1], _MOST[1] // pieces)
-    radius = float(np.hypot(grid.low[1][..., 0], grid.low[1][..., 1]).max())
+    bore = tooth.sections.points(grid.values, tooth.bore(grid.values), 0.0)
+    radius = max(float(np.hypot(of[..., 0], of[..., 1]).max()) for of in (grid.low[1], bore))
     step = np.sqrt(8.0 * departure / radius)
     tip, land = (max(1, int(np.ceil(angle / step))) for angle in _widths(tooth, grid))
     return tooth.grid(Rows(along, max(8, flank // 2), flank, tip, land)), float(reached)
 
 
 def _widths(tooth: Tooth, grid: Grid) -> tuple[float, float]:
-    """Largest angles in rad of tip and root land."""
+    """Largest angles in rad of a tooth, at tip or root, below which lies as much of the bore, and of a root land."""
     ends = [np.arctan2(side[part][:, place, 1], side[part][:, place, 0]) for part, place in ((1, -1), (0, 0))
             for side in (grid.low, grid.high)]  # fmt: skip
     tip, root = (ends[1] - ends[0]) % (2.0 * np.pi), (ends[3] - ends[2]) % (2.0 * np.pi)
-    return float(tip.max()), float((tooth.pitch - root).max())
+    return float(max(tip.max(), root.max())), float((tooth.pitch - root).max())
 
 
 def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
