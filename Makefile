@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
 READY  := $(VENV)/.ready
+LINT   := $(VENV)/.lint
 LEAN   := $(VENV)/.lean
 
 SHIP    := runtime/meshwright/_generated
@@ -84,10 +85,14 @@ run:
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
-# Style, unused names and types.
-lint: setup
+# Style, names, docstrings and types, each with tools of the package registry alone.
+lint: $(LINT)
 	$(PY) -m ruff check derive runtime tests
-	$(PY) -m mypy
+	$(PY) -m basedpyright --level error
+
+$(LINT): $(READY)
+	$(PY) -m pip install --quiet --editable '.[lint]'
+	touch $@
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
 test: setup build check solver cmake

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from derive.audit import coverage
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
 from derive.audit.check import sha256_of
-from derive.audit.claims import Document
+from derive.audit.claims import Document, Figure
 from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
@@ -248,11 +248,11 @@ def _parts(mathml: MathML, reading: Reading, other: Reading | None = None) -> tu
 
 
 def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
-    if part.figure is not None:
+    if isinstance(part.of, Figure):
         return _figure_part(mathml, part)
     statement = part.statement
     left, right = statement.lhs, statement.rhs
-    if previous is not None and previous.statement is not None:
+    if previous is not None and not isinstance(previous.of, Figure):
         left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
     latex = LaTeX(mathml.names)
     definitions = tuple((anchor(name, tree), Markup(f"<math>{mathml.name(name)}</math>"))
