@@ -13,6 +13,7 @@ from functools import cache, cached_property
 from typing import Any
 
 import sympy as sp
+from sympy.parsing.sympy_parser import parse_expr
 
 from derive import drives
 from derive.language import description
@@ -181,7 +182,7 @@ _OPERATIONS = {
 @cache
 def _parsed(text: str) -> sp.Expr:
     names = {name: sp.Symbol(name) for name in _names(text)}
-    return sp.sympify(text, locals=names | _KNOWN)
+    return parse_expr(text, local_dict=names | _KNOWN)
 
 
 def _names(text: str) -> set[str]:

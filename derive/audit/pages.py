@@ -230,7 +230,7 @@ def _definitions(document: Document, verdicts: Sequence[Verdict]) -> list[tuple[
     for verdict in verdicts:
         for reading in (*verdict.readings, verdict.corrected, verdict.contradiction):
             for part in reading.parts if reading else ():
-                for name, tree in part.statement.used.items() if part.statement else ():
+                for name, tree in () if isinstance(part.of, Figure) else part.statement.used.items():
                     key = anchor(name, tree)
                     if key not in found:
                         found[key] = Markup(mathml.equation(name, tree))
