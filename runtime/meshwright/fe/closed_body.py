@@ -6,9 +6,10 @@ flanks, or B-splines through the patches' points, depart from the exact surfaces
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -28,6 +29,8 @@ from meshwright.flank.region import Region, region
 from meshwright.flank.sections import EVEN, Sections
 from meshwright.flank.sides import RegionSide, Side
 from meshwright.flank.step import Spline
+
+_AnySide = TypeVar("_AnySide", bound=Side)
 
 # Rows over flank and face from which the refinement of facets starts, and at which it ends.
 _FEWEST, _MOST = (8, 16), (96, 4096)
@@ -263,7 +266,9 @@ def _deepest(sections: Sections, values: Floats, root: float) -> float:
     return DEEPEST_RIM * float((sine * values + cosine * root).min()) / cosine
 
 
-def _in_order(member: str, sides: list[Side], faces: tuple[float, float]) -> tuple[Side, Side, bool]:
+def _in_order(
+    member: str, sides: Sequence[_AnySide], faces: tuple[float, float]
+) -> tuple[_AnySide, _AnySide, bool]:
     """The sides at the smaller and larger azimuth of the tooth, told by their normals, and whether they are swapped."""
     at = np.array([0.5 * sum(faces)])
     signs = []
@@ -276,7 +281,8 @@ def _in_order(member: str, sides: list[Side], faces: tuple[float, float]) -> tup
             f"--solid: both flanks of the {member} face the same way round its axis; the description of the drive has "
             "to make the one the other side of its teeth where the flank's sign changes"
         )
-    return (*(sides if signs[0] < 0.0 else sides[::-1]), bool(signs[0] > 0.0))
+    low, high = sides if signs[0] < 0.0 else sides[::-1]
+    return low, high, bool(signs[0] > 0.0)
 
 
 def _thickness(low: RegionSide, high: RegionSide, section: float, profile: float | None) -> float:

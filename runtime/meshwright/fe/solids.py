@@ -9,13 +9,12 @@ from typing import Literal
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
-from meshwright.contact.placement import placed
+from meshwright.contact.placement import about_z, placed
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.windows import Window
 from meshwright.design.design import packaged_names
 from meshwright.drive import Drive
 from meshwright.fe.gear import gear_teeth
-from meshwright.fe.generated import about_z
 from meshwright.fe.generated_wheel import generated_wheel
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
