@@ -24,6 +24,7 @@ def test_a_changed_file_is_refused(drive, capsys):
     assert counted[REFUSED] >= 0.97 * (counted[REFUSED] + counted[SURVIVED])
 
 
+@pytest.mark.validate
 def test_a_change_of_each_stage_is_made_and_refused():
     """One of each kind of file of the smallest drive."""
     drive, rng = mutations.Measured(ALL[0]), mutations.random.Random(1)
