@@ -130,6 +130,8 @@ def of_tables(drive: str, text: str) -> Iterator[tuple[str, list[tuple[str, int,
             found.append((f"{words}: register", at + a.start(), at + a.end(), str(int(a[0]) - 1 if int(a[0]) else 1)))
         for kind, pattern in (("constant", r"(?<={ )-?[\d.e+-]+"), ("input", r"\d+"), ("output", r"\d+")):
             table = re.search(rf"\b{drive}_certified_{name}_{kind}\[\] = {{(.*)}};", text)
+            if table is None:
+                continue
             size = _size_of(text, f"{drive}_certified_{name}", kind)
             for k, match in enumerate(list(re.finditer(pattern, table[1]))[:size]):
                 value = float(match[0]) if kind == "constant" else int(match[0])
@@ -594,7 +596,8 @@ def different(drive: str, made: Path, kept: Path) -> str:
         if not files[1].is_file():
             return f"no {path.name}"
         loaded = (check_bounded.casadi.Function.load(str(file)) for file in files)
-        if not _same(*(check_bounded.program_of(function)[0] for function in loaded), headers[0]):
+        before, after = (check_bounded.program_of(function)[0] for function in loaded)
+        if not _same(before, after, headers[0]):
             return path.name
     return ""
 

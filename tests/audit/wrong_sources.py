@@ -103,7 +103,7 @@ def _edits_of(file: str, rng: random.Random) -> list[Edit]:
         for span, other in _changes(node, place, raw):
             changed = (raw[: span[0]] + other + raw[span[1] :]).decode()
             words = f"{raw[span[0] : span[1]].decode()!r} -> {other.decode()!r}"
-            found.append(Edit(file, node.lineno, words, changed))
+            found.append(Edit(file, getattr(node, "lineno", 0), words, changed))
     rng.shuffle(found)
     return found
 
