@@ -19,7 +19,6 @@ DESIGNS = (
     "recess-action-full", "plain-za", "plain-zi", "plain-zk", "plain-zc", "spherical-table-2-2-convex-14-5",
     "helical-crowned", "face-worm-cylindrical-convex", "bevel-crowned-both", "bevel-formate",
 )  # fmt: skip
-LINES = ("spherical-table-2-1", "plain-zn")
 
 
 class WrongClaimError(AssertionError):
@@ -77,11 +76,14 @@ def turned(rng, count):
 
 
 def lines(rng, count):
-    """Boxes about points of a line of contact, which hold infinitely many."""
-    for name in LINES:
-        drive, n = Drive.load(name), count // len(LINES)
-        angle = float(drive.design.reference_angle)
-        centre = drive.tca([angle]).solutions[0]
+    """Boxes about points of a line of contact: a hob as large as the worm, a rack that cuts both."""
+    worm = Drive.load("recess-action-full")
+    radius = worm.design.as_solved()["design"]["worm_pitch_radius_mm"]
+    for drive in (worm.with_(design={"hob_pitch_radius_mm": radius}), Drive.load("spherical-table-2-1")):
+        angle, n = float(drive.design.reference_angle), count // 2
+        found = drive.tca([angle])
+        assert found.status == ("line_contact",)
+        centre = found.solutions[0]
         half = 10.0 ** rng.uniform(-8, -2, (n, 1)) * np.ones(drive.model.nx)
         yield drive, np.full(n, angle), centre + rng.uniform(-0.1, 0.1, half.shape) * half, half, np.full(n, 9)
 
@@ -100,10 +102,11 @@ def fold():
 def _around(rng, drive, angle, solutions, n):
     """Boxes about, between and beside the solutions at one angle, all of them known."""
     spread = np.ptp(solutions, axis=0) + 1e-9
-    centres = solutions.mean(axis=0) + rng.uniform(-1.5, 1.5, (n, solutions.shape[1])) * spread
-    near = solutions[rng.integers(0, len(solutions), n)] + rng.uniform(-0.3, 0.3, centres.shape) * spread
-    centres = np.where(rng.random((n, 1)) < 0.5, near, centres)
-    half = spread * rng.choice([0.02, 0.2, 0.6, 1.1, 3.0], (n, 1)) * rng.uniform(0.5, 1.5, centres.shape)
+    shape = (n, solutions.shape[1])
+    half = spread * rng.choice([1e-6, 1e-4, 1e-2, 0.2, 0.6, 1.1, 3.0], (n, 1)) * rng.uniform(0.5, 1.5, shape)
+    between = solutions.mean(axis=0) + rng.uniform(-1.5, 1.5, shape) * spread
+    near = solutions[rng.integers(0, len(solutions), n)] + rng.uniform(-1.1, 1.1, shape) * half
+    centres = np.where(rng.random((n, 1)) < 0.7, near, between)
     held, clear = _held(solutions, centres, half)
     return drive, np.full(int(clear.sum()), angle), centres[clear], half[clear], held[clear]
 
