@@ -27,7 +27,7 @@ DIGITS = 60
 def decimals(tables):
     """A design with each of its numbers as the decimal that is written, in the precision of the moment."""
     return {
-        name: {k: mpmath.mpf(repr(v)) if isinstance(v, float) else v for k, v in entries.items()}
+        name: {k: mpmath.mpf(repr(float(v))) if isinstance(v, float) else v for k, v in entries.items()}
         if isinstance(entries, dict)
         else entries
         for name, entries in tables.items()
