@@ -160,8 +160,8 @@ def _drive_error(analysis):
         axes.plot(angles, (transmitted - zero) / ARCSEC, color=style.WHEEL, linewidth=2.2, label="transmitted")
         axes.set_ylabel("relative error, arcsec")
     values = [running.transmitted(running.pitch)]
-    if running.rigid.edge_contact.any():
-        values.append(running.transmitted(running.rigid))
+    if running.at_edge:
+        values.append(running.rigid)
         zoom.plot(angles, (values[-1] - zero) / ARCSEC, "--", color=style.WARN, linewidth=1.2)
         whole.plot([], [], "--", color=style.WARN, linewidth=1.2, label="with edges")
     whole.plot([], [], color=style.SOFT, linewidth=0.8, label="other pairs")
