@@ -9,7 +9,7 @@ OBJECTS := $(VENV)/objects
 CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
-.PHONY: fuzz benchmark coverage compilers sanitizers
+.PHONY: fuzz benchmark coverage compilers sanitizers emulators
 
 # What can be made.
 help:
@@ -81,9 +81,15 @@ test: build check solver cmake
 benchmark: build
 	$(VENV)/bin/meshwright benchmark generated/benchmark
 
-# The longer tests: many random designs and inputs, every drive, brute force, all theorems.
-validate: build solver cmake
-	$(PY) -m pytest -m validate --numprocesses auto --dist loadfile
+# The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
+# each file, with SIZE=full all that there is.
+validate: build solver cmake sanitizers emulators
+	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadfile
+
+# An emulator of ARM64, where it can be had without asking.
+emulators:
+	@command -v qemu-aarch64-static >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
+		&& apt-get update -qq && apt-get install -y -qq --no-install-recommends qemu-user-static; } >/dev/null 2>&1 || true
 
 # clang with its sanitizers, where it can be had without asking; `make fuzz` says what is not run without it.
 sanitizers:
@@ -101,10 +107,11 @@ fuzz: build sanitizers
 coverage: build
 	$(PY) -m tests.coverage
 
-# The bits of a trace from every compiler, level of optimisation and instruction set that can be had here.
-compilers: build
-	$(PY) -m pytest -m validate tests/embedding/test_compilers.py
-	$(PY) -m pytest tests/embedding/test_headers.py -k same_bits
+# The bits of all results from every compiler, level of optimisation, instruction set and machine that can be had here, a
+# line for each.
+compilers: build sanitizers emulators
+	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_compilers.py
+	$(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
 test-fe: build solver

@@ -1,11 +1,18 @@
 """Parameters of which some are tried by ``make test`` and the others by ``make validate``."""
 
+import os
+
 import pytest
 
 
 def quick(values, *now):
     """The values as parameters of a test; all but those of ``now`` are marked ``validate``."""
     return [pytest.param(*_listed(v), marks=[] if v in now else [pytest.mark.validate]) for v in values]
+
+
+def full():
+    """Whether the sizes are those of ``make validate SIZE=full``: hours, not minutes."""
+    return os.environ.get("MESHWRIGHT_SIZE") == "full"
 
 
 def _listed(value):

@@ -197,3 +197,38 @@ def test_no_value_is_echoed_whole_and_none_reaches_the_terminal_as_it_is(capsys)
     assert main(["tca", "plain-za", "--set", "design.worm_profile=\x1b[31m"]) == 2
     shown = capsys.readouterr().err
     assert len(shown) < 2000 and "\x1b" not in shown
+
+
+RED = "\x1b[31m\x9b\u202ered"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [RED], ["tca", RED], ["tca", f"{RED}.toml"], ["tca", "plain-za", f"--{RED}"],
+        ["tca", "plain-za", "--set", f"{RED}=1"], ["tca", "plain-za", "--set", f"design.{RED}=1"],
+        ["tca", "plain-za", "--phi-deg", RED], ["explain", RED],
+        ["tca", "plain-za", "--phi-deg", "0", "--json", f"/{RED}/file"], ["new", RED, "--m", "1", "--z", "1:40"],
+        ["surface", "plain-za", "--member", RED], ["--drives", f"/{RED}", "tca", "plain-za"],
+        ["sweep", "plain-za", "--vary", f"{RED}=0:1", "--samples", "2", "--out", "/dev/null"],
+    ],
+    ids=ascii,
+)  # fmt: skip
+def test_no_control_character_of_the_command_line_reaches_the_terminal(arguments, capsys):
+    try:
+        status = main(arguments)
+    except SystemExit as ended:  # of argparse
+        status = ended.code
+    shown = "".join(capsys.readouterr())
+    assert status == 2 and "x1b" in shown
+    assert not {c for c in shown if not c.isprintable()} - {"\n"}
+
+
+@pytest.mark.parametrize("letter", ["\0", "\x07", "\x1b", "\x7f", "\x9b", "\r", "\n", "\u202e", "\u2066"], ids=ascii)
+def test_a_name_with_control_characters_is_no_design_and_so_in_no_page(letter):
+    """Report and live page take the name from here; markup in it they escape: see their own tests."""
+    tables = design.read("plain-za") | {"name": f"a{letter}b"}
+    with pytest.raises(DesignError, match="name.*control characters"):
+        Drive.from_tables(tables)
+    with pytest.raises(DesignError, match="name.*control characters"):
+        Drive.load("plain-za").with_(name=f"a{letter}b")

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from derive.emit.metadata import ABI as GENERATED_FOR
+from meshwright import Drive
 from meshwright.base import library as loading
 from meshwright.base.compile import compiler
 from meshwright.base.errors import LibraryError
-from meshwright.base.library import SHIPPED, library, model, pointer, text
+from meshwright.base.library import SHIPPED, ffi, library, model, pointer, text
 from meshwright.contact import analysis
 from meshwright.design import description as metadata
 
@@ -87,3 +88,22 @@ def test_headers_of_two_versions_do_not_compile_together(tmp_path):
     )
     done = subprocess.run([*compiler(), "-fsyntax-only", tmp_path / "two.c"], capture_output=True, text=True)
     assert done.returncode and "different versions of meshwright" in done.stderr
+
+
+def test_no_angle_flag_or_table_leads_a_call_astray():
+    """Infinite angles come to an end; numbers of no flag and tables too large for the solver are refused."""
+    drive, lib, info = Drive.load("plain-za"), library(), ffi.new("mw_info *")
+    m, state = drive.model, drive.state(0.05)
+    x0 = drive.tca([0.05]).solutions[0].copy()
+    for begin, end in ((0.05, np.inf), (0.05, -np.inf), (0.05, np.nan), (np.inf, 0.05), (np.nan, 0.05), (0.05, 1e300)):
+        x, angle = np.empty((1, m.nx)), np.array([end])
+        assert lib.mw_follow(m, pointer(state), begin, pointer(x0), pointer(angle), 1, pointer(x), info) == 0
+        assert info.status < 0
+    assert {lib.mw_flag(m, k) for k in (-1, -(2**31), 32, 2**31 - 1)} == {ffi.NULL}
+    for field, value in (("nx", MOST["UNKNOWNS"] + 1), ("nx", -1), ("abi", m.abi - 1), ("abi", m.abi + 1)):
+        other = ffi.new("mw_model *", m[0])
+        setattr(other, field, value)
+        x = x0.copy()
+        assert lib.mw_refine(other, pointer(state), pointer(x), info) == info.status
+        assert text(lib.mw_status_word(info.status)) == "bad_input", (field, value)
+        assert np.array_equal(x, x0) or np.isnan(x).all()

@@ -6,6 +6,7 @@
 #include "exact.h"
 #include <math.h>
 #include <string.h>
+#include "circular.h"
 #include "kernels.h"
 #include "meshwright.h"
 #include "solver/basics.h"
@@ -131,7 +132,9 @@ static int on_flank(const search *h, int member, double *q, double *o)
 /* A vector of the wheel's frame, turned by delta, in the pinion's frame; its derivative by delta if rate is given. */
 static void carried(const search *h, const double *r, double delta, double *x, double *rate)
 {
-    const double c = cos(h->turn * delta), s = sin(h->turn * delta);
+    const double angle = h->turn * delta;
+    double c = NAN, s = NAN;
+    if (fabs(angle) < MWI_CIRCULAR_FAR) mwi_sine(angle, &s, &c);
     const double turned[3] = {c * r[0] - s * r[1], s * r[0] + c * r[1], r[2]};
     const double moved[3] = {-h->turn * turned[1], h->turn * turned[0], 0.0};
     for (int i = 0; i < 3; i++) {

@@ -10,12 +10,23 @@ import sys
 
 from meshwright import commands
 from meshwright.base import drives
-from meshwright.base.errors import DesignError, LibraryError, UsageError
+from meshwright.base.errors import DesignError, LibraryError, UsageError, plain
+
+
+class _Parser(argparse.ArgumentParser):
+    """Repeats no control characters of the command line to the terminal."""
+
+    def error(self, message):
+        super().error(_shown(message))
+
+
+def _shown(message):
+    return "\n".join(map(plain, str(message).splitlines()))
 
 
 def parser(names=None):
     """The argument parser of these commands, by default of all."""
-    top = argparse.ArgumentParser(prog="meshwright", description="Tooth contact analysis of gear drives.")
+    top = _Parser(prog="meshwright", description="Tooth contact analysis of gear drives.")
     top.add_argument("--version", action=_Version, help="show the version and exit")
     top.add_argument("--drives", action="append", default=[], metavar="DIR", help="folder of drives to search first")
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -85,7 +96,7 @@ def main(arguments=None):
         sys.stdout.flush()
         return status
     except (DesignError, UsageError, LibraryError) as error:
-        print(f"meshwright: {error}", file=sys.stderr)
+        print(f"meshwright: {_shown(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("meshwright: interrupted", file=sys.stderr)
@@ -95,7 +106,7 @@ def main(arguments=None):
         return 1
     except OSError as error:
         place = error.filename or "standard output"
-        print(f"meshwright: {place}: {error.strerror}; name a place that can be written", file=sys.stderr)
+        print(_shown(f"meshwright: {place}: {error.strerror}; name a place that can be written"), file=sys.stderr)
         if not error.filename:
             _forget(sys.stdout)
         return 2

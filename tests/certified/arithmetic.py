@@ -25,6 +25,13 @@ void run_{v}_{kind}_{op}(int n, const {type} *a, const {type} *b, {type} *r, {ty
 }}
 """
 
+_ANGLES = """
+void run_angles(int n, const double *y, const double *x, double *r)
+{
+    for (int k = 0; k < n; k++) r[k] = mwi_angle(y[k], x[k]);
+}
+"""
+
 
 def _calls(kind, prefix):
     type_, name, _ = NUMBER[kind]
@@ -46,7 +53,7 @@ def compiled(folder, changes=None):
     """Variant → :class:`Arithmetic`: ``exact`` as it is and, for each name in ``changes`` (name → [(text, instead)]),
     the same with these texts of the headers replaced. A text that is not there once is an error.
     """
-    sources = ['#include <math.h>\n#include "mw_enclosures.h"\n']
+    sources = ['#include <math.h>\n#include "circular.h"\n#include "mw_enclosures.h"\n', _ANGLES]
     variants = {"exact": [], **(changes or {})}
     for number, (variant, replaced) in enumerate(variants.items()):
         text, prefix = _text("ball.h") + _text("wide.h"), f"v{number}_"
@@ -81,3 +88,9 @@ class Arithmetic:
         run = getattr(self._loaded, f"run_{self._name}_{kind}_{op}")
         run(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in (a, b, r, s)))
         return (r, s) if op == "sincos" else r
+
+    def angles(self, y, x):
+        """Angles of the points (x, y), each as near as is said, not enclosed."""
+        y, x, r = np.ascontiguousarray(y), np.ascontiguousarray(x), np.empty_like(y)
+        self._loaded.run_angles(len(y), *(a.ctypes.data_as(ctypes.c_void_p) for a in (y, x, r)))
+        return r

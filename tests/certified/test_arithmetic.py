@@ -304,7 +304,7 @@ def test_the_constants_are_what_the_bounds_were_proved_for():
     high, low, radius = map(float, re.search(r"MWC_HALF_PI = \{ (.*), (.*), (.*) \}", text).groups())
     off = abs(flint.arb.pi() / 2 - flint.arb(high) - flint.arb(low))
     assert radius / 2 < off < radius
-    text = (C / "certify" / "ball.h").read_text(encoding="utf-8")
+    text = (C / "circular.h").read_text(encoding="utf-8")
     found = re.search(r"a - k \* (\S+)\) - k \* (\S+)\) - k \* (\S+);", text).groups()
     parts = [Fraction(float(x)) for x in found]
     assert all((x * 2**80).denominator == 1 and x.numerator.bit_length() <= 33 for x in parts[:2])
@@ -314,6 +314,16 @@ def test_the_constants_are_what_the_bounds_were_proved_for():
         coefficients = [float(x) for x in re.findall(r"-?\d+\.\d+(?:e-\d+)?", series)]
         signs = [(-1) ** (k + (name == "u")) for k in range(8)]
         assert coefficients == [s / math.factorial(first + 2 * k) for k, s in enumerate(signs)]
+
+
+def test_the_angle_of_a_point_is_within_its_bound(tmp_path):
+    """In every octant, on the axes and the diagonals, at any distance of the two coordinates."""
+    angles, rng = compiled(tmp_path)["exact"].angles, np.random.default_rng(11)
+    y, x = rng.choice([-1.0, 1.0], (2, 2000)) * np.exp2(rng.uniform(-60, 60, (2, 2000)))
+    y[:400] = x[:400] * rng.choice([-1.0, 1.0], 400) * (1.0 + 2.0 ** rng.uniform(-50, -1, 400))
+    y[400:404], x[400:404] = (0.0, 1.0, 0.0, -1.0), (1.0, 0.0, -1.0, 0.0)
+    for one, *point in zip(angles(y, x), y, x, strict=True):
+        assert abs(flint.arb(one) - flint.arb.atan2(*map(flint.arb, point))) < flint.arb(2) ** -50, point
 
 
 @pytest.mark.validate

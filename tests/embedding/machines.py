@@ -130,3 +130,24 @@ def cortex_m7(path, problem):
 
 
 MACHINES = {"wasm": wasm, "arm64": arm64, "cortex-m7": cortex_m7}
+
+
+def wasi(path, arguments):
+    """(exit status, what it wrote to its standard error) of a WebAssembly program with a system interface."""
+    from wasmtime import Engine, ExitTrap, Linker, Module, Store, Trap, WasiConfig
+
+    engine = Engine()
+    linker, store, system = Linker(engine), Store(engine), WasiConfig()
+    linker.define_wasi()
+    system.argv = [path.name, *map(str, arguments)]
+    system.stderr_file = path.with_suffix(".err")
+    store.set_wasi(system)
+    started = linker.instantiate(store, Module(engine, path.read_bytes())).exports(store)["_start"]
+    try:
+        started(store)
+        status = 0
+    except ExitTrap as ended:
+        status = ended.code
+    except Trap as trap:
+        status = str(trap)
+    return status, path.with_suffix(".err").read_text(errors="replace")

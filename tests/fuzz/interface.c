@@ -206,7 +206,8 @@ static double *changes(reader *r, int n)
 {
     double *d = numbers((size_t)n);
     for (int i = 0; i < n; i++) d[i] = 0.0;
-    d[byte(r) % (unsigned)n] = number(r, 1.0);
+    const unsigned which = byte(r) % (unsigned)n;
+    d[which] = number(r, 1.0);
     return d;
 }
 
@@ -402,7 +403,10 @@ static void in_lanes(reader *r, fuzzed *f)
     size_t count = 0;
     for (size_t d = 0; d < designs; d++) {
         memcpy(p + d * np, f->p, np * sizeof *p);
-        if (d) p[d * np + byte(r) % np] = number(r, f->p[0]);
+        if (d) {
+            double *changed = p + d * np + byte(r) % np;
+            *changed = number(r, f->p[0]);
+        }
     }
     if (byte(r) & 1) {
         const size_t good = mw_trace_angles(set, m, f->p, phi, n, work, x, status);
@@ -520,8 +524,8 @@ static void first(reader *r, fuzzed *f)
     }
     if (byte(r) > 240) mesh.bound = (int)(byte(r) % 5) - 2;
     mw_first *found = room(1, sizeof *found);
-    const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, number(r, from->turn), number(r, from->sense),
-                                        begin, work, found);
+    const double turn = number(r, from->turn), sense = number(r, from->sense);
+    const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, turn, sense, begin, work, found);
     if (status != found->status) fail("first contact: two words for one end");
     if (status >= 0 && !(fabs(found->wheel_turn) < HUGE_VAL)) fail("first contact without an angle");
     ended[(status + 8) & 15]++;
@@ -583,14 +587,15 @@ static uint64_t run(const uint8_t *data, size_t size)
             case 18: certificate(&r, &f); break;
             case 19: certificates(&r, &f); break;
             case 20: path(&r, &f); break;
-#ifndef MW_FUZZ_PORTABLE /* asks the C library for sines and cosines */
             case 21: first(&r, &f); break;
-#endif
             default: break;
             }
         }
         while (used) free(rooms[--used]);
     }
+#ifdef MW_FUZZ_SHOW
+    fprintf(stderr, "input %llu %016llx\n", inputs, (unsigned long long)r.digest);
+#endif
     all = all * 1099511628211u + r.digest;
     return r.digest;
 }

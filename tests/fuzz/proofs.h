@@ -96,7 +96,10 @@ static int enclosed(reader *r, fuzzed *f, mw_wide *s)
         p[i].lo = 0.0;
         p[i].radius = how < 64 ? fabs(p[i].hi) * 1e-16 : 0.0;
     }
-    if (how > 240) p[byte(r) % (unsigned)m->np].radius = fabs(number(r, 1e-9));
+    if (how > 240) {
+        mw_wide *wider = p + byte(r) % (unsigned)m->np;
+        wider->radius = fabs(number(r, 1e-9));
+    }
     const int failed = mw_enclose_design(m, p, numbers((size_t)m->np + 1));
     if (failed < 0 || failed > m->nsystems + 1) fail("a design system of no number");
     mw_enclose_setup(m, p, s);
@@ -248,7 +251,10 @@ static mw_piece *piece_of(reader *r, fuzzed *f, const mw_wide *s, double from, d
         phi[k] = 0.5 * (from + to) + 0.5 * (to - from) * t[k];
     }
     *solved = mw_trace(m, f->p, phi, MW_ORDER + 1, f->s, f->work, x, info);
-    if (byte(r) > 240) x[byte(r) % ((MW_ORDER + 1) * (unsigned)m->nx)] = number(r, 0.1);
+    if (byte(r) > 240) {
+        double *changed = x + byte(r) % ((MW_ORDER + 1) * (unsigned)m->nx);
+        *changed = number(r, 0.1);
+    }
     if (mw_certify_piece(m, s, from, to, x, piece) != piece->outcome) fail("a piece: two words for one outcome");
     if ((piece->outcome == MW_UNIQUE) != (piece->reason == MW_REASON_NONE)) fail("a piece without its reason");
     note(r, &piece->outcome, sizeof piece->outcome);

@@ -16,7 +16,7 @@ from meshwright.base.library import ffi, library, pointer
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.design.design import given_vector, is_real
-from meshwright.live import module
+from meshwright.live import document, module
 from meshwright.live.teeth import teeth
 from tests.live.browser import CHROMIUM, WIDTHS, Browser
 
@@ -158,6 +158,13 @@ def test_the_page_is_one_file_of_at_most_three_megabytes(pages):
         text = pages(name).read_text(encoding="utf-8")
         assert len(text.encode()) < 3e6
         assert not re.search(r"""(?:src|href)\s*=\s*["'](?!#)|@import|url\((?!#)|fetch\(|XMLHttpRequest""", text)
+
+
+def test_markup_in_the_name_of_a_design_is_text(monkeypatch):
+    monkeypatch.setattr(document, "compiled", lambda *drive: b"")
+    text = document.page(Drive.load(DESIGNS[0]).with_(name="</script><script>alert('&')</script>"))
+    assert "<script>alert" not in text and text.count("</script>") == document._part("live.html").count("</script>")
+    assert "&lt;/script&gt;&lt;script&gt;alert(&#x27;&amp;&#x27;)&lt;/script&gt;" in text
 
 
 def test_without_the_compiler_the_remedy_is_named(monkeypatch):

@@ -10,12 +10,13 @@
 #define MWC_BALL_H
 
 #include <math.h>
+#include "../circular.h"
 #include "../mw_enclosures.h"
 
 /* 2^-53; 2^-1073: what underflow loses in one operation, three halves of the least double at most; 1 + 2^-40. */
 static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931e-324, MWC_READ = 1.0000000000009095;
 
-/* Largest error of sine and cosine for |a| < MWC_FAR. With r the reduced argument, |r| < 0.7854:
+/* Largest error of mwi_sine for |a| < MWC_FAR. With r the reduced argument, |r| < 0.7854:
  *   reduction   a - k P1 is exact (Sterbenz; k P1 and k P2 are exact, P1 and P2 have 33 bits, |k| < 2^20); the two other
  *               differences round by a quarter of MWC_U each where |r| < 1/2, else by half of it;
  *   series      Taylor's, its first omitted term below 1e-19;
@@ -23,7 +24,7 @@ static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931
  *               roundings each; the square in 1 - r^2/2 a quarter of MWC_U.
  * Sine 0.88 + 0.5 + 0.35, cosine 0.71 + 0.5 + 0.25 + 0.08: below two units of MWC_U. Where k = 0 nothing is reduced, and the
  * sine's error is as small a share of the sine itself: 1 for the last sum and 0.6 for the terms before it. */
-static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = 1.6e6;
+static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = MWI_CIRCULAR_FAR;
 
 static inline double mwc_abs(double a)
 {
@@ -96,43 +97,22 @@ static inline mw_ball mwc_sqrt(mw_ball a)
     return mwc_where(a.mid - mwc_reach(a) > 0.0, root, a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root);
 }
 
-/* Sine and cosine of a double, each within MWC_SINE. */
-static inline void mwc_sine(double a, double *sine, double *cosine)
-{
-    const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it is rounded to a whole number */
-    const double k = (a * 0.6366197723675814 + magic) - magic;
-    const double r = ((a - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
-    const double z = r * r;
-    const double u = -0.16666666666666666 + z * (0.008333333333333333 + z * (-0.0001984126984126984 + z *
-        (2.7557319223985893e-06 + z * (-2.505210838544172e-08 + z * (1.6059043836821613e-10 + z *
-        (-7.647163731819816e-13 + z * (2.8114572543455206e-15)))))));
-    const double v = 0.041666666666666664 + z * (-0.001388888888888889 + z * (2.48015873015873e-05 + z *
-        (-2.755731922398589e-07 + z * (2.08767569878681e-09 + z * (-1.1470745597729725e-11 + z *
-        (4.779477332387385e-14 + z * (-1.5619206968586225e-16)))))));
-    const double s = r + (r * z) * u, w = 1.0 - 0.5 * z;
-    const double c = w + (((1.0 - w) - 0.5 * z) + (z * z) * v);
-    const int quadrant = (int)k, odd = quadrant & 1;
-    const double first = odd ? c : s, second = odd ? s : c;
-    *sine = (quadrant & 2) ? -first : first;
-    *cosine = ((quadrant + 1) & 2) ? -second : second;
-}
-
 /* |sin(m + d) - sin m| <= |cos m| |d| + d^2/2 */
 static inline void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
 {
     double s, c;
     const int near = mwc_abs(a.mid) < MWC_FAR;
-    mwc_sine(near ? a.mid : 0.0, &s, &c);
+    mwi_sine(near ? a.mid : 0.0, &s, &c);
     const double bend = 0.5 * a.radius * mwc_reach(a), size = mwc_abs(a.mid) < 0.78 ? mwc_abs(s) : 1.0;
     *sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend + (MWC_SINE * size + MWC_TINY));
     *cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend + MWC_SINE);
 }
 
 /* Angle of the point (x, y): about any angle t near it, t + atan((y cos t - x sin t)/(x cos t + y sin t)), whose arc is
- * within |d|^3/3 of its tangent d. Nothing is asked of atan2 but that t lies on the right side of the axis. */
+ * within |d|^3/3 of its tangent d. Nothing is asked of t but that it lies on the right side of the axis. */
 static inline mw_ball mwc_atan2(mw_ball y, mw_ball x)
 {
-    const double t = atan2(y.mid, x.mid);
+    const double t = mwi_angle(y.mid, x.mid);
     const int uncut = x.mid - mwc_reach(x) > 0.0 || mwc_abs(y.mid) - mwc_reach(y) > 0.0;
     mw_ball s, c;
     mwc_sincos(mwc_make(t, 0.0), &s, &c);

@@ -175,7 +175,7 @@ static void mwc_poly_sincos(mw_polynomial a, mw_polynomial *sine, mw_polynomial 
  * below a half: d^41/41. */
 static mw_polynomial mwc_poly_atan2(mw_polynomial y, mw_polynomial x)
 {
-    const double t = atan2(y.c[0], x.c[0]);
+    const double t = mwi_angle(y.c[0], x.c[0]);
     const int uncut = (x.c[0] > 0.0 && mwc_poly_least(&x) > 0.0) || mwc_poly_least(&y) > 0.0;
     const int right = mwc_abs(t) < 3.15 && (t < 0.0) == (y.c[0] < 0.0);
     mw_ball s, c;

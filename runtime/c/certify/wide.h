@@ -153,7 +153,7 @@ static inline void mwc_wide_sincos(mw_wide a, mw_wide *sine, mw_wide *cosine)
 /* As mwc_atan2. */
 static inline mw_wide mwc_wide_atan2(mw_wide y, mw_wide x)
 {
-    const double t = atan2(y.hi, x.hi);
+    const double t = mwi_angle(y.hi, x.hi);
     const int uncut = (x.hi > 0.0 && mwc_wide_least(x) > 0.0) || mwc_wide_least(y) > 0.0;
     mw_wide s, c;
     mwc_wide_sincos(mwc_wide_of(t), &s, &c);

@@ -21,7 +21,7 @@ LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
 #: Longest name of a design, and what it must not hold.
 LONGEST_NAME = 200
-CONTROLS = r"\x00-\x1f\x7f-\x9f\u2028\u2029"
+CONTROLS = r"\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069"
 
 #: Name of a comparison that a number must pass → its reason where it fails, the remedy, its word in JSON Schema.
 COMPARISONS = {
