@@ -211,8 +211,8 @@ def test_the_image_makes_a_quarter_space_of_the_half_space(poisson_ratio):
 
 def test_the_command_names_edges_and_gaps(capsys, monkeypatch):
     monkeypatch.setattr(loading, "compliances", lambda *_: None)
-    words = ["loaded", "helical-crowned", "--torque-nm", "60", "--phi-deg=0", "--set", "misalignment.horizontal_deg=0.08"]
-    assert main([*words, "--json", "-"]) == 0
+    words = ["loaded", "helical-crowned", "--torque-nm", "60", "--phi-deg=0", "--json", "-"]
+    assert main([*words, "--set", "misalignment.horizontal_deg=0.08"]) == 0
     (point,) = json.loads(capsys.readouterr().out)["points"]
     edge = next(pair for pair in point["pairs"] if pair["pairs_later"] == -1)
     assert (edge["kind"], edge["first_contact"]) == ("edge", "edge of the pinion (face)")

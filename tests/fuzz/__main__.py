@@ -1,8 +1,8 @@
 """Everything that is fuzzed, bounded and seeded, in one table: ``python -m tests.fuzz`` (``make fuzz``).
 
 Designs, ``surface`` and ``report`` of them, the C interface under each sanitizer and in threads, and records. A
-part that fails makes the exit status 1; a tool that is missing is named in the table, and what it would have checked was
-then not checked.
+part that fails makes the exit status 1; a tool that is missing is named in the table, and what it would have checked
+was then not checked.
 """
 
 import argparse

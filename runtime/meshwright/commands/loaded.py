@@ -7,9 +7,9 @@ there that depends on the cells of the method; it is named, with Hertz's pressur
 a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
 Where
 the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with the free
-edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the cells. Exit
-status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not found, or the
-torque is too large for the method.
+edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the cells.
+Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not found, or
+the torque is too large for the method.
 """
 
 import numpy as np

@@ -38,7 +38,7 @@ _TEETH_SOFTER = 2.0
 @dataclass(frozen=True)
 class LoadedPair:
     """One pair under load: normal force in N, peak pressure in MPa, Hertz contact under the same force, None without
-    force and where an edge touches; ``apart``: gap at its first contact, mm, when the first of all pairs touches unloaded.
+    force and where an edge touches; ``apart``: gap at its first contact, mm, when the first pair touches unloaded.
     """
 
     contact: PairTouch
@@ -125,9 +125,10 @@ def loaded_contact(
     wheel_angle = unloaded_wheel_angle(gear, contacts)
     places = tuple(_Place.of(gear, member, contact, wheel_angle) for contact in contacts)
     used, forces, rotation = places, np.array([load.torque / place.arm for place in places]), math.nan
-    passes, before = (_FIRST_CELLS, _CELLS), {}
+    passes = [_FIRST_CELLS, _CELLS]
+    before: _Before = {}
     if any(place.contact.touch.edge for place in places):
-        passes, rotation = (_FIRST_CELLS, *passes), _first_rotation(gear, places, load)
+        passes, rotation = [_FIRST_CELLS, *passes], _first_rotation(gear, places, load)
     for cells in passes:
         # The first pass finds the forces, the last fits each grid to its own ellipse, or to what the load closes.
         angles, least = (pinion_angle, wheel_angle), _LEAST_SHARE * load.torque
@@ -143,7 +144,7 @@ def loaded_contact(
             for place, grid in zip(used, grids, strict=True)
         ]
         pressures, rotation = _equilibrium(gear, used, grids, load, compliance, start)
-        before = {of.contact.pairs_later: part for of, *part in zip(used, grids, pressures, strict=True)}
+        before = {of.contact.pairs_later: (g, p) for of, g, p in zip(used, grids, pressures, strict=True)}
         forces = np.array([grid.area * p.sum() for grid, p in zip(grids, pressures, strict=True)])
     solved = tuple(
         LoadedPair(
@@ -157,6 +158,10 @@ def loaded_contact(
     wound = direction * rotation * member.turning
     lag = -gear.ratio * wound if load.member == "pinion" else wound
     return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag, unloaded)
+
+
+# By pair (``pairs_later``) the cells of the pass before and their pressures.
+_Before = dict[int, tuple[ContactGrid, Floats]]
 
 
 @dataclass(frozen=True)

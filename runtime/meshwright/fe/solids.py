@@ -141,7 +141,7 @@ def _edge(drive: Drive, first: Callable[[Floats], FirstContacts] | None, angle: 
     """First contact at an angle if it is an edge or a corner, with the curvatures of the tangency nearest in angle."""
     if first is None:
         return None
-    found = first([angle])
+    found = first(np.array([angle]))
     if found.kinds[0] in (None, "tangency"):
         return None
     steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
