@@ -27,12 +27,13 @@ def test_a_spherical_grid_spans_face_and_tip_of_the_blank():
     assert found.values.reshape(7, 9, 2)[0, :, 0] == pytest.approx(np.zeros(9), abs=1e-12)
 
 
-def test_an_undercut_tooth_begins_at_the_undercut_line():
-    found = grid(Drive.load("spherical-table-2-3"), "pinion", (5, 5))
-    lowest = found.values.reshape(5, 5, 2)[0, :, 0]
+def test_an_undercut_tooth_begins_on_its_fillet():
+    """Above its undercut line, where flank and fillet end in one edge."""
     drive = Drive.load("spherical-table-2-3")
-    assert drive.flank("pinion")(found.values[:5]).regular == pytest.approx(np.zeros(5), abs=1e-9)
-    assert (lowest > 1.0).all()
+    flank, fillet = (grid(drive, "pinion", (5, 5), region) for region in ("flank", "fillet"))
+    assert (drive.flank("pinion")(flank.values[:5]).regular > 0.1).all()
+    ends = fillet.points.reshape(5, 5, 3)[[0, -1]]
+    assert np.linalg.norm(ends - flank.points[:5], axis=2).min(axis=0) == pytest.approx(np.zeros(5), abs=1e-7)
 
 
 def test_the_wheel_of_a_worm_drive_keeps_within_its_blank():

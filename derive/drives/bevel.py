@@ -172,7 +172,7 @@ def bevel(cut_gear):
         parameters=k.parameters(formate),
         rules=mean.rules,
         systems=mean.systems,
-        guards=(*_guards(PINION), *_guards(GEAR)),
+        guards=(*_guards(pinion_tooth), *_guards(gear_tooth)),
         sizes=_sizes(),
         instant=phi_1,
         error=error,
@@ -249,13 +249,19 @@ def _margins(tooth, point):
 
 
 def _fillet_margins(tooth):
-    alpha = tooth.settings.blade_angle.symbol
-    return Margin("", "junction", tooth.tau - alpha, joins="flank"), Margin("", "bottom", sp.pi / 2 - tooth.tau)
+    joint = tooth.blade.inclination_at_junction
+    return Margin("", "junction", tooth.tau - joint, joins="flank"), Margin("", "bottom", sp.pi / 2 - tooth.tau)
 
 
-def _guards(m):
+def _guards(tooth):
+    m = tooth.settings
     face, outer = m.face_width, m.outer_cone_distance
     return (
+        Guard(
+            1 - tooth.blade.sine_at_junction**2,
+            f"the arc of the {m.body}'s blade and its rounded tip must touch",
+            _places(m.blade_curvature, m.blade_reference, m.edge_radius),
+        ),
         Guard(
             outer.symbol - face.symbol,
             f"the {m.body}'s outer cone distance must exceed its face width",
@@ -306,7 +312,7 @@ class _MeanPoint:
         tooth, m = self.gear, GEAR
         point, normal = tooth.flank.body_point(), tooth.flank.body_normal()
         along, below_tip = _cone(m, point)
-        height = (tooth.arc - tooth.blade.junction) * sp.cos(m.blade_angle.symbol)
+        height = (tooth.arc - tooth.blade.straight_junction) * sp.cos(m.blade_angle.symbol)
         names = (k.mean_cradle_gear if tooth.recovered else k.mean_u_gear), k.mean_theta_gear
         return DesignSystem(
             name="gear_mean_point",

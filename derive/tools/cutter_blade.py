@@ -86,16 +86,77 @@ class CutterBlade:
         return self.reference + x - shortfall
 
     @property
-    def junction(self):
+    def straight_junction(self):
         """Arc length at which the rounding of the tip joins a straight edge."""
         return self.tip_radius * (1 - sp.sin(self.angle)) / sp.cos(self.angle)
 
     @property
+    def sine_at_junction(self):
+        """Sine of the inclination of the normal where the rounding of the tip joins the edge, between −1 and 1.
+
+        The rounding touches the tip plane, so its centre is below it by its radius; it touches the arc from outside.
+        """
+        return sp.sin(self.angle) + self._bend * self._short
+
+    @property
+    def inclination_at_junction(self):
+        """Inclination of the normal there: the blade angle of a straight edge."""
+        return self.definitions.let(
+            f"tau_joint_{self.member}", v.arc(self.sine_at_junction, self._cosine_at_junction),
+            "inclination of the normal where rounding and edge join", "rad", "tool",
+        )  # fmt: skip
+
+    @property
+    def junction(self):
+        """Arc length at which the rounding of the tip joins the edge."""
+        cosine = sp.cos(self.angle) * self._cosine_at_junction + sp.sin(self.angle) * self.sine_at_junction
+        return self.definitions.let(
+            f"u_joint_{self.member}", self.reference + v.arc(self._bend * self._chord, cosine) / self._bend,
+            "along the blade from its tip to where its rounding joins", "mm", "tool",
+        )  # fmt: skip
+
+    @property
+    def _short(self):
+        radius, sine = self.tip_radius, sp.sin(self.angle)
+        return self.definitions.let(
+            f"short_{self.member}",
+            (radius * (1 - sine) - self.reference * sp.cos(self.angle)) / (1 + self._bend * radius),
+            "sine at the junction less that of the blade angle, over the curvature", "mm", "tool",
+        )  # fmt: skip
+
+    @property
+    def _cosine_at_junction(self):
+        return self.definitions.let(
+            f"cosine_joint_{self.member}", v.root(1 - self.sine_at_junction**2),
+            "cosine of the inclination of the normal where rounding and edge join", "", "tool",
+        )  # fmt: skip
+
+    @property
+    def _chord(self):
+        """Sine of the turn along the arc from the reference to the junction, over the curvature; no difference of
+        nearly equal numbers, so that it holds for a straight edge.
+        """
+        sine, cosine = sp.sin(self.angle), sp.cos(self.angle)
+        change = sine * (sine + self.sine_at_junction) / (cosine + self._cosine_at_junction)
+        return self.definitions.let(
+            f"chord_{self.member}", self._short * (cosine + change),
+            "along the line from the reference to where rounding and edge join", "mm", "tool",
+        )  # fmt: skip
+
+    @property
     def tip_centre(self):
-        return v.add(v.scale(self.junction, self._along), v.scale(self.tip_radius, self._out))
+        """Centre of the rounding."""
+        chord, sine = self._chord, sp.sin(self.angle)
+        turned = sp.cos(self.angle) * self._cosine_at_junction + sine * self.sine_at_junction
+        joint = (self.reference + chord) * sine + self._bend * chord**2 / (1 + turned) * sp.cos(self.angle)
+        centre = self.side * (joint - self.tip_radius * self._cosine_at_junction)
+        centre = self.definitions.let(
+            f"x_round_{self.member}", centre, "centre of the rounding from the point radius", "mm", "tool"
+        )
+        return centre, sp.Integer(0), -self.tip_radius
 
     def tip(self, tau, theta):
-        """The rounding of the tip; ``tau`` is the inclination of its normal, the blade angle at the junction."""
+        """The rounding of the tip; ``tau`` is the inclination of its normal."""
         out = -self.side * sp.cos(tau), sp.Integer(0), -sp.sin(tau)
         point = v.sub(self.tip_centre, v.scale(self.tip_radius, out))
         slope = -self.side * sp.sin(tau), sp.Integer(0), sp.cos(tau)  # also of a sharp tip

@@ -202,7 +202,7 @@ class Drive:
         """
         from meshwright.flank.grids import grid
 
-        return grid(self, member, shape, region, self.uses, inset)
+        return grid(self, member, shape, region, inset)
 
     @cached_property
     def uses(self):
@@ -212,10 +212,30 @@ class Drive:
         return uses(self)
 
     def region(self, member, name="flank"):
-        """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`."""
+        """A surface of a member with the limits that bound it: :class:`~meshwright.flank.region.Region`.
+
+        Flank and fillet of undercut teeth end where they cross.
+        """
         from meshwright.flank.region import region
 
-        return region(self, member, name, self.uses)
+        found = region(self, member, name, self.uses)
+        if found.empty or name not in ("flank", "fillet"):
+            return found
+        crossing = self.crossing(member)
+        return found if crossing is None else crossing.bounds(found)
+
+    def crossing(self, member):
+        """Where the fillet of a member cuts off its flank: :class:`~meshwright.flank.undercut.Crossing`, or None."""
+        from meshwright.flank.undercut import crossing
+
+        known = self._crossings
+        if member not in known:
+            known[member] = crossing(self, member)
+        return known[member]
+
+    @cached_property
+    def _crossings(self):
+        return {}
 
     def trace(self, angles):
         """Unknowns (N, nx) and status words of a bare trace, without contact geometry: the fast way."""

@@ -147,3 +147,23 @@ def test_a_coarse_grid_reaches_as_far_as_a_fine_one():
     drive = Drive.load("zk-zn-30")
     coarse, fine = (drive.surface("wheel", shape).values[:, 0] for shape in ((2, 9), (41, 9)))
     assert (coarse.min(), coarse.max()) == pytest.approx((fine.min(), fine.max()), abs=0.05)
+
+
+@pytest.mark.validate
+def test_a_body_does_not_depend_on_which_of_its_flanks_is_in_hand():
+    """Two head cutters make the flanks of a face gear; its tooth and space are equally wide at the middle."""
+    one, other = (closed_body(Drive.load(f"face-worm-conical-{f}"), "wheel", 1, 2e-2) for f in ("concave", "convex"))
+    assert one.volume == pytest.approx(other.volume, rel=1e-5)
+
+
+@pytest.mark.validate
+def test_the_root_of_an_undercut_tooth_is_where_the_tip_of_its_hob_passes():
+    """The envelope of the hob's rounding goes on far above the flank that it cuts; the root is at its other end."""
+    drive = Drive.load("zk-zn-60")
+    tooth = solid_body(drive, "wheel", 1).tooth
+    sizes = Drive(drive.design.with_whole_blank()[0]).design
+    tip = sizes.value("hob_pitch_radius_mm") + sizes.value("hob_tip_addendum_mm", "blank")
+    for side in tooth.sides:
+        below, _, _ = side.grids(np.array([0.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+        root = np.hypot(below[0, 0, 0], below[0, 0, 1])
+        assert sizes.value("cutting_center_distance_mm") - root == pytest.approx(tip, abs=2e-2)

@@ -102,12 +102,22 @@ def test_loaded_helical_pairs_share_the_torque(capsys):
         assert sum(pair["force_n"] for pair in point["pairs"]) * arm == pytest.approx(60e3, rel=2e-3)
 
 
-def test_teeth_without_undercut_alone_are_solid(capsys):
-    """Twelve teeth without profile shift are undercut at 20 degrees."""
-    changes = ["pinion_profile_shift_coefficient=0", "wheel_profile_shift_coefficient=0", "pinion_lead_crowning_um=15"]
-    settings = [part for change in changes for part in ("--set", f"design.{change}")]
-    assert main(["loaded", "spur-profile-shift", "--torque-nm", "20", *settings]) == 2
-    assert "the teeth of the pinion are undercut" in capsys.readouterr().err
+def test_an_undercut_tooth_is_solid_down_to_its_root():
+    """Twelve teeth without profile shift are undercut at 20 degrees: flank and fillet meet above the base circle."""
+    drive = Drive.load("spur-profile-shift").with_(design=CROWNING | {
+        "pinion_profile_shift_coefficient": 0.0, "wheel_profile_shift_coefficient": 0.0,
+    })  # fmt: skip
+    pinion = gear_pair(drive).pinion
+    form = pinion.tooth(0.0)
+    values = np.linspace(*form.faces, 7)
+    for side in (form.left, form.right):
+        flank, fillet = (of.points(values, end(values)[:, None])[:, 0] for of, end in (
+            (side.flank, side.flank.first), (side.fillet, side.fillet.last),
+        ))  # fmt: skip
+        assert np.linalg.norm(flank - fillet, axis=1).max() < 1e-6
+        assert (np.hypot(flank[:, 0], flank[:, 1]) > base_radius(12) + 1e-3).all()
+    body = mesh_body([placed_tooth(pinion, 0.0, k, None) for k in tooth_order(pinion, 0.0, (0,))], DENSITY)
+    assert body.mesh.smallest_jacobian() > 0.2
 
 
 def test_a_drive_without_solid_teeth_says_which_have_them(capsys):

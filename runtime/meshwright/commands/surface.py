@@ -65,14 +65,19 @@ def run(options):
         step("where contact uses the flanks")
         drive.uses  # noqa: B018 (the drive keeps it)
         step(f"{options.region} of the {options.member}")
-        cut = _undercut(options, drive, shape)
-        found = drive.surface(options.member, shape, options.region) if cut is None else cut[0]
+        found = drive.surface(options.member, shape, options.region)
+    if drive.crossing(options.member) is not None:
+        other = "fillet" if options.region == "flank" else "flank"
+        print(
+            f"the flank of the {options.member} is undercut: its {options.region} is written up to its {other}",
+            file=sys.stderr,
+        )
     if options.vtu:
         write_text(options.vtu, exports.vtu(found))
     if options.stl:
         triangles = found.mesh.points, found.mesh.triangles
         write_bytes(options.stl, exports.stl(*triangles, f"{found.member} {found.region}"))
-    good = _write_step(options, drive, shape, cut) if options.step else True
+    good = _write_step(options, drive, shape) if options.step else True
     if options.json or not (options.vtu or options.stl or options.step):
         write_json(options.json or "-", document(found))
     return 0 if good else 1
@@ -156,25 +161,10 @@ def _shape(text):
     return across, along
 
 
-def _undercut(options, drive, shape):
-    """What is left of a flank that its fillet cuts off, as a grid, and a function of its STEP file; else None."""
-    if options.region != "flank" or min(shape) < 2:
-        return None
-    try:
-        from meshwright.fe import undercut
-    except ModuleNotFoundError:
-        return None
-    side = undercut.undercut_side(drive, options.member)
-    if side is None:
-        return None
-    print(f"the flank of the {options.member} is undercut: written up to where its fillet cuts it", file=sys.stderr)
-    return undercut.left_of_flank(drive, side, shape), lambda: undercut.step_of_flank(drive, side, shape)
-
-
-def _write_step(options, drive, shape, cut):
+def _write_step(options, drive, shape):
     """Write the file, say how far it departs, and return whether that is little enough."""
     place, region = options.step, options.region
-    made = step(drive, drive.region(options.member, region), shape) if cut is None else cut[1]()
+    made = step(drive, drive.region(options.member, region), shape)
     write_bytes(place, made.content)
     print(f"{place}: B-spline surface within {1000.0 * made.deviation:.3g} µm of the {region}", file=sys.stderr)
     return made.deviation <= MOST_DEVIATION

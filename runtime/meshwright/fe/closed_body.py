@@ -17,7 +17,6 @@ from meshwright.drive import Drive
 from meshwright.fe.facets import facet_departures, finer_rows
 from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.rim import DEEPEST_RIM, check_rim
-from meshwright.fe.sides import RegionSide, Side
 from meshwright.fe.sizes import other_flank, solid_sizes
 from meshwright.fe.solids import RIM_MODULES
 from meshwright.fe.thread_body import ThreadSide
@@ -25,8 +24,9 @@ from meshwright.fe.thread_flanks import thread_sides
 from meshwright.fe.tooth_patches import Grid, Rows, Tooth, between
 from meshwright.flank.mesh import mesh
 from meshwright.flank.patches import Patch, triangulated
-from meshwright.flank.region import Region
+from meshwright.flank.region import Region, region
 from meshwright.flank.sections import EVEN, Sections
+from meshwright.flank.sides import RegionSide, Side
 from meshwright.flank.step import Spline
 
 # Rows over flank and face from which the refinement of facets starts, and at which it ends.
@@ -130,10 +130,11 @@ def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None)
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
     sides, sections = [], Sections.of(drive.flank(member))
     for one in (drive, other_flank(drive)):
-        regions = [one.region(member), one.region(member, "fillet") if fillet else None]
+        names = ("flank", "fillet") if fillet else ("flank",)
+        regions = [region(one, member, name, one.uses) for name in names]
         if Sections.of(regions[0].flank) is None:
             sections = sections or _of_blank(regions[0], member)
-            regions = [of and of.in_sections(sections) for of in regions]
+            regions = [of.in_sections(sections) for of in regions]
         sides.append(RegionSide.of(*regions))
     faces = min(s.reach[0] for s in sides), max(s.reach[1] for s in sides)
     return _between(drive, member, sides, faces, drive.teeth(member), sizes, rim)
@@ -198,7 +199,6 @@ def _between(
     turn = 0.0
     if drive.design.description["flanks_apart"]:
         turn = 0.5 * pitch - _thickness(low, high, 0.5 * sum(faces), sizes.get("middle"))
-        turn = -turn if swapped else turn
     values = np.linspace(*faces, _SAMPLES)
     below, above, _ = low.grids(values, np.array([0.0, 1.0]), np.array([0.0, 1.0]))
     heights = [low.sections.height(points) for points in (below[:, 0], above[:, -1])]
@@ -217,10 +217,8 @@ def _between(
     )
     if not swapped or turn == 0.0:
         return tooth
-    # the flank in hand keeps its place: the other one was to be turned
-    return Tooth(
-        member, tooth.sides, (turn, tooth.turns[1] - turn), pitch, faces, tooth.breaks, tooth.bore, outward
-    )
+    # the flank in hand keeps its place: the other one is to be turned
+    return replace(tooth, turns=(-turn, tooth.turns[1] - turn))
 
 
 def _deepest(sections: Sections, values: Floats, root: float) -> float:

@@ -8,7 +8,7 @@ axis and at the smaller of one along the radius. Sizes come from the drive's fun
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -21,6 +21,7 @@ from meshwright.fe.profile import Section, SectionCurves
 from meshwright.fe.rim import bore_radius, bored
 from meshwright.fe.sizes import body_of, flank_pair, solid_sizes
 from meshwright.fe.tooth import Cut, SideName, Teeth, ToothForm, ToothSide
+from meshwright.flank.undercut import undercut_side
 
 _TIP_SAMPLES = 33
 
@@ -29,8 +30,8 @@ def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """The teeth of a member.
 
     rim_thickness: in mm from the root to a bore, not deeper than 0.8 radii; of an internal gear to its outside; of a
-    tooth along the radius, from the lowest root to the plane back of the gear. Raises DesignError where a flank is
-    undercut below its tip.
+    tooth along the radius, from the lowest root to the plane back of the gear. An undercut flank ends where its fillet
+    cuts it; raises DesignError where that does not reach it.
     """
     sizes = solid_sizes(drive, member)
     faces = (sizes["face_first"], sizes["face_last"])
@@ -52,26 +53,35 @@ def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
 def _side(drive: Drive, member: str, section: Section) -> ToothSide:
     sizes = solid_sizes(drive, member)
     faces = np.linspace(sizes["face_first"], sizes["face_last"], _TIP_SAMPLES)
-    flank_root = constant(sizes["flank_root"])
     tip = CubicSpline(faces, tip_parameter(drive, member, section, faces, (sizes["tip_first"], sizes["tip_last"])))
-    flank = SectionCurves(region_surface(drive, member, "flank"), section, flank_root, tip)
-    _check_whole(drive, member, flank, faces)
-    fillet_ends = constant(sizes["fillet_land"]), constant(sizes["fillet_junction"])
-    fillet = SectionCurves(region_surface(drive, member, "fillet"), section, *fillet_ends)
-    return ToothSide(fillet, flank)
+    flank = SectionCurves(region_surface(drive, member, "flank"), section, constant(sizes["flank_root"]), tip)
+    root, end = flank.first, constant(sizes["fillet_junction"])
+    if _undercut(drive, member, flank, faces):
+        root, end = (CubicSpline(faces, at) for at in _crossing(drive, member, faces))
+    land = constant(sizes["fillet_land"])
+    fillet = SectionCurves(region_surface(drive, member, "fillet"), section, land, end)
+    return ToothSide(fillet, replace(flank, first=root))
 
 
-def _check_whole(drive: Drive, member: str, flank: SectionCurves, sections: Floats) -> None:
-    """Refuse a flank that its tool has undercut: fillet and flank then cross instead of touching."""
+def _undercut(drive: Drive, member: str, flank: SectionCurves, sections: Floats) -> bool:
+    """Whether the tool has cut the flank off somewhere: fillet and flank then cross instead of touching."""
     root = flank.first(sections)
     places = np.stack([root, flank.solve(sections, root[:, None])[:, 0]], axis=1)
-    if np.any(drive.flank(member)(places).regular < 0.0):
+    return bool(np.any(drive.flank(member)(places).regular < 0.0))
+
+
+def _crossing(drive: Drive, member: str, sections: Floats) -> tuple[Floats, Floats]:
+    """Profile parameters (K,) of flank and fillet where they meet in sections (K,); raises DesignError if nowhere."""
+    side = undercut_side(drive, member)
+    if side is None:
         raise DesignError(
             "design",
             drive.design.tables.get("name"),
-            f"the teeth of the {member} are undercut; there is no solid model of such teeth",
+            f"the teeth of the {member} are undercut and their fillet does not reach their flank",
             "choose more teeth or a larger profile shift; `meshwright limits` says where their flanks begin",
         )
+    flank, fillet = side.joint(sections)
+    return flank[:, side.flank.region.profile], fillet[:, side.fillet.region.profile]
 
 
 def _set_apart(

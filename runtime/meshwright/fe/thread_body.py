@@ -26,7 +26,7 @@ _BEYOND = 0.02
 
 @dataclass(frozen=True)
 class ThreadSide:
-    """Flank and fillet of one side of a thread: a :class:`~meshwright.fe.sides.Side`."""
+    """Flank and fillet of one side of a thread: a :class:`~meshwright.flank.sides.Side`."""
 
     fillet: SectionCurves
     flank: SectionCurves
@@ -36,7 +36,7 @@ class ThreadSide:
     has_step = False
 
     def grids(self, values: Floats, fillet: Floats, flank: Floats) -> tuple[Floats, Floats, Floats]:
-        """As :class:`~meshwright.fe.sides.Side` says."""
+        """As :class:`~meshwright.flank.sides.Side` says."""
         points, normals = _grid(self.flank, values, flank)
         rounded, _ = _grid(self.fillet, values, fillet)
         rounded[:, -1] = points[:, 0]

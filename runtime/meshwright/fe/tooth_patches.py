@@ -13,9 +13,9 @@ import numpy as np
 from meshwright.base.errors import DesignError
 from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.sides import Side
 from meshwright.flank.patches import Patch
 from meshwright.flank.sections import Sections
+from meshwright.flank.sides import Side
 
 _TURN = 2.0 * np.pi
 # Places on half a flank at which azimuths are compared, and the number of its middle among those from root to tip.

@@ -12,7 +12,6 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.flank.lines import ROUNDING, lines
 from meshwright.flank.mesh import Triangulation, mesh
-from meshwright.flank.region import region
 
 
 @dataclass(frozen=True)
@@ -33,8 +32,8 @@ class Grid:
     mesh: Triangulation | None = None
 
 
-def grid(drive, member, shape, name, uses, inset=0.0):
-    """The :class:`Grid` of the region ``name`` of a member; ``uses`` as of :func:`~meshwright.flank.region.region`.
+def grid(drive, member, shape, name, inset=0.0):
+    """The :class:`Grid` of the region ``name`` of a member.
 
     ``inset`` is the share of its length by which the grid stays off either end of the region along the tooth, and of
     the profile's parameter off either end of each line across it.
@@ -43,7 +42,7 @@ def grid(drive, member, shape, name, uses, inset=0.0):
     """
     if min(shape) < 2:
         raise UsageError(f"--grid {shape[0]}x{shape[1]}: needs at least 2 points each way; for example --grid 21x41")
-    whole = region(drive, member, name, uses)
+    whole = drive.region(member, name)
     triangles = mesh(whole, tuple(n - 1 for n in shape))
     if not len(triangles.triangles):
         raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
@@ -53,26 +52,6 @@ def grid(drive, member, shape, name, uses, inset=0.0):
     values = guides.at(along).places(np.linspace(inset, 1.0 - inset, shape[0])).reshape(-1, len(whole.chart.sizes))
     values[~(whole.limits.least(whole.flank(values)) >= -ROUNDING)] = np.nan
     return _of_design(drive, whole.flank, shape, values, triangles)
-
-
-def between_lines(drive, across, count):
-    """The :class:`Grid` of ``count`` points on each of the lines ``across`` a region, whose ends need not be its own:
-    what is left of a flank that another surface cuts. The triangles are those of the grid.
-    """
-    flank, q = across.region.flank, across.places(np.linspace(0.0, 1.0, count))
-    flat = q.reshape(-1, q.shape[2])
-    at = flank(flat)
-    number = np.arange(len(flat)).reshape(q.shape[:2])
-    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    triangles = np.concatenate([np.stack(p, axis=-1).reshape(-1, 3) for p in ((a, b, c), (a, c, d))])
-    corner = at.points[triangles]
-    facing = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    if np.sum(facing * at.normals[triangles[:, 0]]) < 0.0:
-        triangles = triangles[:, ::-1]
-    rim = np.concatenate([number[:, 0], number[-1, 1:], number[-2::-1, -1], number[0, -2:0:-1]])
-    border = np.stack([rim, np.roll(rim, -1)], axis=1)
-    mesh = Triangulation(flat, at.points, at.normals, triangles, border, np.full(len(border), -1))
-    return _of_design(drive, flank, q.shape[:2], flat, mesh)
 
 
 def of_design(drive, triangles):

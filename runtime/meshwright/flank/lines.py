@@ -121,21 +121,32 @@ class Lines:
         """Parameters (J, M, k) at shares (J,) of the arc length of each line; ends included."""
         from scipy.interpolate import CubicSpline, PchipInterpolator
 
-        flank, count = self.region.flank, len(self.along)
+        count = len(self.along)
         share = np.broadcast_to(np.linspace(0.0, 1.0, PLACES)[:, None], (PLACES, count)).copy()
         wanted = np.broadcast_to(np.asarray(shares, dtype=float)[:, None], (len(shares), count)).copy()
         for turn in range(ROUNDS):
-            q = self._solved(share)
-            points = flank(q.reshape(-1, q.shape[2])).points.reshape(PLACES, count, 3)
-            steps = np.linalg.norm(np.diff(points, axis=0), axis=2)
-            arc = np.concatenate([np.zeros((1, count)), np.cumsum(steps, axis=0)])
-            arc = np.where(arc[-1] > 0.0, arc / np.where(arc[-1] > 0.0, arc[-1], 1.0), share)
+            arc = self._arc(share)
             last = turn == ROUNDS - 1
             even = wanted if last else np.broadcast_to(np.linspace(0.0, 1.0, PLACES)[:, None], share.shape)
             kind = CubicSpline if last else PchipInterpolator
             share = np.stack([kind(arc[:, k], share[:, k])(even[:, k]) for k in range(count)], axis=1)
             share[even == 0.0], share[even == 1.0] = 0.0, 1.0
         return self._solved(share)
+
+    def spaced(self, shares):
+        """Parameters (J, M, k) at about the shares (J,) of the arc length of each line; ends included."""
+        share = np.broadcast_to(np.linspace(0.0, 1.0, PLACES)[:, None], (PLACES, len(self.along)))
+        arc = self._arc(share)
+        wanted = np.asarray(shares, dtype=float)
+        return self._solved(np.stack([np.interp(wanted, a, share[:, 0]) for a in arc.T], axis=1))
+
+    def _arc(self, share):
+        """Shares (J, M) of the arc length at shares (J, M) of the profile's parameter."""
+        q = self._solved(share)
+        points = self.region.flank(q.reshape(-1, q.shape[2])).points.reshape(*q.shape[:2], 3)
+        steps = np.linalg.norm(np.diff(points, axis=0), axis=2)
+        arc = np.concatenate([np.zeros((1, steps.shape[1])), np.cumsum(steps, axis=0)])
+        return np.where(arc[-1] > 0.0, arc / np.where(arc[-1] > 0.0, arc[-1], 1.0), share)
 
     def onto(self, q):
         """Places (M, k) on the lines with the profile's parameters that nearby ones have."""
@@ -189,9 +200,11 @@ def corners(found):
     return np.unique(np.concatenate(parts))
 
 
-def changes(values, what):
-    """Places between ascending values (K,) at which ``what``, a function of places, has another value from there on."""
-    seen = what(values)
+def changes(values, what, seen=None):
+    """Places between ascending values (K,) at which ``what``, a function of places, has another value from there on;
+    ``seen`` (K,): what it is at them, if that is known.
+    """
+    seen = what(values) if seen is None else seen
     at = np.flatnonzero(seen[1:] != seen[:-1])
     low, high, first = values[at], values[at + 1], seen[at]
     for _ in range(CORNER_BISECTIONS if len(at) else 0):

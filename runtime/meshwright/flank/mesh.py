@@ -196,7 +196,8 @@ class _Cut:
             trial = at + size * np.array([[0.0, 0.0], [1e-5, 0.0], [-1e-5, 0.0], [0.0, 1e-5], [0.0, -1e-5]])
             found = region.flank(region.chart.complete(trial, np.tile(q, (5, 1))))
             values = region.limits.values(found)[:, pair]
-            slopes = np.stack([(values[1] - values[2]) / 2e-5, (values[3] - values[4]) / 2e-5], axis=1)
+            with np.errstate(invalid="ignore"):  # a limit may be open here
+                slopes = np.stack([(values[1] - values[2]) / 2e-5, (values[3] - values[4]) / 2e-5], axis=1)
             if not np.isfinite(slopes).all() or abs(np.linalg.det(slopes)) < 1e-300:
                 return None
             step = np.linalg.solve(slopes, values[0])

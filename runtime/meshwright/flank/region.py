@@ -228,6 +228,19 @@ class Region:
         way = np.abs(np.linalg.svd(equations)[2][-1])
         return 0 if way[0] > UNCHANGED * way.max() else int(np.argmax(way))
 
+    def within(self, name, function):
+        """What is left of the region inside another limit, a function as of :class:`Limits`."""
+        limits = self.limits.with_(name, function)
+        seed, values = self.seed, limits.values(self.flank(self.seed))[0]
+        if values.min() < 0.0:
+            lattice = self.lattice((CELLS, CELLS))
+            nodes = lattice.q[lattice.inside]
+            least = limits.least(self.flank(nodes))
+            if not least.max(initial=-1.0) >= 0.0:
+                return replace(self, limits=limits, seed=None, conflict=(name,))
+            seed = nodes[np.argmax(least)]
+        return _boxed(self.chart, limits, _deeper(self.chart, limits, seed))
+
     def in_sections(self, sections):
         """The same region, the tooth cut by other :class:`~meshwright.flank.sections.Sections`."""
         flank = replace(self.flank, body=self.flank.body | {"lengthwise": sections})

@@ -7,20 +7,22 @@ without a fillet of its own ends at its root.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshwright.base.errors import UsageError
-from meshwright.fe.followed import Bools
-from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.flank.lines import Lines, changes, ended_by, lines
 from meshwright.flank.region import Region
 from meshwright.flank.sections import Sections
 
-#: Roles of the limits that end a flank at its tip.
-TIPS = ("tip", "throat")
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+#: Roles of the limits that end a flank at its tip, and a fillet at the root land.
+TIPS, BOTTOMS = ("tip", "throat"), ("bottom",)
 
 #: Flank and fillet meet where their ends are no further apart, mm; else they are cut where they cross, found between so
 #: many places on each and then by Newton's method.
@@ -63,7 +65,7 @@ class RegionSide:
     has_step: bool = False
 
     @classmethod
-    def of(cls, flank: Region, fillet: Region | None) -> RegionSide:
+    def of(cls, flank: Region, fillet: Region | None = None) -> RegionSide:
         """Raises UsageError where a region is empty, or no limit of the flank is a tip."""
         for one in (flank, fillet):
             if one is not None and one.empty:
@@ -79,7 +81,9 @@ class RegionSide:
             return cls(sections, found, None, tip, False)
         root = _ends(found.at(np.array([middle])))[0 if tip else 1]
         away = [np.linalg.norm(end - root) for end in _ends(beside.at(np.array([middle])))]
-        side = cls(sections, found, beside, tip, bool(away[1] > away[0]))
+        # a fillet that crosses an undercut flank may go on far beyond it
+        lower, upper = (_ended(beside, end, BOTTOMS) for end in (False, True))
+        side = cls(sections, found, beside, tip, bool(upper > lower if upper != lower else away[1] > away[0]))
         return replace(side, has_step=side._stepped())
 
     @property
@@ -93,7 +97,7 @@ class RegionSide:
 
     def grids(self, values: Floats, fillet: Floats, flank: Floats) -> tuple[Floats, Floats, Floats]:
         """As :class:`Side` says. Raises UsageError where a section holds no flank."""
-        above, below = self._at(values)
+        above, below = self.at(values)
         points, normals = _grid(above, flank, self.tip)
         if below is None:
             return points[:, :1], points, normals
@@ -102,19 +106,24 @@ class RegionSide:
             rounded[:, -1] = points[:, 0]
         return rounded, points, normals
 
-    @cached_property
-    def cut(self) -> bool:
-        """Whether the fillet cuts the flank off."""
-        return bool(self._crossed(np.linspace(*self.reach, PLACES_ALONG)).any())
+    def joint(self, values: Floats) -> tuple[Floats, Floats]:
+        """Parameters (K, k), (K, l) of flank and fillet where they meet in sections (K,); without a fillet both are the
+        flank's.
+        """
+        flank, fillet = self.at(values)
+        root = flank.lower if self.tip else flank.upper
+        if fillet is None:
+            return root, root
+        return root, (fillet.lower if self.land else fillet.upper)
 
     def flank_lines(self, values: Floats) -> Lines:
         """The flank in sections, up to where it meets the fillet."""
-        return self._at(values)[0]
+        return self.at(values)[0]
 
     def breaks(self) -> Floats:
         """As :class:`Side` says."""
         at = np.linspace(*self.reach, 4 * len(self.flank.along))[1:-1]
-        return np.unique(np.concatenate([changes(at, self._tips), changes(at, self._crossed)]))
+        return np.unique(np.concatenate([changes(at, self._tips), changes(at, self.crossed)]))
 
     def _tips(self, values: Floats) -> Floats:
         """Numbers (K,) of the limits that end the flank at its tip."""
@@ -133,7 +142,7 @@ class RegionSide:
             return False
         return all(hit is None for hit in self._hits(flank, fillet)[1])
 
-    def _crossed(self, values: Floats) -> Bools:
+    def crossed(self, values: Floats) -> Bools:
         """Whether (K,) flank and fillet cross."""
         if self.fillet is None or self.has_step:
             return np.zeros(len(values), dtype=bool)
@@ -147,8 +156,8 @@ class RegionSide:
     def _apart(self, flank: Lines, fillet: Lines) -> Bools:
         return self._away(flank, fillet) > TOGETHER
 
-    def _at(self, values: Floats) -> tuple[Lines, Lines | None]:
-        """Flank and fillet in sections, up to where they meet."""
+    def at(self, values: Floats) -> tuple[Lines, Lines | None]:
+        """Flank and fillet in sections, up to where they meet. Raises UsageError where one of them is missing."""
         flank = self.flank.at(values)
         _check(flank, values)
         if self.fillet is None:
@@ -171,7 +180,7 @@ class RegionSide:
             return flank
         some = _some(flank, apart)
         joint = _ends(fillet)[0 if self.land else 1][apart]
-        q = some.even(np.linspace(0.0, 1.0, PLACES))
+        q = some.spaced(np.linspace(0.0, 1.0, PLACES))
         near = np.argmin(np.linalg.norm(_points(some, q) - joint, axis=2), axis=0)
         column, points = np.arange(q.shape[1]), _points(some, q)
         pair = [q[np.clip(near + k, 0, PLACES - 1), column] for k in (-1, 1)]
@@ -205,7 +214,7 @@ class RegionSide:
         """
         shares = 1.0 - np.linspace(1.0, 0.0, PLACES) ** 3
         q = [
-            one.even(shares) if upper else one.even(1.0 - shares[::-1])[::-1]
+            one.spaced(shares) if upper else one.spaced(1.0 - shares[::-1])[::-1]
             for one, upper in ((flank, not self.tip), (fillet, not self.land))
         ]
         points = [_points(one, places) for one, places in zip((flank, fillet), q, strict=True)]
@@ -281,10 +290,15 @@ def _check(found: Lines, values: Floats) -> None:
         )
 
 
+def _ended(found: Lines, upper: bool, roles: tuple[str, ...]) -> int:
+    """How many lines have a limit of some roles at an end."""
+    limits = [k for k, name in enumerate(found.region.limits.names) if name in roles]
+    return int(np.isin(ended_by(found, upper), limits).sum())
+
+
 def _tip_is_upper(found: Lines) -> bool:
     """Which end of a flank's lines most of them have at a tip."""
-    tips = [k for k, name in enumerate(found.region.limits.names) if name in TIPS]
-    lower, upper = (np.isin(ended_by(found, end), tips).sum() for end in (False, True))
+    lower, upper = (_ended(found, end, TIPS) for end in (False, True))
     if lower == upper:
         name = found.region.flank.body["name"]
         raise UsageError(
