@@ -69,7 +69,8 @@ class GearPair:
 
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
     touch: tangency of the reference pair at a pinion angle, or None where it has none.  edge: its first contact there,
-    or None where that is a tangency or nothing.  middle_pair:
+    or None where that is a tangency or nothing.  leader: the pair (``pairs_later``) that touches first of all at a
+    pinion angle, None if nothing tells.  middle_pair:
     pinion angle to the pair (``pairs_later``) about which pairs are counted.  assumed: sizes of the blank
     in mm that the design leaves open, as the solids have them.  contact_ratio: that of the whole blank, NaN if unknown.
     ends: where the contact of a pair begins and ends, such as "face of the wheel".
@@ -83,6 +84,7 @@ class GearPair:
     sense: int
     touch: Callable[[float], Touch | None]
     edge: Callable[[float], Touch | None] = lambda angle: None
+    leader: Callable[[float], int | None] = lambda angle: None
     middle_pair: Callable[[float], int] = lambda angle: 0
     assumed: dict[str, float] = field(default_factory=dict)
     contact_ratio: float = math.nan
@@ -122,11 +124,15 @@ def touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch,
 def first_touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch, ...]:
     """As :func:`touches`, where an edge of a pair touches first that, and the edges of a further pair on either side.
 
-    Ascending ``pairs_later``.
+    Ascending ``pairs_later``.  Where another pair than these is the first of all, edges would carry what it carries.
     """
     counted = pair_numbers(gear, pinion_angle, pairs)
+    about = range(counted.start - 1, counted.stop + 1)
+    leader = gear.leader(pinion_angle)
+    if leader is not None and leader not in about:
+        return touches(gear, pinion_angle, pairs)
     found = []
-    for pairs_later in range(counted.start - 1, counted.stop + 1):
+    for pairs_later in about:
         own = pinion_angle - pairs_later * gear.pinion.pitch
         touch = gear.edge(own) or (gear.touch(own) if pairs_later in counted else None)
         if touch is not None:

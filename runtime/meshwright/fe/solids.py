@@ -14,6 +14,7 @@ from meshwright.contact.placement import placed
 from meshwright.contact.results import TCA
 from meshwright.cycle.first_contact import FirstContacts, first_contact_of
 from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window
 from meshwright.drive import Drive
 from meshwright.fe.gear import gear_teeth
@@ -63,9 +64,12 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
     window = mesh.window
     edge = cache(partial(_edge, drive, first_contact_of(mesh)))
+    teeth = RigidTeeth.of(mesh)
+    leader = cache(lambda angle: None if teeth is None else teeth.leader(angle)[0])
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
-    return GearPair(pinion, wheel, drive.ratio, sense, touch, edge, middle, assumed, mesh.contact_ratio, tuple(ends))
+    contacts = touch, edge, leader, middle
+    return GearPair(pinion, wheel, drive.ratio, sense, *contacts, assumed, mesh.contact_ratio, tuple(ends))
 
 
 def teeth_of(drive: Drive, member: MemberName, rim_thickness: float | None) -> Teeth:

@@ -77,7 +77,7 @@ def _whole_pattern(member, analysis):
     if np.isfinite(analysis.whole[member].alone).any():
         shown += (
             f"; filled where the mate comes nearer than a marking compound of {text_of(1000.0 * analysis.marking)} µm: "
-            "dark in the running drive, whose leading pair carries; light where only a pair that carries alone does"
+            "dark in the running drive, where the pair that touches first carries; light where only a pair alone does"
         )
     return Picture(
         f"whole-{member}",
