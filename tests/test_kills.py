@@ -4,6 +4,7 @@ A process is killed before any of its writes, locks, renamings and removals: see
 """
 
 import gzip
+import itertools
 import os
 import random
 import subprocess
@@ -22,29 +23,34 @@ from meshwright.design import design as designs
 from meshwright.fe.solver import SolverRun
 from meshwright.sweep import run as sweep
 from tests import kills
-from tests.quick import quick
+from tests.quick import full, quick
 
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
 
 def _resumed(run, folder, times, seed):
-    """Folders in which ``run(place)`` was killed again and again, ``times`` in all, and then came to its end."""
+    """Folders in which ``run(place)`` was killed again and again, ``times`` in all, and then came to its end.
+
+    The first attempt in a folder is killed before a write of its own, in random order: every write's turn comes where
+    ``times`` allows, and in any case at full size.
+    """
     (folder / "counted").mkdir()
     count, chance = kills.writes(lambda: run(folder / "counted"), folder / "counted"), random.Random(seed)
     assert count > 5
     yield folder / "counted"
-    done = 0
-    for k in range(times):
-        if done == times:
+    done, turns = 0, chance.sample(range(1, count + 1), count)
+    for k, at in enumerate(itertools.cycle(turns)):
+        if done >= times and not (full() and k < count):
             break
         place = folder / f"killed-{k}"
         place.mkdir()
-        while done < times and kills.killed(lambda place=place: run(place), place, chance.randint(1, count)):
-            done += 1
+        fresh = True
+        while (fresh or done < times) and kills.killed(lambda place=place: run(place), place, at):
+            fresh, done, at = False, done + 1, chance.randint(1, count)
         kills.ended(lambda place=place: run(place), place)
         yield place
-    assert done == times
+    assert done >= times
 
 
 def _all_alike(run, folder, times, seed, but=(".lock",)):
@@ -220,3 +226,41 @@ def test_a_folder_has_one_finite_element_run_at_a_time(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main([*arguments[:-1], str(tmp_path / "file" / "folder")]) == 2
     assert "cannot be made (Not a directory); name another folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("at", [1, 3])
+def test_a_finite_element_run_on_a_full_disk_says_so_and_goes_on(tmp_path, monkeypatch, analysis, at):
+    place = tmp_path / "full"
+    place.mkdir()
+    with kills.full_disk(monkeypatch, at), pytest.raises(UsageError, match="No space left on device.*make room"):
+        analysis(place)
+    analysis(place)
+    assert {"result.json", "pinion.vtu", "wheel.vtu", "model.inp"} <= {path.name for path in place.rglob("*")}
+
+
+# ---- a power cut -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("what", ["sweep", "derive", "fe"])
+def test_whatever_takes_a_place_is_on_the_disk_before(tmp_path, monkeypatch, request, what):
+    if what == "fe":
+        run = request.getfixturevalue("analysis")
+    else:
+        run = _sweep() if what == "sweep" else _derive(monkeypatch, request.getfixturevalue("derived"))
+    synchronised, placed, sync, replace = set(), [], os.fsync, os.replace
+
+    def noted(handle):
+        sync(handle)
+        found = os.fstat(handle)
+        synchronised.add((found.st_ino, found.st_size))
+
+    def checked(source, target):
+        found = os.stat(source)
+        placed.append((os.path.basename(target), (found.st_ino, found.st_size) in synchronised))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", noted)
+    monkeypatch.setattr(os, "replace", checked)
+    (tmp_path / "place").mkdir()
+    run(tmp_path / "place")
+    assert len(placed) >= 3 and all(safe for _, safe in placed), placed

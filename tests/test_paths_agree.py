@@ -1,9 +1,11 @@
-"""One contact, whoever solves it: by itself, in a trace, in lanes, in a sweep, by CasADi; and from starts that mislead.
+"""One contact, whoever solves it: by itself, in a trace, in lanes, in a sweep, by the header alone, by CasADi, in fifty
+digits by formulations of their own; and from starts that mislead.
 
 Random misalignments of random designs of every family, angles in random order.
 """
 
 import casadi
+import mpmath
 import numpy as np
 import pytest
 
@@ -11,8 +13,11 @@ from meshwright import Drive
 from meshwright.base.errors import DesignError
 from meshwright.base.library import SHIPPED, ffi, library, pointer
 from meshwright.contact import analysis
+from meshwright.design.design import is_real
 from meshwright.sweep import samples
 from tests import lanes
+from tests.bevel.test_fifty_digits import exact_contact
+from tests.independent.twins import twin
 from tests.quick import quick
 
 #: Packaged designs and the key of each that is varied, with the range.
@@ -91,6 +96,45 @@ def test_casadi_finds_the_same_contact(name):
     own, other = drive.tca(angles), Drive(drive.design, backend="casadi").tca(angles)
     assert own.status == other.status
     assert np.allclose(own.error, other.error, rtol=0.0, atol=1e-12, equal_nan=True)
+
+
+def _in_fifty_digits(drive, contact, angle):
+    """Transmission error and contact point of the only row of ``contact``, by the family's independent formulation."""
+    if drive.design.family == "bevel":
+        tables = {name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
+                  for name, entry in drive.design.tables.items()}  # fmt: skip
+        pair, x = exact_contact(tables, contact, 0, angle)
+        r, n, _ = pair.pinion.surface(*x[:3])
+        return pair.error(x, angle), pair.place_pinion(r, n, mpmath.mpf(angle))[0]
+    keys = [p for p in drive.design.description["parameters"] if is_real(p) and _given(drive, p)]
+    given = {f"{p['table']}.{p['key']}": mpmath.mpf(drive.design.value(p["key"], p["table"])) for p in keys}
+    exact, phi = twin(drive, contact), mpmath.mpf(angle)
+    near = [mpmath.mpf(u) for u in exact.start]
+    seen = exact.solved(given, phi, near, np.linalg.inv(exact._jacobian(exact.of(given), near, phi)))
+    return seen[exact.names.index("transmission_error")], seen[len(exact.names) :]
+
+
+def _given(drive, parameter):
+    table, key = parameter["table"], parameter["key"]
+    return table == "misalignment" or table == "design" and drive.design.tables[table].get(key) is not None
+
+
+@pytest.mark.parametrize("name", quick(VARIED, "spherical-table-2-3", "plain-za"))
+def test_fifty_digits_find_the_same_contact(name):
+    generator, solved = np.random.default_rng(11), 0
+    for _ in range(3):
+        drive = _random(name, generator)
+        assert not drive.design.mirrored
+        angle = drive.design.reference_angle + 0.3 * drive.pitch() * generator.uniform(-1.0, 1.0)
+        contact = drive.tca([angle])
+        if contact.status != ("converged",):
+            continue
+        with mpmath.workdps(50):
+            error, point = _in_fifty_digits(drive, contact, angle)
+        assert abs(float(error - mpmath.mpf(contact.error[0]))) < 1e-12
+        assert np.abs(contact.points[0] - np.array([float(x) for x in point])).max() < 1e-9
+        solved += 1
+    assert solved > 0
 
 
 @pytest.mark.parametrize("name", VARIED)

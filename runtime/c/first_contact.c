@@ -677,11 +677,13 @@ static int reach(const search *h, const place *from, const double *q, double sho
     return 1;
 }
 
-/* A place halfway between two others, of which one at least meets the pinion's flank. */
+/* A place halfway between two others; where neither meets the pinion's flank, it is not known to. */
 static int halfway(const search *h, const place *a, const place *b, place *P)
 {
     double q[MAX_K];
     for (int i = 0; i < h->nw; i++) q[i] = 0.5 * (a->q[i] + b->q[i]);
+    *P = *a;
+    P->good = 0;
     if (a->good && b->good) {
         *P = *a;
         memcpy(P->q, q, sizeof q);

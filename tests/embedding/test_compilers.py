@@ -17,7 +17,7 @@ from tests.fuzz import interface
 from tests.quick import full
 
 ZIG = " ".join((*c.CLANG, "cc"))
-DESIGNS, INPUTS = (("spherical-table-2-3", "helical-crowned"), 80) if full() else (("spherical-table-2-3",), 60)
+DESIGNS, INPUTS = ("spherical-table-2-3",), 60
 
 #: Compilers by name: commands, the first of which that there is.
 COMPILERS = {"gcc": ("gcc",), "clang": ("clang", *(f"clang-{k}" for k in range(21, 12, -1))), "zig": (ZIG,)}
