@@ -3,13 +3,16 @@ PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
 READY  := $(VENV)/.ready
+LINT   := $(VENV)/.lint
+LEAN   := $(VENV)/.lean
 
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
+compiled = $1 runtime/meshwright/base/compile.py generated $(SHIP) $$($1 -m derive.packaged) --objects $(OBJECTS)
 CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel bench build check examples run lint test solver cmake test-fe validate site wheels
-.PHONY: fuzz benchmark coverage compilers sanitizers emulators
+.PHONY: precompiled fuzz benchmark coverage compilers sanitizers emulators
 
 # What can be made.
 help:
@@ -22,6 +25,12 @@ $(READY): pyproject.toml
 	test -x $(PY) || $(PYTHON) -m venv $(VENV)
 	$(PY) -m pip install --quiet --upgrade pip
 	$(PY) -m pip install --quiet --editable '.[derive,plot,fe,sweep,test]'
+	touch $@ $(LEAN)
+
+# What deriving, compiling and solving need, a third of all: modules are compiled when they are first imported.
+$(LEAN): pyproject.toml
+	test -x $(PY) || $(PYTHON) -m venv $(VENV)
+	test $(READY) -nt pyproject.toml || $(PY) -m pip install --quiet --no-compile --editable '.[derive]'
 	touch $@
 
 # The finite-element solver, where it can be had without asking; its tests say so if it is missing.
@@ -35,55 +44,63 @@ cmake: setup
 	@command -v cmake >/dev/null || test -x $(VENV)/bin/cmake || $(PY) -m pip install --quiet cmake
 
 # Regenerate generated/: the drives that packaged designs use; with DRIVES="name …" those, with DRIVES=all all.
-generate: setup
+generate: $(LEAN)
 	$(PY) -m derive $(DRIVES)
 
 # Prove everything anew, write generated/audit/index.html and re-check record, code and descriptions with checkers of
 # their own.
-audit: generate
+audit: setup generate
 	$(MAKE) --no-print-directory --jobs 2 $(CHECKERS:%=audit-%)
 
 audit-%:
 	$(PY) generated/audit/$*.py
 
 # Every proof of the record as a theorem that Coq's kernel accepts; Coq where it can be had without asking.
-kernel: generate
+kernel: setup generate
 	@command -v coqc >/dev/null || { test "$$(id -u)" = 0 && command -v apt-get >/dev/null \
 		&& apt-get update -qq && apt-get install -y -qq coq libcoq-coquelicot; } >/dev/null 2>&1 || true
 	$(PY) -m derive.audit kernel
 
 # The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
 # with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them.
-build: setup
-	@$(PY) runtime/meshwright/base/compile.py generated $(SHIP) $$($(PY) -m derive.packaged) --objects $(OBJECTS)
+build: $(LEAN)
+	@$(call compiled,$(PY))
 	@test -z "$(DRIVES)" || $(PY) -m derive $(DRIVES) --into $(SHIP)
+
+precompiled:
+	@$(call compiled,$(PYTHON))
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site -x benchmark $$folder generated && rm -r $$folder
 
-# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table.
-run: setup
-	$(MAKE) --no-print-directory generate
+# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed is compiled
+# meanwhile: build then compiles what has changed.
+run:
+	$(MAKE) --no-print-directory --jobs 2 generate precompiled
 	$(MAKE) --no-print-directory build
 	$(PY) tests/published.py
 
-# Style, unused names and types.
-lint: setup
+# Style, names, docstrings and types, each with tools of the package registry alone.
+lint: $(LINT)
 	$(PY) -m ruff check derive runtime tests
-	$(PY) -m mypy
+	$(PY) -m basedpyright --level error
+
+$(LINT): $(READY)
+	$(PY) -m pip install --quiet --editable '.[lint]'
+	touch $@
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
-test: build check solver cmake
+test: setup build check solver cmake
 	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadfile
 
 # Certified contacts that other programs can be tested against: generated/benchmark.
-benchmark: build
+benchmark: setup build
 	$(VENV)/bin/meshwright benchmark generated/benchmark
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is.
-validate: build solver cmake sanitizers emulators
+validate: setup build solver cmake sanitizers emulators
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadfile
 
 # An emulator of ARM64, where it can be had without asking.
@@ -100,36 +117,36 @@ sanitizers:
 # Mutated designs, surface and report of them, the C interface under sanitizers and in threads, changed records: seeded
 # and bounded, some minutes of a processor; with SIZE=full hours of it. BUDGETS="--designs 200000 --analyse 10000 --calls 10000000" are such of one's own.
 # Fails at the first traceback, hang, sanitizer's report or false contact.
-fuzz: build sanitizers
+fuzz: setup build sanitizers
 	$(PY) -m tests.fuzz --size $(or $(SIZE),short) --seed $(or $(SEED),0) $(BUDGETS)
 
 # Lines and branches that tests reach, of runtime/c and of the Python runtime, beside what is required of each.
-coverage: build
+coverage: setup build
 	$(PY) -m tests.coverage
 
 # The bits of all results from every compiler, level of optimisation, instruction set and machine that can be had here, a
 # line for each.
-compilers: build sanitizers emulators
+compilers: setup build sanitizers emulators
 	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_compilers.py
 	$(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
-test-fe: build solver
+test-fe: setup build solver
 	$(PY) -m pytest tests/fe -m slow
 
 # Points a second of every kernel and of the baselines, and what a user waits for, in tables.
-bench: build
+bench: setup build
 	$(PY) -m tests.benchmarks.bench
 
 # The site: tutorial, reference, live pages, audit record; one static folder, generated/site, that is not committed.
-site: build
+site: setup build
 	$(PY) -m pip install --quiet --editable '.[site,live]'
 	$(PY) runtime/site/build.py
 
 # Wheels for Linux, macOS and Windows in dist/, all cross-compiled here; with TARGETS="linux-aarch64 …" those.
-wheels: build
+wheels: setup build
 	$(PY) runtime/wheels.py dist $(TARGETS:%=--target %)
 
 # Build and run the examples: C, C++, ctypes, CMake, pkg-config, wheel, CasADi, WebAssembly, Cortex-M7, ARM64.
-examples: build cmake
+examples: setup build cmake
 	$(PY) -m pytest tests/embedding

@@ -27,6 +27,8 @@ def catalogue_of(path):
     if not path.is_file():
         raise FileError(f"{path}: no such file; name a Python file that offers catalogue()")
     spec = importlib.util.spec_from_file_location(f"drives_of_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise FileError(f"{path}: no Python file; name one that ends in .py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     sys.path.insert(0, str(path.resolve().parent))

@@ -6,11 +6,11 @@ JSON.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from derive.audit.check import root_of, sha256_of, status_of
-from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, as_list
+from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, Scope, as_list
 from derive.prove import Decision, Outcome, Statement, certificate, decide
 from derive.prove.edits import correction
 from derive.prove.tree import parse_formula, symbols
@@ -33,9 +33,30 @@ class Judged:
     outcome: Outcome
     equation: str
     certificate: str
-    statement: Statement | None = None
-    decision: Decision | None = None
-    figure: Figure | None = None
+    of: tuple[Statement, Decision] | Figure
+
+    @property
+    def statement(self) -> Statement:
+        """The equation; TypeError for a printed number."""
+        return self._equation[0]
+
+    @property
+    def decision(self) -> Decision:
+        """How the equation was decided; TypeError for a printed number."""
+        return self._equation[1]
+
+    @property
+    def figure(self) -> Figure:
+        """The printed number; TypeError for an equation."""
+        if not isinstance(self.of, Figure):
+            raise TypeError(f"{self.statement.id} is no printed number")
+        return self.of
+
+    @property
+    def _equation(self) -> tuple[Statement, Decision]:
+        if isinstance(self.of, Figure):
+            raise TypeError(f"{self.of.formula} is no equation")
+        return self.of
 
 
 @dataclass(frozen=True)
@@ -78,7 +99,7 @@ class Ledger:
     def root(self) -> str:
         return root_of(self.objects)
 
-    def add(self, body: Mapping) -> str:
+    def add(self, body: dict) -> str:
         """Enter an object; its hash."""
         key = sha256_of(body)
         self.objects.setdefault(key, {**body, "sha256": key})
@@ -93,8 +114,10 @@ def build(chapters: Sequence[Chapter]) -> Ledger:
         found = ledger.verdicts[document.key] = []
         for claim in chapter.claims:
             source = ledger.add(_source(document, claim))
-            judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
-            verdict = judge(ledger, document, claim, source)
+            if isinstance(claim, FigureClaim):
+                verdict = _judge_figures(ledger, document, claim, source)
+            else:
+                verdict = _judge(ledger, document, claim, source)
             identifier = f"{document.key}/{claim.key}"
             key = ledger.add(_verdict_body(verdict, identifier, source))
             found.append(replace(verdict, id=identifier, sha256=key))
@@ -136,9 +159,15 @@ def _reading(ledger: Ledger, claim: Claim, identifier: str, label: str, texts: S
     return Reading(label, tuple(parts), tuple(texts))
 
 
+def _scope(claim: Claim) -> Scope:
+    if claim.scope is None:
+        raise ValueError(f"{claim.key}: an equation needs a scope in which its names mean something")
+    return claim.scope
+
+
 def _judge_text(ledger: Ledger, claim: Claim, identifier: str, text: str, source: str) -> Judged:
     kind = "derived" if claim.kind == "identity" else "printed"
-    return _enter(ledger, claim, claim.scope.statement(identifier, text), kind, source)
+    return _enter(ledger, claim, _scope(claim).statement(identifier, text), kind, source)
 
 
 def _enter(ledger: Ledger, claim: Claim, statement: Statement, kind: str, source: str) -> Judged:
@@ -150,7 +179,7 @@ def _enter(ledger: Ledger, claim: Claim, statement: Statement, kind: str, source
             "kind": kind,
             "lhs": statement.lhs,
             "rhs": statement.rhs,
-            "where": _enter_steps(ledger, claim.scope.key, statement),
+            "where": _enter_steps(ledger, _scope(claim).key, statement),
             "jets": {name: list(statement.jets[name]) for name in statement.used_jets},
             "signs": sorted(statement.signs & set(statement.free_symbols)),
             "side_conditions": list(claim.conditions),
@@ -159,7 +188,7 @@ def _enter(ledger: Ledger, claim: Claim, statement: Statement, kind: str, source
         }
     )
     shown = ledger.add({"object": "certificate", "equation": equation, **certificate(decision)})
-    return Judged(decision.outcome, equation, shown, statement, decision)
+    return Judged(decision.outcome, equation, shown, (statement, decision))
 
 
 def _enter_steps(ledger: Ledger, scope: str, statement: Statement) -> dict[str, str]:
@@ -180,12 +209,13 @@ def _correct(
     """What should stand there: the claim's own correction, else the first one-token change that is true."""
     if claim.corrected:
         statements = [
-            claim.scope.statement(f"{identifier}/corrected/{k}", text)
+            _scope(claim).statement(f"{identifier}/corrected/{k}", text)
             for k, text in enumerate(as_list(claim.corrected), 1)
         ]
-        parts = tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)
-        return Reading("corrected", parts, tuple(as_list(claim.corrected))), ""
-    changes, parts = [], []
+        entered = tuple(_enter(ledger, claim, statement, "corrected", source) for statement in statements)
+        return Reading("corrected", entered, tuple(as_list(claim.corrected))), ""
+    changes: list[str] = []
+    parts: list[Judged] = []
     for number, part in enumerate(reading.parts, 1):
         if part.outcome is Outcome.PROVED:
             parts.append(part)
@@ -256,7 +286,7 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
             "value": f"{figure.value:.9g}",
         }
     )
-    return Judged(outcome, equation, shown, figure=figure)
+    return Judged(outcome, equation, shown, figure)
 
 
 def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:

@@ -13,7 +13,7 @@ import jinja2
 from markupsafe import Markup
 
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
-from derive.audit.claims import Document
+from derive.audit.claims import Document, Figure
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.mutations import measured
@@ -186,11 +186,11 @@ def _parts(mathml: MathML, reading: Reading, other: Reading | None = None) -> tu
 
 
 def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
-    if part.figure is not None:
+    if isinstance(part.of, Figure):
         return _figure_part(mathml, part)
     statement = part.statement
     left, right = statement.lhs, statement.rhs
-    if previous is not None and previous.statement is not None:
+    if previous is not None and not isinstance(previous.of, Figure):
         left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
     latex = LaTeX(mathml.names)
     definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())

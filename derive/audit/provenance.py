@@ -12,7 +12,7 @@ from typing import TypedDict
 from derive.audit.check import root_of
 from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
 from derive.passes.guards import functions, partial_operations
-from derive.passes.schedule import Schedule
+from derive.passes.plan import Schedule
 
 
 class Provenance(TypedDict):
@@ -23,7 +23,7 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(objects: Mapping[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
+def provenance(objects: dict[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
     """Root hash and equation ids of a drive, by function name without the drive's prefix.
 
     ``objects`` are those of the record by their hash, just proved or read from where it was written. A statement that

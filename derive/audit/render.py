@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from html import escape
 
@@ -46,7 +47,7 @@ def _parts(shown: str) -> tuple[str, str, str]:
     return (escape(match[1]), match[2] or "", match[3]) if match else (escape(shown), "", "")
 
 
-class Format:
+class Format(ABC):
     """How the parts of an expression are written; subclasses say it for MathML and LaTeX."""
 
     def __init__(self, names: Mapping[str, str] | None = None):
@@ -54,6 +55,51 @@ class Format:
 
     def write(self, tree: Tree) -> str:
         return self._write(tree)[0]
+
+    @abstractmethod
+    def name(self, name: str) -> str: ...
+
+    @abstractmethod
+    def number(self, text: str) -> str: ...
+
+    @abstractmethod
+    def operator(self, sign: str) -> str: ...
+
+    @abstractmethod
+    def function(self, name: str) -> str: ...
+
+    @abstractmethod
+    def row(self, text: str) -> str: ...
+
+    @abstractmethod
+    def parens(self, text: str) -> str: ...
+
+    @abstractmethod
+    def times(self) -> str: ...
+
+    @abstractmethod
+    def space(self) -> str: ...
+
+    @abstractmethod
+    def comma(self) -> str: ...
+
+    @abstractmethod
+    def fraction(self, above: str, below: str) -> str: ...
+
+    @abstractmethod
+    def power(self, base: str, exponent: str) -> str: ...
+
+    @abstractmethod
+    def index(self, base: str, index: str) -> str: ...
+
+    @abstractmethod
+    def root(self, text: str) -> str: ...
+
+    @abstractmethod
+    def matrix(self, rows: list[list[str]]) -> str: ...
+
+    @abstractmethod
+    def mark(self, text: str) -> str: ...
 
     def plain(self, name: str) -> str:
         """A symbol, or the cosine, sine or jet of one, as plain text in the letters of the source."""

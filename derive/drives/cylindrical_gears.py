@@ -32,7 +32,7 @@ dA, dh, dv, da = (
     q.symbol for q in (k.error_distance, k.error_horizontal, k.error_vertical, k.error_axial)
 )
 x_sum = PINION.profile_shift.symbol + WHEEL.profile_shift.symbol
-half_turn = placement((-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, 0))  # exact, as an angle of π is not
+half_turn = placement(v.scale(-1, v.I), v.scale(-1, v.J), v.K, (0, 0, 0))  # exact, as an angle of π is not
 bases = PINION.base_radius + WHEEL.base_radius
 parallel = is_zero(sp.sin(Sigma))
 

@@ -235,7 +235,8 @@ def face_worm():
     blades = HeadCutterBody(R_g, alpha_g, s, k.fillet_radius.symbol, k.blade_depth.symbol)
     cutter = head_cutter(blades, definitions)
     x_g, y_g, z_g = (k.symbols(a) for a in (k.axis_x, k.axis_y, k.axis_z))
-    installed = placement(x_g, y_g, z_g, k.symbols(k.origin))
+    x_0, y_0, z_0 = k.symbols(k.origin)
+    installed = placement(x_g, y_g, z_g, (x_0, y_0, z_0))
 
     phi_1 = rotation_angle("phi_worm", "angle of the worm in mesh", "f")
     error = rotation_angle("transmission_error", "gear angle less ratio times worm angle", "f")

@@ -12,8 +12,8 @@ from derive.emit.render import render
 from derive.language.drive import PATH
 from derive.passes.fuse import fuse
 from derive.passes.order import interleaved
+from derive.passes.plan import Schedule
 from derive.passes.quotients import reciprocals
-from derive.passes.schedule import Schedule
 from derive.program.routine import routine
 from derive.program.tape import Stage
 

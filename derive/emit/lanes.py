@@ -7,7 +7,7 @@ takes two lanes in a turn, of the lower and of the upper half, so that one has w
 
 from derive.emit.c99 import Leaves, Printer, side_by_side
 from derive.emit.render import render
-from derive.passes.schedule import Schedule
+from derive.passes.plan import Schedule
 
 
 def _in_lanes(leaves, lane="l"):

@@ -18,7 +18,7 @@ def _compiled_templates():
         folder.mkdir(exist_ok=True)
     except OSError:
         return None
-    return jinja2.FileSystemBytecodeCache(folder, "%s.bin") if os.access(folder, os.W_OK) else None
+    return jinja2.FileSystemBytecodeCache(str(folder), "%s.bin") if os.access(folder, os.W_OK) else None
 
 
 _ENVIRONMENT = jinja2.Environment(

@@ -48,7 +48,7 @@ class Tangents:
     """
 
     rules: tuple[Tangent, ...]
-    systems: tuple[tuple[Tangent, Tangent], ...]
+    systems: tuple[tuple[Tangent, ...], ...]
     contact: Tangent
     flanks: tuple[Tangent, ...]
 

@@ -15,6 +15,7 @@ import sympy as sp
 
 from derive.language.description import prefix
 from derive.language.symbols import Parameter, Quantity
+from derive.language.vectors import Number
 
 #: The hand of the drive, +1 right and −1 left.
 HAND = Quantity("hand", "", "hand of the drive")
@@ -139,7 +140,7 @@ def direct(component, name, parameter, factor=1, **kind):
     return written, Reading(parameter.symbol, attribute(component, name) / factor)
 
 
-def shaft_axes(angle, hand=1):
+def shaft_axes(angle, hand: Number = 1):
     """The axes of two shafts ``shaft_1`` and ``shaft_2`` at a shaft angle: the first along w, the second turned from
     it about u; a left-hand drive is the mirror image.
     """

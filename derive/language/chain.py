@@ -5,20 +5,25 @@ that acts right to left. Products merge successive rotations about one axis and 
 axis through a rotation about it, so that only the angles that geometry needs remain in the equations.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
-from typing import ClassVar
+from typing import ClassVar, TypeAlias, TypeVar
 
 import sympy as sp
 
 from derive.language import vectors as v
 from derive.language.origin import joined
 from derive.language.replace import replaced
+from derive.language.vectors import Number
 
+_Part = TypeVar("_Part", bound=sp.Expr)
 _OTHERS = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
 
-def _turned(axis, cosine, sine, a):
+def _turned(axis: str, cosine: sp.Expr, sine: sp.Expr, a: v.Vector) -> v.Vector:
     first, second = _OTHERS[axis]
     out = list(a)
     out[first] = cosine * a[first] - sine * a[second]
@@ -32,20 +37,20 @@ class Rotation:
 
     axis: str
     angle: sp.Expr
-    rests_on = ("conventions/rotations", "conventions/sums", "derivation/rotation")
+    rests_on: ClassVar[tuple[str, ...]] = ("conventions/rotations", "conventions/sums", "derivation/rotation")
 
-    def direction(self, a):
+    def direction(self, a: v.Vector) -> v.Vector:
         return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
 
     point = direction
 
-    def expressions(self):
+    def expressions(self) -> tuple[sp.Expr, ...]:
         return (self.angle,)
 
-    def inverse(self):
+    def inverse(self) -> Rotation:
         return Rotation(self.axis, -self.angle)
 
-    def local_velocity(self, variable, point):
+    def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         """∂/∂variable of a body-fixed point, as components in the moving frame."""
         return v.scale(sp.diff(self.angle, variable), v.cross(v.AXES[self.axis], point))
 
@@ -54,22 +59,22 @@ class Rotation:
 class Translation:
     """Translation by ``offset``."""
 
-    offset: tuple
+    offset: v.Vector
     rests_on: ClassVar[tuple[str, ...]] = ("derivation/translation",)
 
-    def direction(self, a):
+    def direction(self, a: v.Vector) -> v.Vector:
         return a
 
-    def point(self, a):
+    def point(self, a: v.Vector) -> v.Vector:
         return v.add(self.offset, a)
 
-    def expressions(self):
+    def expressions(self) -> tuple[sp.Expr, ...]:
         return self.offset
 
-    def inverse(self):
+    def inverse(self) -> Translation:
         return Translation(v.scale(-1, self.offset))
 
-    def local_velocity(self, variable, point):
+    def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         return tuple(sp.diff(c, variable) for c in self.offset)
 
 
@@ -83,7 +88,7 @@ class Station(Translation):
 
     rests_on: ClassVar[tuple[str, ...]] = ("derivation/translation", "derivation/swing")
 
-    def inverse(self):
+    def inverse(self) -> Station:
         return Station(v.scale(-1, self.offset))
 
 
@@ -96,30 +101,30 @@ class Swing:
 
     axis: str
     angle: sp.Expr
-    centre: tuple
-    rests_on = ("derivation/swing", "derivation/rotation")
+    centre: v.Vector
+    rests_on: ClassVar[tuple[str, ...]] = ("derivation/swing", "derivation/rotation")
 
-    def direction(self, a):
+    def direction(self, a: v.Vector) -> v.Vector:
         return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
 
-    def point(self, a):
+    def point(self, a: v.Vector) -> v.Vector:
         first, second = _OTHERS[self.axis]
         if (a[first], a[second]) == (self.centre[first], self.centre[second]):
             return a
         half = self.angle / 2
         versine, sine = 2 * sp.sin(half) ** 2, 2 * sp.sin(half) * sp.cos(half)
-        shift = [sp.Integer(0)] * 3
+        shift: list[sp.Expr] = [*v.ORIGIN]
         shift[first] = versine * self.centre[first] + sine * self.centre[second]
         shift[second] = versine * self.centre[second] - sine * self.centre[first]
         return v.add(tuple(shift), self.direction(a))
 
-    def expressions(self):
+    def expressions(self) -> tuple[sp.Expr, ...]:
         return (self.angle, *self.centre)
 
-    def inverse(self):
+    def inverse(self) -> Swing:
         return replace(self, angle=-self.angle)
 
-    def local_velocity(self, variable, point):
+    def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         rate = sp.diff(self.angle, variable)
         return v.scale(rate, v.cross(v.AXES[self.axis], v.sub(point, self.centre)))
 
@@ -128,29 +133,33 @@ class Swing:
 class Placement:
     """A constant orthonormal frame: columns of the rotation (given, not checked here) and no motion of its own."""
 
-    columns: tuple
-    rests_on = ("derivation/placement",)
+    columns: tuple[v.Vector, ...]
+    rests_on: ClassVar[tuple[str, ...]] = ("derivation/placement",)
 
-    def direction(self, a):
+    def direction(self, a: v.Vector) -> v.Vector:
         return reduce(v.add, (v.scale(c, column) for c, column in zip(a, self.columns, strict=True)))
 
     point = direction
 
-    def expressions(self):
+    def expressions(self) -> tuple[sp.Expr, ...]:
         return tuple(c for column in self.columns for c in column)
 
-    def inverse(self):
+    def inverse(self) -> Placement:
         return Placement(tuple(zip(*self.columns, strict=True)))
 
-    def local_velocity(self, variable, point):
-        return (sp.Integer(0),) * 3
+    def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
+        return v.ORIGIN
 
 
-def _along(axis, offset):
+#: An elementary motion.
+Factor: TypeAlias = Rotation | Translation | Swing | Placement
+
+
+def _along(axis: str, offset: v.Vector) -> bool:
     return all(c == 0 for c, e in zip(offset, v.AXES[axis], strict=True) if e == 0)
 
 
-def _merged(left, right):
+def _merged(left: Factor, right: Factor) -> list[Factor] | None:
     """The product of two neighbours as a shorter or better ordered list of factors, or None."""
     match left, right:
         case (Rotation(), Rotation()) if left.axis == right.axis:
@@ -163,10 +172,11 @@ def _merged(left, right):
             return [right, left]
         case (_, Station()):
             return _passed(left, right)
-    return None
+        case _:
+            return None
 
 
-def _passed(factor, station):
+def _passed(factor: Factor, station: Station) -> list[Factor]:
     """factor · T(c) with the station T(c) on the left."""
     c = station.offset
     match factor:
@@ -174,57 +184,62 @@ def _passed(factor, station):
             return [station, Swing(factor.axis, factor.angle, v.scale(-1, c))]
         case Swing():
             return [station, replace(factor, centre=v.sub(factor.centre, c))]
-    return [Station(factor.direction(c)), factor]
+        case _:
+            return [Station(factor.direction(c)), factor]
 
 
-def _moving(factor):
+def _moving(factor: Rotation | Swing | Translation) -> list[Factor]:
     """The factor, or none where it moves nothing."""
     still = all(e == 0 for e in factor.offset) if isinstance(factor, Translation) else factor.angle == 0
     return [] if still else [factor]
 
 
-def _normal_form(factors):
+def _normal_form(factors: Iterable[Factor]) -> tuple[Factor, ...]:
     """Merge and reorder neighbours until nothing changes; translations only move left, so this ends."""
-    factors = [f for f in factors if not (isinstance(f, Rotation | Swing) and f.angle == 0)]
+    left = [f for f in factors if not (isinstance(f, Rotation | Swing) and f.angle == 0)]
     at = 0
-    while at + 1 < len(factors):
-        merged = _merged(factors[at], factors[at + 1])
+    while at + 1 < len(left):
+        merged = _merged(left[at], left[at + 1])
         if merged is None:
             at += 1
         else:
-            factors[at : at + 2] = merged
+            left[at : at + 2] = merged
             at = max(at - 1, 0)
-    return tuple(factors)
+    return tuple(left)
 
 
 @dataclass(frozen=True)
 class Motion:
     """A product of elementary motions, leftmost acting last."""
 
-    factors: tuple = ()
+    factors: tuple[Factor, ...] = ()
 
     @property
-    def rests_on(self):
+    def rests_on(self) -> tuple[str, ...]:
         """Statements of the record behind the elementary motions."""
         return joined(*(factor.rests_on for factor in self.factors))
 
-    def __matmul__(self, other):
+    def __matmul__(self, other: Motion) -> Motion:
         return Motion(_normal_form((*self.factors, *other.factors)))
 
-    def inverse(self):
+    def inverse(self) -> Motion:
         return Motion(tuple(f.inverse() for f in reversed(self.factors)))
 
-    def point(self, a):
+    def point(self, a: v.Vector) -> v.Vector:
         """Parent coordinates of a point given in body coordinates."""
-        return reduce(lambda b, f: f.point(b), reversed(self.factors), a)
+        for factor in reversed(self.factors):
+            a = factor.point(a)
+        return a
 
-    def direction(self, a):
+    def direction(self, a: v.Vector) -> v.Vector:
         """Parent components of a free vector given in body components."""
-        return reduce(lambda b, f: f.direction(b), reversed(self.factors), a)
+        for factor in reversed(self.factors):
+            a = factor.direction(a)
+        return a
 
-    def local_velocity(self, variable, point):
+    def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         """∂(parent coordinates)/∂variable of a body-fixed point, as components in the body frame."""
-        rate = (sp.Integer(0),) * 3
+        rate: v.Vector = v.ORIGIN
         inner = Motion()
         for factor in reversed(self.factors):
             local = factor.local_velocity(variable, inner.point(point))
@@ -232,40 +247,40 @@ class Motion:
             inner = Motion((factor, *inner.factors))
         return rate
 
-    def power(self, variable, point, normal):
+    def power(self, variable: sp.Symbol, point: v.Vector, normal: v.Vector) -> sp.Expr:
         """normal · velocity, each term formed in the frame of the factor that causes it.
 
         Scalar products do not change under rotation, so this is the meshing equation of a chain as a sum of
         n·(axis × r), free of every angle that does not matter.
         """
-        total = sp.Integer(0)
+        total: sp.Expr = sp.Integer(0)
         for factor in reversed(self.factors):
             total += v.dot(normal, factor.local_velocity(variable, point))
             point, normal = factor.point(point), factor.direction(normal)
         return total
 
-    def axis(self, variable):
+    def axis(self, variable: sp.Symbol) -> tuple[v.Vector, v.Vector]:
         """Unit direction and a point of the axis about which the body turns with ``variable``, parent frame.
 
         The sense of the direction is that in which a growing variable turns the body. Raises ValueError for a motion
         that is not one rotation by it.
         """
         moving = [k for k, f in enumerate(self.factors) if any(sp.sympify(e).has(variable) for e in f.expressions())]
-        if len(moving) != 1 or not isinstance(self.factors[moving[0]], Rotation | Swing):
+        factor, outer = self.factors[moving[0] if moving else 0], Motion(self.factors[: moving[0] if moving else 0])
+        if len(moving) != 1 or not isinstance(factor, Rotation | Swing):
             raise ValueError(f"{variable} does not turn the body about one axis")
-        factor, outer = self.factors[moving[0]], Motion(self.factors[: moving[0]])
         rate = sp.diff(factor.angle, variable)
         if rate not in (1, -1):
             raise ValueError(f"the body does not turn by {variable} but by {rate} times it")
-        centre = factor.centre if isinstance(factor, Swing) else (sp.Integer(0),) * 3
+        centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN
         return outer.direction(v.scale(rate, v.vector(*v.AXES[factor.axis]))), outer.point(centre)
 
-    def substitute(self, replacement):
+    def substitute(self, replacement: Mapping[_Part, sp.Expr]) -> Motion:
         """The same motion with symbols replaced; rotations that become equal merge again."""
-        def swap(expression):
+        def swap(expression: sp.Expr) -> sp.Expr:
             return replaced(expression, replacement)
 
-        factors = []
+        factors: list[Factor] = []
         for f in self.factors:
             match f:
                 case Rotation():
@@ -279,10 +294,10 @@ class Motion:
         return Motion(_normal_form(factors))
 
 
-def _rotation(axis):
-    def make(angle):
-        angle = sp.sympify(angle)
-        return Motion() if angle == 0 else Motion((Rotation(axis, angle),))
+def _rotation(axis: str) -> Callable[[Number], Motion]:
+    def make(angle: Number) -> Motion:
+        turn = sp.sympify(angle)
+        return Motion() if turn == 0 else Motion((Rotation(axis, turn),))
 
     make.__doc__ = f"Rotation about {axis}."
     return make
@@ -291,27 +306,27 @@ def _rotation(axis):
 Rx, Ry, Rz = map(_rotation, "xyz")
 
 
-def translation(x=0, y=0, z=0):
+def translation(x: Number = 0, y: Number = 0, z: Number = 0) -> Motion:
     """Translation by (x, y, z)."""
     offset = v.vector(x, y, z)
-    return Motion() if offset == (0, 0, 0) else Motion((Translation(offset),))
+    return Motion() if all(c == 0 for c in offset) else Motion((Translation(offset),))
 
 
-def screw(angle, parameter):
+def screw(angle: sp.Expr, parameter: sp.Expr) -> Motion:
     """Turning by ``angle`` about z while advancing by ``parameter``·``angle`` along z."""
     return Rz(angle) @ translation(z=parameter * angle)
 
 
-def swing(axis, angle, centre):
+def swing(axis: str, angle: Number, centre: v.Vector) -> Motion:
     """Rotation about the line through ``centre`` parallel to ``axis``, free of cancellation for large radii."""
-    return Motion((Swing(axis, sp.sympify(angle), v.vector(*centre)),))
+    return Motion((Swing(axis, sp.sympify(angle), centre),))
 
 
-def station(x=0, y=0, z=0):
+def station(x: Number = 0, y: Number = 0, z: Number = 0) -> Motion:
     """Constant translation by (x, y, z) to or from the place, far from the axes, where everything happens."""
     return Motion(tuple(_moving(Station(v.vector(x, y, z)))))
 
 
-def placement(x_axis, y_axis, z_axis, origin):
+def placement(x_axis: v.Vector, y_axis: v.Vector, z_axis: v.Vector, origin: tuple[Number, Number, Number]) -> Motion:
     """The constant motion from a frame with these axes and this origin, its station, to its parent."""
     return station(*origin) @ Motion((Placement((x_axis, y_axis, z_axis)),))

@@ -12,7 +12,7 @@ class unit_step(sp.Function):  # noqa: N801 (written like a function)
     nargs = 1
     is_real = True
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return sp.S.Zero
 
 
@@ -22,15 +22,15 @@ class excess(sp.Function):  # noqa: N801
     nargs = 1
     is_real = True
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return unit_step(self.args[0])
 
 
-def is_zero(a):
+def is_zero(a: sp.Expr) -> sp.Expr:
     """1 where ``a`` is 0, else 0."""
     return unit_step(_NOTHING - a**2)
 
 
-def only_where_zero(a, value):
+def only_where_zero(a: sp.Expr, value: sp.Expr) -> sp.Expr:
     """``value`` where ``a`` is 0, else not a number: what has a default only as long as something else is not used."""
     return value * sp.sqrt(sp.sign(_NOTHING - a**2))

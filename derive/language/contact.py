@@ -3,10 +3,11 @@
 from dataclasses import replace
 
 from derive.language import vectors as v
-from derive.language.chain import Motion
+from derive.language.chain import Factor, Motion
+from derive.language.surface import Surface
 
 
-def contact(first, second):
+def contact(first: Surface, second: Surface) -> v.Vector:
     """Residual of tangent contact, zero where the surfaces touch.
 
     Three components of the position difference; the normal of ``second`` against the two tangents of ``first``;
@@ -21,13 +22,13 @@ def contact(first, second):
     return (*position, *tangency, *first.conditions, *second.conditions)
 
 
-def common_frame(first, second):
+def common_frame(first: Surface, second: Surface) -> tuple[Surface, Surface]:
     """Both surfaces in the frame that carries ``second``."""
     mounting, second = _unmounted(second)
     return first.placed(mounting.inverse()), second
 
 
-def _unmounted(surface):
+def _unmounted(surface: Surface) -> tuple[Motion, Surface]:
     """The leading factors of the surface's motion in which none of its parameters occurs, and the surface without."""
     factors = surface.motion.factors
     count = 0
@@ -36,5 +37,5 @@ def _unmounted(surface):
     return Motion(factors[:count]), replace(surface, motion=Motion(factors[count:]))
 
 
-def _moves(surface, factor):
+def _moves(surface: Surface, factor: Factor) -> bool:
     return any(surface.definitions.depends(e, p) for e in factor.expressions() for p in surface.parameters)

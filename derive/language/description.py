@@ -5,53 +5,65 @@ the steps by which they were made. ``derive/README.md`` documents the form; noth
 """
 
 import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
+from typing import TypeAlias
 
 import sympy as sp
 
-from derive.language.chain import Motion, Placement, Rotation, Station, Swing, Translation
+from derive.language.chain import Factor, Motion, Placement, Rotation, Station, Swing, Translation
 from derive.language.choice import excess, unit_step
+from derive.language.drive import Body, DesignSystem, Drive, Margin, Region, Values
+from derive.language.surface import Step, StepData, Surface
+from derive.language.symbols import Parameter, Quantity, Rule, Unknown
+from derive.language.vectors import Number
+
+#: An expression as plain data: see :func:`prefix`.
+Prefix: TypeAlias = "str | int | list[Prefix]"
+
+#: What JSON can hold.
+Data: TypeAlias = "Mapping[str, Data] | Sequence[Data] | str | int | float | None"
 
 SCHEMA = "meshwright.description/1"
 
-_FUNCTIONS = {
+_FUNCTIONS: dict[type[sp.Expr], str] = {
     sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos", sp.atan: "atan",
     sp.atan2: "atan2", sp.Abs: "abs", sp.Min: "min", sp.Max: "max", sp.sign: "sign",
     unit_step: "unit_step", excess: "excess",
 }  # fmt: skip
 
 
-def prefix(expression):
+def prefix(expression: Number) -> Prefix:
     """An expression as a prefix list: a symbol's name, an integer, or ``[operation, operand, …]``.
 
     Rational numbers are ``["/", p, q]``. Raises TypeError for what has no exact form.
     """
-    expression = sp.sympify(expression)
-    if expression.is_Symbol:
-        return expression.name
-    if expression.is_Integer:
-        return int(expression)
-    if expression.is_Rational:
-        return ["/", int(expression.p), int(expression.q)]
-    if expression is sp.pi:
+    e = sp.sympify(expression)
+    if isinstance(e, sp.Symbol):
+        return e.name
+    if isinstance(e, sp.Integer):
+        return int(e)
+    if isinstance(e, sp.Rational):
+        return ["/", int(e.p), int(e.q)]
+    if e is sp.pi:
         return ["pi"]
-    operands = [prefix(argument) for argument in expression.args]
-    if expression.is_Add:
+    operands = [prefix(argument) for argument in e.args]
+    if isinstance(e, sp.Add):
         return ["+", *operands]
-    if expression.is_Mul:
+    if isinstance(e, sp.Mul):
         return ["*", *operands]
-    if expression.is_Pow:
-        return ["sqrt", operands[0]] if expression.exp == sp.Rational(1, 2) else ["^", *operands]
-    if expression.func in _FUNCTIONS:
-        return [_FUNCTIONS[expression.func], *operands]
-    raise TypeError(f"{expression} has no exact form in a description")
+    if isinstance(e, sp.Pow):
+        return ["sqrt", operands[0]] if e.exp == sp.Rational(1, 2) else ["^", *operands]
+    if e.func in _FUNCTIONS:
+        return [_FUNCTIONS[e.func], *operands]
+    raise TypeError(f"{e} has no exact form in a description")
 
 
-def _vector(vector):
+def _vector(vector: Iterable[Number]) -> list[Prefix]:
     return [prefix(c) for c in vector]
 
 
-def factor(elementary):
+def factor(elementary: Factor) -> list[Data]:
     """A factor of a motion: its kind, then what it is made of."""
     match elementary:
         case Rotation():
@@ -64,15 +76,14 @@ def factor(elementary):
             return ["translation", _vector(elementary.offset)]
         case Placement():
             return ["placement", [_vector(column) for column in elementary.columns]]
-    raise TypeError(f"{elementary} is no factor of a motion")
 
 
-def motion(product):
+def motion(product: Motion) -> list[list[Data]]:
     """The factors of a motion, leftmost acting last."""
     return [factor(f) for f in product.factors]
 
 
-def quantity(symbol):
+def quantity(symbol: Quantity) -> dict[str, Data]:
     """A symbol with what is known of it."""
     lower, upper = (prefix(end) if end.is_finite else None for end in symbol.domain)
     return {
@@ -81,7 +92,7 @@ def quantity(symbol):
     }  # fmt: skip
 
 
-def surface(described):
+def surface(described: Surface) -> dict[str, Data]:
     """A surface: its parameters, the steps by which it was made, and what they led to."""
     described = described.written_down
     return {
@@ -95,17 +106,17 @@ def surface(described):
     }
 
 
-def _step(step):
+def _step(step: Step) -> dict[str, Data]:
     return {"step": step.word, **{name: _data(value) for name, value in step.data}}
 
 
-def _data(value):
+def _data(value: StepData) -> Data:
     if isinstance(value, Motion):
         return motion(value)
     return _vector(value) if isinstance(value, tuple) else prefix(value)
 
 
-def _key(drive, p):
+def _key(drive: Drive, p: Parameter) -> dict[str, Data]:
     return {
         "key": p.key, "table": str(p.table), "symbol": quantity(p.symbol), "factor": prefix(p.factor),
         "default": None if p.default is None else prefix(p.default), "required": p.required, "integer": p.integer,
@@ -114,18 +125,18 @@ def _key(drive, p):
     }  # fmt: skip
 
 
-def _margin(m):
+def _margin(m: Margin) -> dict[str, Data]:
     return {
-        "flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins, "positive": prefix(m.positive),
-        "relative": m.relative, "along": m.along and m.along.name,
+        "flag": m.flag, "event": m.event, "role": m.role and m.role.value, "joins": m.joins,
+        "positive": prefix(m.positive), "relative": m.relative, "along": m.along and m.along.name,
     }  # fmt: skip
 
 
-def _named(values):
+def _named(values: Values) -> dict[str, Prefix]:
     return {symbol.name: prefix(value) for symbol, value in values.items()}
 
 
-def _body(body):
+def _body(body: Body) -> dict[str, Data]:
     return {
         "name": body.name,
         "surface": surface(body.surface),
@@ -139,7 +150,7 @@ def _body(body):
     }
 
 
-def _region(region):
+def _region(region: Region) -> dict[str, Data]:
     return {
         "member": region.member,
         "region": region.name,
@@ -150,11 +161,11 @@ def _region(region):
     }
 
 
-def _unknown(unknown):
+def _unknown(unknown: Unknown) -> dict[str, Data]:
     return quantity(unknown.symbol) | {"scale": prefix(unknown.scale)}
 
 
-def _design_system(system):
+def _design_system(system: DesignSystem) -> dict[str, Data]:
     return {
         "name": system.name,
         "unknowns": [_unknown(u) for u in system.unknowns],
@@ -169,29 +180,31 @@ def _design_system(system):
     }
 
 
-def rules(listed):
+def rules(listed: Iterable[Rule]) -> list[list[Prefix]]:
     """Rules as pairs of a symbol's name and its value."""
     return [[rule.target.name, prefix(rule.value)] for rule in listed]
 
 
-def sources(drive):
+def sources(drive: Drive) -> list[dict[str, Data]]:
     """What the drive's page follows."""
     return [{"author": s.author, "title": s.title, "year": s.year, "where": s.where} for s in drive.sources]
 
 
-def _words(data):
+def _words(data: Data) -> Iterator[str]:
     """Every text in plain data."""
     if isinstance(data, str):
         yield data
-    elif isinstance(data, list | dict):
-        for part in data.values() if isinstance(data, dict) else data:
+    elif isinstance(data, Mapping | Sequence):
+        for part in data.values() if isinstance(data, Mapping) else data:
             yield from _words(part)
 
 
-def _definitions(drive, described):
+def _definitions(drive: Drive, described: dict[str, Data]) -> list[dict[str, Data]]:
     """The named intermediate results that the rest of the description refers to, in their order."""
-    named = {symbol.name: quantity(symbol) | {"value": prefix(value)} for symbol, value in drive.definitions.items()}
-    wanted, found = [described], {}
+    values = drive.definitions.items()
+    named = {symbol.name: quantity(symbol) | {"value": prefix(value)} for symbol, value in values}
+    wanted: list[Data] = [described]
+    found: dict[str, dict[str, Data]] = {}
     while wanted:
         new = named.keys() & {*_words(wanted)} - found.keys()
         found |= {name: named[name] for name in new}
@@ -199,10 +212,10 @@ def _definitions(drive, described):
     return [entry for name, entry in named.items() if name in found]
 
 
-def text(drive):
+def text(drive: Drive) -> str:
     """The description as JSON, one line an entry."""
     described = describe(drive)
-    lines = []
+    lines: list[str] = []
     for name, value in described.items():
         if isinstance(value, list) and value:
             entries = ",\n".join("  " + _compact(entry) for entry in value)
@@ -212,17 +225,17 @@ def text(drive):
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _compact(data):
+def _compact(data: Data) -> str:
     return json.dumps(data, ensure_ascii=False, separators=(",", ":"))
 
 
-def describe(drive):
+def describe(drive: Drive) -> dict[str, Data]:
     """The whole description of a drive."""
     described = _describe(drive)
     return described | {"definitions": _definitions(drive, described)}
 
 
-def _describe(drive):
+def _describe(drive: Drive) -> dict[str, Data]:
     return {
         "schema": SCHEMA,
         "name": drive.name,

@@ -6,12 +6,12 @@ The rules are SymPy's own, taken without the questions (is it zero, is it finite
 import sympy as sp
 
 
-def partial(expression, variable):
+def partial(expression: sp.Expr, variable: sp.Expr) -> sp.Expr:
     """∂expression/∂variable of sums, products, powers and functions that know their own derivative (``fdiff``)."""
     return _partial(expression, variable, {})
 
 
-def _partial(expression, variable, known):
+def _partial(expression: sp.Expr, variable: sp.Expr, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     if variable not in expression.free_symbols:
         return sp.S.Zero
     if expression == variable:
@@ -22,17 +22,17 @@ def _partial(expression, variable, known):
     return known[expression]
 
 
-def _chain_rule(expression, inner):
+def _chain_rule(expression: sp.Expr, inner: list[sp.Expr]) -> sp.Expr:
     """The derivative from those of the arguments."""
-    if expression.is_Add:
+    if isinstance(expression, sp.Add):
         return sp.Add(*inner)
-    if expression.is_Mul:
+    if isinstance(expression, sp.Mul):
         return sp.Add(*(_product(expression.args, k, d) for k, d in enumerate(inner) if d != 0))
-    if expression.is_Pow and inner[1] == 0:
+    if isinstance(expression, sp.Pow) and inner[1] == 0:
         base, exponent = expression.args
         return exponent * base ** (exponent - 1) * inner[0]
     return sp.Add(*(expression.fdiff(k) * d for k, d in enumerate(inner, 1) if d != 0))
 
 
-def _product(factors, k, derivative):
+def _product(factors: tuple[sp.Expr, ...], k: int, derivative: sp.Expr) -> sp.Expr:
     return sp.Mul(*factors[:k], derivative, *factors[k + 1 :])

@@ -1,8 +1,9 @@
 """What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import TypeAlias
 
 import sympy as sp
 
@@ -13,6 +14,10 @@ from derive.language.outline import Outline
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.language.tool import Tool
+from derive.language.vectors import Number, Vector
+
+#: Symbols and what they are.
+Values: TypeAlias = Mapping[Quantity, Number]
 
 
 class Role(Enum):
@@ -54,7 +59,7 @@ class Margin:
     along: Quantity | None = None
     joins: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.role is None:
             object.__setattr__(self, "role", Role(self.event))
 
@@ -75,19 +80,19 @@ class Body:
     name: str
     surface: Surface
     motion: Motion
-    reference: dict
+    reference: Values
     regular: sp.Expr | None = None
-    point: tuple = ()
+    point: tuple[Quantity, ...] = ()
     margins: tuple[Margin, ...] = ()
-    recovered: tuple = ()
+    recovered: tuple[Quantity, ...] = ()
     lengthwise: str = ""
 
     @property
-    def placed(self):
+    def placed(self) -> Surface:
         return self.surface.placed(self.motion)
 
 
-def body_point(name):
+def body_point(name: str) -> tuple[Quantity, ...]:
     """Symbols for the body-frame coordinates of a contact point, for use in margins."""
     return tuple(Quantity(f"{axis}_at_{name}", "mm", f"{axis} of the point, {name} frame", name) for axis in "xyz")
 
@@ -102,9 +107,9 @@ class System:
     name: str
     definitions: Definitions
     unknowns: tuple[Unknown, ...]
-    residual: tuple
-    outputs: dict = field(default_factory=dict)
-    fixed: dict = field(default_factory=dict)
+    residual: Vector
+    outputs: Values = field(default_factory=dict[Quantity, Number])
+    fixed: Values = field(default_factory=dict[Quantity, Number])
 
 
 #: The share of the way from a system's easy start to the design that is wanted, 0 to 1.
@@ -126,13 +131,13 @@ class DesignSystem:
 
     name: str
     unknowns: tuple[Unknown, ...]
-    residual: tuple
-    guess: dict
-    fills: dict
+    residual: Vector
+    guess: Values
+    fills: Values
     message: str
     keys: tuple[str, ...]
-    fixed: dict = field(default_factory=dict)
-    regular: tuple | None = None
+    fixed: Values = field(default_factory=dict[Quantity, Number])
+    regular: tuple[Surface, Number] | None = None
     homotopy: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
@@ -183,7 +188,7 @@ class Loading:
 
     pairs: int
     torque_on: str
-    keys: dict[str, str] = field(default_factory=dict)
+    keys: dict[str, str] = field(default_factory=dict[str, str])
 
 
 @dataclass(frozen=True)
@@ -242,15 +247,15 @@ class Drive:
     pinion: Body
     wheel: Body
     unknowns: tuple[Unknown, ...]
-    residual: tuple
+    residual: Vector
     definitions: Definitions
     start: System
-    guess: dict
-    sample: dict
+    guess: Values
+    sample: Mapping[str, float | int | str]
     sample_angle: float
     pinion_teeth: str
-    variant: dict = field(default_factory=dict)
-    variant_defaults: dict = field(default_factory=dict)
+    variant: dict[str, str] = field(default_factory=dict[str, str])
+    variant_defaults: dict[str, str] = field(default_factory=dict[str, str])
     handed: str = ""
     exclusive: tuple[tuple[str, ...], ...] = ()
     together: tuple[tuple[str, ...], ...] = ()
@@ -260,7 +265,7 @@ class Drive:
     flanks_apart: bool = False
     absorbs_errors: bool = False
     functions: tuple[Function, ...] = ()
-    least_teeth: dict[str, LeastTeeth] = field(default_factory=dict)
+    least_teeth: dict[str, LeastTeeth] = field(default_factory=dict[str, LeastTeeth])
     tool_clearance: ToolClearance | None = None
     tools: tuple[ToolUse, ...] = ()
     reference_angle: sp.Expr = sp.S.Zero
@@ -272,11 +277,11 @@ class Drive:
     sources: tuple[Source, ...] = ()
 
     @property
-    def bodies(self):
+    def bodies(self) -> tuple[Body, Body]:
         return self.pinion, self.wheel
 
     @property
-    def completion(self):
+    def completion(self) -> tuple[Rule, ...]:
         """What fills open parameters, in the order in which it runs: the defaults, then the rules."""
         defaults = (Rule(p.symbol, p.default) for p in self.parameters if p.default is not None)
         return *defaults, *self.rules

@@ -5,20 +5,26 @@ merges angles that only occur as a sum and solves the equation for a parameter i
 the generated surface needs no root finding.
 """
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.chain import Motion
 from derive.language.differentiate import partial
 from derive.language.origin import EXPLICIT, Origin
 from derive.language.replace import replaced
 from derive.language.sampled import vanishes
-from derive.language.surface import Step
+from derive.language.surface import Step, Surface
 from derive.language.symbols import Quantity
+from derive.language.vectors import Number
+
+_Part = TypeVar("_Part", bound=sp.Expr)
 
 
-def envelope(surface, motion, variable):
+def envelope(surface: Surface, motion: Motion, variable: Quantity) -> Surface:
     """The envelope of ``surface`` under ``motion(variable)``, in the frame that the motion leads to.
 
     The new body lies on the other side of the surface, so the normal turns round. The equation of meshing
@@ -27,25 +33,28 @@ def envelope(surface, motion, variable):
     moved = surface.placed(motion)
     meshing = moved.motion.power(variable, surface.pole or surface.point, surface.normal)
     parameters = surface.parameters + (() if variable in surface.parameters else (variable,))
-    return replace(
+    made = (*surface.written_down.made, Step.of("envelope", motion=motion, variable=variable))
+    generated = replace(
         moved,
         parameters=parameters,
         normal=v.scale(-1, surface.normal),
         conditions=(*surface.conditions, meshing),
-        made=(*surface.written_down.made, Step.of("envelope", motion=motion, variable=variable)),
-    ).on("derivation/invariance", "derivation/envelope", *(("derivation/pole",) if surface.pole else ()))
+        made=made,
+    )
+    poles = ("derivation/pole",) if surface.pole else ()
+    return generated.on("derivation/invariance", "derivation/envelope", *poles)
 
 
 @dataclass(frozen=True)
 class Solved:
     """How the reduce stage removed a parameter: ``symbol`` = ``value`` where ``denominator`` ≠ 0."""
 
-    symbol: sp.Symbol
+    symbol: sp.Expr
     value: sp.Expr
     denominator: sp.Expr
 
 
-def merge_sum(surface, kept, removed, name, meaning):
+def merge_sum(surface: Surface, kept: Quantity, removed: Quantity, name: str, meaning: str) -> tuple[Surface, Quantity]:
     """Replace ``removed`` by a new parameter ``name`` = kept + removed.
 
     Legal for any surface; worth doing where a rotation angle is that sum.
@@ -57,10 +66,10 @@ def merge_sum(surface, kept, removed, name, meaning):
     return merged.on("derivation/merge-sum").by(Step.of("merged", total=total, kept=kept, removed=removed)), total
 
 
-def substitute(surface, replacement):
+def substitute(surface: Surface, replacement: Mapping[_Part, sp.Expr]) -> Surface:
     """The same surface with parameters replaced by expressions, everywhere but in definitions."""
 
-    def swap(expression):
+    def swap(expression: sp.Expr) -> sp.Expr:
         return replaced(expression, replacement)
 
     return replace(
@@ -73,7 +82,7 @@ def substitute(surface, replacement):
     )
 
 
-def explicit(surface):
+def explicit(surface: Surface) -> tuple[Surface, Solved]:
     """Solve the last condition for a parameter in which it is linear; ``(surface, Solved)``.
 
     Raises ``ValueError`` if there is none: the surface then has to stay implicit.
@@ -98,7 +107,7 @@ def explicit(surface):
     raise ValueError("the equation of meshing is linear in none of its parameters")
 
 
-def _constant_slope(surface, condition, parameter):
+def _constant_slope(surface: Surface, condition: sp.Expr, parameter: Quantity) -> sp.Expr | None:
     """∂condition/∂parameter where that is free of the parameter, also where this shows only multiplied out.
 
     What shows only then is for the record to prove: a surface that relies on it names its statement.
@@ -114,12 +123,12 @@ def _constant_slope(surface, condition, parameter):
     return replaced(slope, {parameter: sp.Integer(0)})
 
 
-def _angle_of(condition, parameter):
+def _angle_of(condition: sp.Expr, parameter: Quantity) -> bool:
     """Whether the parameter occurs in a sine or cosine."""
     return any(parameter in e.free_symbols for e in condition.atoms(sp.sin, sp.cos))
 
 
-def explicit_angle(surface, angle, sign):
+def explicit_angle(surface: Surface, angle: Quantity, sign: Number | Callable[[sp.Expr, sp.Expr], sp.Expr]) -> Surface:
     """Solve the last condition, homogeneous in the cosine and sine of ``angle``, for that parameter.
 
     Of a·cos + b·sin = 0 the result is the direction (cos, sin) ∝ sign · (b, −a): the opposite one solves it too.
@@ -129,9 +138,11 @@ def explicit_angle(surface, angle, sign):
     a, b = _direction(condition, angle)
     if callable(sign):
         a, b = (surface.definitions.let(f"{angle}_{part}", c) for part, c in (("cosine", a), ("sine", b)))
-        sign = sign(a, b)
+        towards = sign(a, b)
+    else:
+        towards = sp.sympify(sign)
     origin = Origin("derivation/explicit-angle", f"the direction that solves the equation of meshing for {angle}")
-    turn = v.arc(-sign * a, sign * b)
+    turn = v.arc(-towards * a, towards * b)
     named = surface.definitions.let(
         angle.name, turn, angle.meaning, angle.unit, origin=origin, parity=angle.parity
     )
@@ -140,7 +151,7 @@ def explicit_angle(surface, angle, sign):
     return solved.on("derivation/explicit-angle").by(Step.of("solved", parameter=angle, value=turn))
 
 
-def in_turn(condition, angle):
+def in_turn(condition: sp.Expr, angle: Quantity) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
     form = replaced(condition, {sp.cos(angle): cosine, sp.sin(angle): sine})
@@ -150,18 +161,18 @@ def in_turn(condition, angle):
     return a, b, c
 
 
-def _direction(condition, angle):
+def _direction(condition: sp.Expr, angle: Quantity) -> tuple[sp.Expr, sp.Expr]:
     a, b, c = in_turn(condition, angle)
     if c != 0:
         raise ValueError("the equation is not homogeneous in the cosine and sine of one angle")
     return a, b
 
 
-def nearest_turn(condition, angle):
+def nearest_turn(condition: sp.Expr, angle: Quantity) -> sp.Expr:
     """The root of a·cos + b·sin + c = 0 that is nearest 0; not a number where there is none."""
     a, b, c = in_turn(condition, angle)
     return v.arc(b, a) - b / sp.Abs(b) * sp.acos(-c / v.radius(a, b))
 
 
-def _defined(surface, expression):
+def _defined(surface: Surface, expression: sp.Expr) -> list[sp.Symbol]:
     return [s for s in expression.free_symbols if s in surface.definitions]

@@ -16,11 +16,14 @@ solid_M              sizes of the solid teeth of a member: see :func:`solid`
 tool_clearance       sizes of a tool of revolution that passes over finished teeth: see :class:`ToolClearance`
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.symbols import Quantity
+from derive.language.vectors import Number
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,7 @@ class Result:
     """A named result: one number or several, with their unit and frame."""
 
     name: str
-    values: tuple
+    values: tuple[sp.Expr, ...]
     unit: str = ""
     frame: str = ""
 
@@ -68,12 +71,12 @@ class Function:
 
     name: str
     meaning: str
-    arguments: tuple
+    arguments: tuple[Quantity, ...]
     results: tuple[Result, ...]
     rests_on: tuple[str, ...] = ()
 
 
-def solid(member, sizes):
+def solid(member: str, sizes: Mapping[str, tuple[Number, str]]) -> Function:
     """The function ``solid_<member>`` that makes a solid of the member; ``sizes`` are values and units by name.
 
     Every member: ``module`` (the depth of the rim is counted in it) and, where a bore bounds the rim, ``root_radius``.
@@ -98,7 +101,7 @@ def solid(member, sizes):
     )
 
 
-def both_turns(a, b, c):
+def both_turns(a: sp.Expr, b: sp.Expr, c: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Both angles with a·cos + b·sin + c = 0; not a number where there is none (a² + b² < c²)."""
     middle, half = v.arc(b, a), v.arc(v.root(a**2 + b**2 - c**2), -c)
     return middle + half, middle - half

@@ -4,6 +4,7 @@ Every step names its statements where it is carried out, so that what a generate
 the drive was derived. The prove stage refuses an id that the record has not proved.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -36,6 +37,6 @@ STEP_SIZE = Origin("derivation/step-size", "natural size of an unknown")
 UNIT = Origin("derivation/unit", "length of a normal")
 
 
-def joined(*groups):
+def joined(*groups: Iterable[str]) -> tuple[str, ...]:
     """Statement ids of several steps, each once, in order."""
     return tuple(dict.fromkeys(statement for group in groups for statement in group))

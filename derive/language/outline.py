@@ -24,7 +24,7 @@ class Suggestion:
     """
 
     place: str
-    values: tuple
+    values: tuple[sp.Expr | int, ...]
     why: str = ""
     name: str = ""
     decimals: int | None = None
@@ -32,7 +32,7 @@ class Suggestion:
     words: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
-    def symbol(self):
+    def symbol(self) -> sp.Symbol:
         """The name by which later suggestions use this one."""
         return sp.Symbol(self.name or self.place.replace(".", "_"), real=True)
 

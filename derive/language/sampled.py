@@ -3,40 +3,49 @@
 The record proves what a derivation claims; here a claim that is false is noticed where it is made.
 """
 
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
+
 import mpmath
 import sympy as sp
 
+from derive.language.vectors import Number
+
 DIGITS, NEGLIGIBLE, PLACES = 60, mpmath.mpf(10) ** -40, 3
 
-_FUNCTIONS = {sp.sin: mpmath.sin, sp.cos: mpmath.cos, sp.tan: mpmath.tan, sp.atan2: mpmath.atan2, sp.Abs: abs}
+_FUNCTIONS: Mapping[Any, Callable[..., mpmath.mpf]] = {
+    sp.sin: mpmath.sin, sp.cos: mpmath.cos, sp.tan: mpmath.tan, sp.atan2: mpmath.atan2, sp.Abs: mpmath.mpf.__abs__,
+}  # fmt: skip
 
 
-def sampled(expressions):
+def sampled(expressions: Iterable[Number]) -> Iterator[list[mpmath.mpf]]:
     """Values of the expressions at each of a few places of their symbols, in 60 digits."""
-    expressions = [sp.sympify(e) for e in expressions]
-    symbols = sorted(set().union(*(e.free_symbols for e in expressions)), key=str)
+    wanted = [sp.sympify(e) for e in expressions]
+    symbols = sorted({q for e in wanted for q in e.free_symbols}, key=str)
     for k in range(PLACES):
         with mpmath.workdps(DIGITS):
-            values = {q: mpmath.mpf(3 * k + n + 2) / (7 + 2 * n) for n, q in enumerate(symbols)}
-            yield [_value(e, values) for e in expressions]
+            values: dict[sp.Expr, mpmath.mpf] = {
+                q: mpmath.mpf(3 * k + n + 2) / (7 + 2 * n) for n, q in enumerate(symbols)
+            }
+            yield [_value(e, values) for e in wanted]
 
 
-def vanishes(expression):
+def vanishes(expression: sp.Expr) -> bool:
     """Whether an expression is zero at every place."""
     return all(abs(value) < NEGLIGIBLE for (value,) in sampled([expression]))
 
 
-def _value(e, known):
+def _value(e: sp.Expr, known: dict[sp.Expr, mpmath.mpf]) -> mpmath.mpf:
     if e not in known:
         arguments = [_value(a, known) for a in e.args]
-        if e.is_Add:
+        if isinstance(e, sp.Add):
             known[e] = mpmath.fsum(arguments)
-        elif e.is_Mul:
+        elif isinstance(e, sp.Mul):
             known[e] = mpmath.fprod(arguments)
-        elif e.is_Pow:
+        elif isinstance(e, sp.Pow):
             known[e] = mpmath.power(*arguments)
         elif e.is_number and not e.args:
-            known[e] = mpmath.mpf(e.p) / e.q if e.is_Rational else mpmath.mpf(sp.N(e, DIGITS))
+            known[e] = mpmath.mpf(e.p) / e.q if isinstance(e, sp.Rational) else mpmath.mpf(sp.N(e, DIGITS))
         else:
             known[e] = _FUNCTIONS[e.func](*arguments)
     return known[e]

@@ -5,6 +5,7 @@ with the motion into the body frame. Nothing is multiplied out.
 """
 
 from dataclasses import dataclass, replace
+from typing import Self, TypeAlias
 
 import sympy as sp
 
@@ -13,6 +14,11 @@ from derive.language.chain import Motion, Rz, screw, station
 from derive.language.definitions import Definitions
 from derive.language.origin import joined
 from derive.language.sampled import NEGLIGIBLE, sampled
+from derive.language.symbols import Quantity
+from derive.language.vectors import Number
+
+#: What a step may be made of.
+StepData: TypeAlias = Motion | v.Vector | Number
 
 
 @dataclass(frozen=True)
@@ -26,10 +32,10 @@ class Step:
     """
 
     word: str
-    data: tuple
+    data: tuple[tuple[str, StepData], ...]
 
     @classmethod
-    def of(cls, word, **data):
+    def of(cls, word: str, **data: StepData) -> Self:
         return cls(word, tuple(data.items()))
 
 
@@ -48,38 +54,38 @@ class Surface:
     """
 
     definitions: Definitions
-    parameters: tuple
-    point: tuple
-    tangents: tuple
-    normal: tuple
+    parameters: tuple[Quantity, ...]
+    point: v.Vector
+    tangents: tuple[v.Vector, ...]
+    normal: v.Vector
     motion: Motion = Motion()
-    conditions: tuple = ()
-    pole: tuple | None = None
+    conditions: tuple[sp.Expr, ...] = ()
+    pole: v.Vector | None = None
     steps: tuple[str, ...] = ()
     made: tuple[Step, ...] = ()
 
-    def on(self, *statements):
+    def on(self, *statements: str) -> Self:
         """The same surface, resting on these statements of the record as well."""
         return replace(self, steps=joined(self.steps, statements))
 
     @property
-    def rests_on(self):
+    def rests_on(self) -> tuple[str, ...]:
         """Statements of the record behind the surface in its body frame."""
         return joined(self.steps, self.motion.rests_on)
 
-    def with_pole(self, pole):
+    def with_pole(self, pole: v.Vector) -> Self:
         """The same surface, with another point of the normal's line, section frame."""
         return replace(self, pole=pole)
 
-    def in_order(self, *parameters):
+    def in_order(self, *parameters: Quantity) -> Self:
         """The same surface with its parameters in this order: across the tooth, then along it."""
         return replace(self, parameters=parameters)
 
-    def turned_over(self):
+    def turned_over(self) -> Self:
         """The same surface as the border of the body on its other side: a copy of the tool that stays at rest."""
         return replace(self, normal=v.scale(-1, self.normal))
 
-    def placed(self, *motions):
+    def placed(self, *motions: Motion) -> Self:
         """The surface moved by the product of these motions (leftmost acting last)."""
         motion = self.motion
         for outer in reversed(motions):
@@ -88,28 +94,38 @@ class Surface:
         return replace(self.written_down, motion=motion).by(*moves)
 
     @property
-    def written_down(self):
+    def written_down(self) -> Self:
         """The same surface; one that no step has made is given as it stands."""
         if self.made:
             return self
-        data = {"point": self.point, "normal": self.normal, "motion": self.motion}
-        return self.by(Step.of("given", **data, first=self.tangents[0], second=self.tangents[1]))
+        first, second = self.tangents
+        given = Step.of("given", point=self.point, normal=self.normal, motion=self.motion, first=first, second=second)
+        return self.by(given)
 
-    def by(self, *steps):
+    def by(self, *steps: Step) -> Self:
         """The same surface, made by these further steps."""
         return replace(self, made=(*self.made, *steps))
 
-    def body_point(self):
+    def body_point(self) -> v.Vector:
         return self.motion.point(self.point)
 
-    def body_normal(self):
+    def body_normal(self) -> v.Vector:
         return self.motion.direction(self.normal)
 
-    def body_tangents(self):
+    def body_tangents(self) -> tuple[v.Vector, ...]:
         return tuple(self.motion.direction(t) for t in self.tangents)
 
 
-def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
+def swept(
+    definitions: Definitions,
+    section: v.Vector,
+    motion: Motion,
+    *,
+    along: Quantity,
+    sweep: Quantity,
+    outward: Number,
+    arm: Number = 1,
+) -> Surface:
     """The surface of a curve ``section(along)``, which may change with ``sweep``, carried by ``motion(sweep)``.
 
     The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep)/``arm``; ``outward`` (±1, or the flank
@@ -125,7 +141,17 @@ def swept(definitions, section, motion, *, along, sweep, outward, arm=1):
     )
 
 
-def revolved(definitions, profile, *, along, turn, outward, radius=0, sense=1, slope=None):
+def revolved(
+    definitions: Definitions,
+    profile: v.Vector,
+    *,
+    along: Quantity,
+    turn: Quantity,
+    outward: Number,
+    radius: Number = 0,
+    sense: Number = 1,
+    slope: v.Vector | None = None,
+) -> Surface:
     """The surface of revolution about z of a ``profile`` in the x–z half plane, measured from x = ``radius``.
 
     That place is its station, so that large lengths do not cancel. The tangent along the circle has unit length, so
@@ -146,16 +172,24 @@ def revolved(definitions, profile, *, along, turn, outward, radius=0, sense=1, s
     )
 
 
-def require_parallel(derivative, slope):
+def require_parallel(derivative: v.Vector, slope: v.Vector) -> None:
     """Raise ``ValueError`` unless two vectors have the same direction."""
     for values in sampled((*derivative, *slope)):
         a, b = values[:3], values[3:]
-        across = sum(abs(p) for p in v.cross(a, b))
+        across = sum(abs(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
         if across > NEGLIGIBLE or sum(p * q for p, q in zip(a, b, strict=True)) <= 0:
             raise ValueError("the slope given is not along the derivative of the profile")
 
 
-def helicoid(definitions, section, *, along, sweep, parameter, outward):
+def helicoid(
+    definitions: Definitions,
+    section: v.Vector,
+    *,
+    along: Quantity,
+    sweep: Quantity,
+    parameter: sp.Expr,
+    outward: Number,
+) -> Surface:
     """The helicoid of a curve in screw motion: r = Rz(ψ) P(t) + p ψ k."""
     flank = swept(definitions, section, screw(sweep, parameter), along=along, sweep=sweep, outward=outward)
     return flank.on("helicoids/helicoid", "helicoids/normal")

@@ -2,9 +2,14 @@
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any, Self, TypeAlias
 
 import sympy as sp
 
+from derive.language.vectors import Number
+
+#: Lower and upper end of an open interval.
+Domain: TypeAlias = tuple[Number, Number]
 
 class Quantity(sp.Symbol):
     """A real SymPy symbol with unit, frame, meaning, open domain and parity.
@@ -16,20 +21,35 @@ class Quantity(sp.Symbol):
 
     __slots__ = ("unit", "meaning", "frame", "domain", "parity")
 
-    def __new__(cls, name, unit="", meaning="", frame="", domain=(-sp.oo, sp.oo), parity=1):
+    unit: str
+    meaning: str
+    frame: str
+    domain: tuple[sp.Expr, sp.Expr]
+    parity: int
+
+    def __new__(
+        cls,
+        name: str,
+        unit: str = "",
+        meaning: str = "",
+        frame: str = "",
+        domain: Domain = (-sp.oo, sp.oo),
+        parity: int = 1,
+    ) -> Self:
         self = sp.Symbol.__xnew__(cls, name, real=True)
         self.unit, self.meaning, self.frame, self.parity = unit, meaning, frame, parity
-        self.domain = tuple(map(sp.sympify, domain))
+        low, high = domain
+        self.domain = sp.sympify(low), sp.sympify(high)
         return self
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.name
 
-    def __getnewargs_ex__(self):
+    def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.name, self.unit, self.meaning, self.frame, self.domain, self.parity), {}
 
 
-def rotation_angle(name, meaning, frame="", domain=(-sp.oo, sp.oo)):
+def rotation_angle(name: str, meaning: str, frame: str = "", domain: Domain = (-sp.oo, sp.oo)) -> Quantity:
     """An angle of rotation about an axis in the plane of the mirror: the mirror image has the opposite angle."""
     return Quantity(name, "rad", meaning, frame, domain, parity=-1)
 
@@ -46,7 +66,7 @@ class Table(StrEnum):
 
 
 #: Interface unit (key suffix) → the unit used inside and the exact factor to it.
-_INTERFACE_UNITS = {
+_INTERFACE_UNITS: dict[str, tuple[str, sp.Expr]] = {
     "mm": ("mm", sp.S.One),
     "um": ("mm", sp.Rational(1, 1000)),
     "deg": ("rad", sp.rad(1)),
@@ -56,10 +76,11 @@ _INTERFACE_UNITS = {
 }
 
 
-def interface_unit(key):
+def interface_unit(key: str) -> tuple[str, str, sp.Expr]:
     """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
     suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")
-    return (suffix, *_INTERFACE_UNITS.get(suffix, ("", sp.S.One)))
+    unit, factor = _INTERFACE_UNITS.get(suffix, ("", sp.S.One))
+    return suffix, unit, factor
 
 
 @dataclass(frozen=True)
@@ -82,21 +103,30 @@ class Parameter:
     choices: tuple[tuple[str, int], ...] = ()
 
     @property
-    def place(self):
+    def place(self) -> str:
         """The key with its table, by which guards and requirements name it; of [design] the key alone."""
         return self.key if self.table == Table.DESIGN else f"{self.table}.{self.key}"
 
     @property
-    def factor(self):
+    def factor(self) -> sp.Expr:
         """Exact factor from the interface unit to the inner unit."""
         return interface_unit(self.key)[2]
 
 
-def parameter(key, symbol, meaning, *, table=Table.DESIGN, domain=(-sp.oo, sp.oo), default=None, **kind):
+def parameter(
+    key: str,
+    symbol: str,
+    meaning: str,
+    *,
+    table: str = Table.DESIGN,
+    domain: Domain = (-sp.oo, sp.oo),
+    default: Number | None = None,
+    **kind: Any,  # noqa: ANN401  the other fields of a Parameter
+) -> Parameter:
     """Declare a parameter by its design key; the inner unit follows from the key's suffix."""
     _, unit, _ = interface_unit(key)
-    default = None if default is None else sp.sympify(default)
-    return Parameter(Quantity(symbol, unit, meaning, domain=domain), key, table, default, **kind)
+    value = None if default is None else sp.sympify(default)
+    return Parameter(Quantity(symbol, unit, meaning, domain=domain), key, table, value, **kind)
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,13 @@ gives a key of a tool that it does not use is refused.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any, cast
 
 import sympy as sp
 
-from derive.language.symbols import Parameter, Table, parameter
+from derive.language.definitions import Definitions
+from derive.language.symbols import Domain, Parameter, Table, parameter
+from derive.language.vectors import Number
 
 
 @dataclass(frozen=True)
@@ -31,10 +34,10 @@ class Datum:
     key: str
     symbol: str
     meaning: str
-    domain: tuple = (-sp.oo, sp.oo)
-    default: sp.Expr | None = None
+    domain: Domain = (-sp.oo, sp.oo)
+    default: Number | None = None
     required: bool = False
-    sample: object = None
+    sample: float | int | str | None = None
     table: Table = Table.DESIGN
     lower_included: bool = False
 
@@ -59,36 +62,36 @@ class Tool:
     ``title`` is the first line of the function's docstring or of its module's.
     """
 
-    make: Callable
+    make: Callable[..., Any]
     data: tuple[Datum, ...] = ()
 
-    def __call__(self, body, definitions):
+    def __call__(self, body: Any, definitions: Definitions) -> Any:  # noqa: ANN401  what family and tool agree on
         return self.make(body, definitions)
 
     @property
-    def name(self):
+    def name(self) -> str:
         """The name of the function."""
         return self._function.__name__
 
     @property
-    def title(self):
+    def title(self) -> str:
         """What the tool is, for readers."""
         return (self._function.__doc__ or "").strip().splitlines()[0]
 
     @property
-    def sample(self):
+    def sample(self) -> dict[str, float | int | str]:
         """Numbers of the data in the sample design, by key."""
         return {datum.key: datum.sample for datum in self.data if datum.sample is not None}
 
     @property
-    def _function(self):
-        return self.make.func if isinstance(self.make, partial) else self.make
+    def _function(self) -> Callable[..., Any]:
+        return cast("partial[Any]", self.make).func if isinstance(self.make, partial) else self.make
 
 
-def tool(*data: Datum):
+def tool(*data: Datum) -> Callable[[Callable[..., Any]], Tool]:
     """Decorator: a function ``make(body, definitions)`` as a :class:`Tool` with these data."""
 
-    def declare(make):
+    def declare(make: Callable[..., Any]) -> Tool:
         return Tool(make, data)
 
     return declare

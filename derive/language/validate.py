@@ -5,11 +5,20 @@
 
 import re
 from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
+import mpmath
 import sympy as sp
 
-from derive.language.drive import PATH, Role
-from derive.language.symbols import Table
+from derive.language.drive import PATH, Body, Drive, Margin, Role
+from derive.language.surface import Surface
+from derive.language.symbols import Parameter, Quantity, Table
+from derive.language.vectors import Number
+
+#: The observation of a contact, by name, and its inputs.
+Observed: TypeAlias = Mapping[str, Sequence[mpmath.mpf]]
+Numbers: TypeAlias = Mapping[sp.Symbol, mpmath.mpf]
 
 #: What a point of a flank may be marked with, "" where a region has no flag of its own.
 FLAGS = ("", "undercut", "interference", "beyond_regression", "spurious_sheet", "off_tip", "off_root", "off_face",
@@ -24,7 +33,7 @@ class DescriptionError(ValueError):
     """A description that contradicts itself; the message names the drive, the part and the remedy."""
 
 
-def validate(drive):
+def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
     checks = (_keys, _names, _completion, _guards, _sample, _systems, _limits)
     for check in checks:
@@ -32,7 +41,7 @@ def validate(drive):
             raise DescriptionError(f"{drive.name}: {message}")
 
 
-def _keys(drive):
+def _keys(drive: Drive) -> Iterator[str]:
     """Keys are unique; the table of misalignments may repeat a key, as the error of the size of that name.
 
     A family's own tables, such as one a member, may have the same keys.
@@ -41,7 +50,7 @@ def _keys(drive):
     for (table, key), count in places.items():
         if count > 1:
             yield f"the key {key!r} is declared {count} times in [{table}]; rename all but one"
-    tables = {}
+    tables: dict[str, str] = {}
     for p in drive.parameters:
         shared = p.table == Table.MISALIGNMENT or p.table not in list(Table)
         if not shared and tables.setdefault(p.key, p.table) != p.table:
@@ -61,20 +70,22 @@ def _keys(drive):
         yield f"pinion_teeth names the key {drive.pinion_teeth!r}, which is not declared"
 
 
-def _places(drive):
+def _places(drive: Drive) -> set[str]:
     """How keys may be named: as they are, and with their table."""
     return {p.key for p in drive.parameters} | {p.place for p in drive.parameters}
 
 
-def _in_sample(p):
+def _in_sample(p: Parameter) -> str:
     """How the sample design names a key."""
     return p.key if p.table == Table.FLANK else p.place
 
 
-def _names(drive):
+def _names(drive: Drive) -> Iterator[str]:
     """A name stands for one number: two symbols of one name are one symbol to SymPy."""
-    taken = {}
-    groups = [("a parameter", [p.symbol for p in drive.parameters]), ("the input angle", [drive.instant])]
+    taken: dict[str, str] = {}
+    groups: list[tuple[str, Sequence[Quantity]]] = [
+        ("a parameter", [p.symbol for p in drive.parameters]), ("the input angle", [drive.instant])
+    ]  # fmt: skip
     groups += [(f"a coordinate of the {body.name}", body.point) for body in drive.bodies]
     groups += [("the share of a path", [PATH]), ("an unknown", [u.symbol for u in drive.unknowns])]
     groups += [("a named intermediate result", [symbol for symbol, _ in drive.definitions.items()])]
@@ -96,12 +107,12 @@ def _names(drive):
             yield f"the symbol {p.symbol.name!r} of the key {p.key!r} is no name in C; use letters, digits and _"
 
 
-def _strangers(drive, expression, known):
+def _strangers(drive: Drive, expression: Number, known: Collection[sp.Symbol]) -> list[str]:
     """Names in an expression that nothing gives a value."""
     return sorted(q.name for q in drive.definitions.free(expression) if q not in known)
 
 
-def _completion(drive):
+def _completion(drive: Drive) -> Iterator[str]:
     parameters = {p.symbol for p in drive.parameters}
     for what, rules in (("rule", drive.rules), ("proportion", drive.proportions)):
         for rule in rules:
@@ -116,7 +127,7 @@ def _completion(drive):
         yield f"the reference angle needs {', '.join(strangers)}, which no key gives"
 
 
-def _guards(drive):
+def _guards(drive: Drive) -> Iterator[str]:
     parameters, keys = {p.symbol for p in drive.parameters}, _places(drive)
     for guard in drive.guards:
         if not guard.keys:
@@ -128,7 +139,7 @@ def _guards(drive):
             yield f"the guard {guard.message!r} needs {', '.join(strangers)}, which no key gives"
 
 
-def _sample(drive):
+def _sample(drive: Drive) -> Iterator[str]:
     keys = {_in_sample(p) for p in drive.parameters}
     for key in drive.sample:
         if key not in keys:
@@ -141,7 +152,7 @@ def _sample(drive):
             yield f"the sample design must give exactly one of {', '.join(group)}"
 
 
-def _systems(drive):
+def _systems(drive: Drive) -> Iterator[str]:
     if len(drive.residual) != len(drive.unknowns):
         yield f"{len(drive.residual)} equations of contact for {len(drive.unknowns)} unknowns"
     unknowns = {u.symbol for u in drive.unknowns}
@@ -159,9 +170,11 @@ def _systems(drive):
             yield f"the design system {system.name} fills {target}, which is no parameter"
 
 
-def _limits(drive):
-    surfaces = [(body.name, "flank", body.surface, body.point, body.margins) for body in drive.bodies]
-    surfaces += [(r.member, r.name, r.surface, (), r.margins) for r in drive.regions]
+def _limits(drive: Drive) -> Iterator[str]:
+    surfaces: list[tuple[str, str, Surface, tuple[Quantity, ...], tuple[Margin, ...]]] = [
+        *((body.name, "flank", body.surface, body.point, body.margins) for body in drive.bodies),
+        *((r.member, r.name, r.surface, (), r.margins) for r in drive.regions),
+    ]
     there = {(member, name) for member, name, *_ in surfaces}
     parameters = {p.symbol for p in drive.parameters}
     for member, name, surface, point, margins in surfaces:
@@ -183,11 +196,11 @@ def _limits(drive):
         if len(surface.parameters) != len(surface.conditions) + 2:
             count = f"{len(surface.parameters)} parameters for {len(surface.conditions)} conditions"
             yield f"the {member}'s {name} has {count}; a surface has two more"
-    if isinstance(drive.ratio, sp.Expr) and drive.ratio.is_zero:
+    if sp.sympify(drive.ratio).is_zero:
         yield "the ratio is zero"
 
 
-def validate_normals(drive, observed, values):
+def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
     """Raise :class:`DescriptionError` unless both normals point out of their bodies at the sample's contact.
 
     ``observed`` holds the observation of that contact, name → numbers, ``values`` its inputs, symbol → number. Two
@@ -209,7 +222,7 @@ def validate_normals(drive, observed, values):
         )
 
 
-def _narrows(drive, observed, values):
+def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:
     """Whether a tooth whose tip is a limit of its body coordinates is the narrower the nearer to it.
 
     Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
@@ -223,21 +236,21 @@ def _narrows(drive, observed, values):
     return not found or any(found)
 
 
-def _body_normal(drive, body, observed, values):
+def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) -> list[sp.Expr]:
     turned = body.motion.inverse().direction(tuple(map(sp.Float, observed[f"normal_{body.name}_f"])))
     return [_number(drive.definitions.resolve(c), values) for c in turned]
 
 
-def _slope(body, margin, observed, values):
+def _slope(body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[sp.Expr]:
     """Gradient of a margin by the body coordinates."""
-    at = values | dict(zip(body.point, observed[f"point_{body.name}"], strict=True))
-    open_ = {q: 1 for q in margin.positive.free_symbols if not sp.sympify(at.get(q, 0)).is_finite}
-    return [_number(sp.diff(margin.positive, q), at | open_) for q in body.point]
+    at: dict[sp.Symbol, Any] = {**values, **dict(zip(body.point, observed[f"point_{body.name}"], strict=True))}
+    at |= {q: 1 for q in margin.positive.free_symbols if not sp.sympify(at.get(q, 0)).is_finite}
+    return [_number(sp.diff(margin.positive, q), at) for q in body.point]
 
 
-def _number(expression, values):
+def _number(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> sp.Expr:
     return expression.evalf(subs={q: sp.Float(values[q]) for q in expression.free_symbols})
 
 
-def _dot(a, b):
+def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
     return sum(p * q for p, q in zip(a, b, strict=True))

@@ -4,72 +4,82 @@ Roots and arcs are built here without the questions that SymPy asks (is it zero,
 parameters they have no answer, and the search for one takes longer than a derivation.
 """
 
+from typing import TypeAlias
+
 import sympy as sp
 
-I, J, K = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+#: What SymPy takes for an expression.
+Number: TypeAlias = sp.Expr | int | float
+
+#: Three components.
+Vector: TypeAlias = tuple[sp.Expr, ...]
+
+_0, _1 = sp.S.Zero, sp.S.One
+I, J, K = (_1, _0, _0), (_0, _1, _0), (_0, _0, _1)
 AXES = {"x": I, "y": J, "z": K}
+ORIGIN = (_0, _0, _0)
 
 
-def vector(x, y, z):
+def vector(x: Number, y: Number, z: Number) -> Vector:
     """A vector from three SymPy-compatible numbers or expressions."""
     return tuple(sp.sympify(c) for c in (x, y, z))
 
 
-def add(a, b):
+def add(a: Vector, b: Vector) -> Vector:
     return tuple(p + q for p, q in zip(a, b, strict=True))
 
 
-def sub(a, b):
+def sub(a: Vector, b: Vector) -> Vector:
     return tuple(p - q for p, q in zip(a, b, strict=True))
 
 
-def scale(factor, a):
+def scale(factor: Number, a: Vector) -> Vector:
     return tuple(_times(factor, p) for p in a)
 
 
-def signed(sign, a):
+def signed(sign: Number, a: Vector) -> Vector:
     """A vector times ±1, where that occurs in its components already: sign² = 1."""
-    return tuple(sp.expand(sign * sp.sympify(p)).subs(sp.sympify(sign) ** 2, 1) for p in a)
+    return tuple(sp.expand(sp.sympify(p) * sign).subs(sp.sympify(sign) ** 2, 1) for p in a)
 
 
-def dot(a, b):
+def dot(a: Vector, b: Vector) -> sp.Expr:
     return sp.Add(*(_times(p, q) for p, q in zip(a, b, strict=True)))
 
 
-def cross(a, b):
+def cross(a: Vector, b: Vector) -> Vector:
     return tuple(_times(a[i], b[j]) - _times(a[j], b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
-def _times(p, q):
+def _times(p: Number, q: sp.Expr) -> sp.Expr:
     """p q, without asking whether a factor of zero is finite."""
     return sp.S.Zero if p == 0 or q == 0 else p * q
 
 
-def unit(a):
+def unit(a: Vector) -> Vector:
     """The vector over its length."""
     length = norm(a)
     return tuple(p / length for p in a)
 
 
-def norm(a):
+def norm(a: Vector) -> sp.Expr:
     return root(dot(a, a))
 
 
-def radius(x, y):
+def radius(x: sp.Expr, y: sp.Expr) -> sp.Expr:
     """√(x² + y²)."""
     return root(x**2 + y**2)
 
 
-def root(a):
-    return sp.Pow(a, sp.Rational(1, 2), evaluate=not sp.sympify(a).is_Add)
+def root(a: Number) -> sp.Expr:
+    return sp.Pow(a, sp.Rational(1, 2), evaluate=not isinstance(sp.sympify(a), sp.Add))
 
 
-def arc(y, x):
+def arc(y: Number, x: Number) -> sp.Expr:
     """Angle of the direction (x, y)."""
     return sp.atan2(y, x, evaluate=False)
 
 
-def circle_centre(a, b, c):
+def circle_centre(a: Vector, b: Vector, c: Vector) -> tuple[Vector, Vector]:
     """Centre of the circle through three points, and a normal of its plane (zero where they are in line)."""
     p, q = sub(a, b), sub(c, b)
     normal = cross(p, q)

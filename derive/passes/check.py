@@ -7,8 +7,9 @@ passes use (odd, even). A wrong pass is let through with a probability of about 
 import random
 import secrets
 import weakref
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 
 import sympy as sp
 
@@ -23,47 +24,63 @@ class PassError(AssertionError):
 
 
 @cache
-def _prime():
+def _prime() -> int:
     return sp.nextprime(secrets.randbits(60) | 1 << 60)
 
 
 @cache
-def _mixed(name, *values):
+def _mixed(name: str, *values: int) -> int:
     """A random function: the same value for the same arguments, as long as this process lives."""
     return _SOURCE.randrange(1, _prime())
 
 
-def _inverse(a):
+def _inverse(a: int) -> int:
     if not a:
         raise ZeroDivisionError("a divisor is zero modulo the prime")
     return pow(a, -1, _prime())
 
 
-def _even(name, a):
+def _even(name: str, a: int) -> int:
     p = _prime()
     return _mixed(name, min(a % p, -a % p))
 
 
-def _odd(name, a, *others):
+def _odd(name: str, a: int, *others: int) -> int:
     p = _prime()
     sign = 1 if a % p <= -a % p else -1
     return sign * _mixed(name, min(a % p, -a % p), *others) % p if a % p else 0
 
 
-_APPLY = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "neg": lambda a: -a,
-    "div": lambda a, b: a * _inverse(b % _prime()),
-    "fma": lambda a, b, c: a * b + c,
-    "fms": lambda a, b, c: a * b - c,
-    "fnma": lambda a, b, c: c - a * b,
-    "sin": lambda a: _odd("sin", a),
-    "cos": lambda a: _even("cos", a),
-    "sqrt": lambda a: _mixed("sqrt", a),
-    "sign": lambda a: _odd("sign", a),
-    "atan2": lambda y, x: _odd("atan2", y, x),
+def _quotient(a: int, b: int) -> int:
+    return a * _inverse(b % _prime())
+
+
+def _fma(a: int, b: int, c: int) -> int:
+    return a * b + c
+
+
+def _fms(a: int, b: int, c: int) -> int:
+    return a * b - c
+
+
+def _fnma(a: int, b: int, c: int) -> int:
+    return c - a * b
+
+
+_APPLY: dict[str, Callable[..., int]] = {
+    "add": int.__add__,
+    "sub": int.__sub__,
+    "mul": int.__mul__,
+    "neg": int.__neg__,
+    "div": _quotient,
+    "fma": _fma,
+    "fms": _fms,
+    "fnma": _fnma,
+    "sin": partial(_odd, "sin"),
+    "cos": partial(_even, "cos"),
+    "sqrt": partial(_mixed, "sqrt"),
+    "sign": partial(_odd, "sign"),
+    "atan2": partial(_odd, "atan2"),
 }
 
 
@@ -71,7 +88,7 @@ _APPLY = {
 _TAPES: weakref.WeakKeyDictionary[Tape, dict[int, int]] = weakref.WeakKeyDictionary()
 
 
-def _residue(tape, i):
+def _residue(tape: Tape, i: int) -> int:
     """The residue of a node: of an input random, of a constant its own, of all else by the tape's operations."""
     values = _TAPES.setdefault(tape, {})
     if i not in values:
@@ -83,7 +100,7 @@ def _residue(tape, i):
     return values[i]
 
 
-def _leaf(tape, i):
+def _leaf(tape: Tape, i: int) -> int:
     value = tape.const_value(i)
     if value is None:
         return _SOURCE.randrange(1, _prime())
@@ -91,17 +108,18 @@ def _leaf(tape, i):
     return exact.numerator * _inverse(exact.denominator) % _prime()
 
 
-def residues(program):
+def residues(program: Routine) -> list[int]:
     """Values of a routine's outputs modulo the prime, at the inputs' random residues."""
     if "residues" not in program.found:
         program.found["residues"] = _computed(program)
     return program.found["residues"]
 
 
-def _computed(program):
-    p, values = _prime(), {}
+def _computed(program: Routine) -> list[int]:
+    p = _prime()
+    values: dict[int, int] = {}
 
-    def value(i):
+    def value(i: int) -> int:
         if i not in values:
             if program.tape.nodes[i].args and i not in program.known:
                 raise PassError(f"{program.name or 'a routine'} reads node {i} before it is computed")
@@ -120,7 +138,9 @@ def same(name: str, before: Routine, after: Routine) -> Routine:
     return after
 
 
-def solves(name, tape, matrix, change, right):
+def solves(
+    name: str, tape: Tape, matrix: Sequence[Sequence[int]], change: Sequence[int], right: Sequence[int]
+) -> None:
     """Raises :class:`PassError` unless matrix · change = right, of nodes."""
     flat = [entry for row in matrix for entry in row]
     numbers = residues(routine(tape, [*flat, *change, *right]))
@@ -131,7 +151,9 @@ def solves(name, tape, matrix, change, right):
             raise PassError(f"{name}: equation {k} is not solved")
 
 
-def derives(name, tape, values, inputs, slopes):
+def derives(
+    name: str, tape: Tape, values: Sequence[int], inputs: Sequence[int], slopes: Sequence[Sequence[int]]
+) -> None:
     """Raises :class:`PassError` unless ``slopes`` [i][j] are the derivatives of ``values`` [i] by ``inputs`` [j]."""
     p = _prime()
     flat = [s for row in slopes for s in row]
@@ -143,11 +165,12 @@ def derives(name, tape, values, inputs, slopes):
                 raise PassError(f"{name}: entry {i}, {j} is not the derivative")
 
 
-def _rates(tape, outputs, variable):
+def _rates(tape: Tape, outputs: Sequence[int], variable: int) -> list[int]:
     """∂outputs/∂variable modulo the prime, by the chain rule on residues."""
-    p, value, rate = _prime(), {}, {variable: 1}
+    p, rate = _prime(), {variable: 1}
+    value: dict[int, int] = {}
 
-    def at(i):
+    def at(i: int) -> tuple[int, int]:
         if i not in value:
             value[i] = _residue(tape, i)
         return value[i], rate.get(i, 0)
@@ -173,7 +196,7 @@ def _rates(tape, outputs, variable):
                 rate[i] = -_APPLY["sin"](a) * da
             case "atan2":
                 rate[i] = (b * da - a * db) * _inverse((a * a + b * b) % p) if da or db else 0
-            case "sign":
+            case _:  # a sign
                 rate[i] = 0
         rate[i] %= p
     return [rate.get(i, 0) for i in outputs]

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.language.drive import PATH, DesignSystem, Drive
-from derive.language.limits import singular_function
 from derive.language.symbols import Parameter, Quantity
+from derive.passes.singular import singular_function
 from derive.program.tape import Lowering, Stage, Tape
 
 
@@ -56,8 +56,8 @@ def on_parameters(drive: Drive, expressions: Iterable[sp.Expr]) -> ParameterTape
 def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> SystemTape:
     """A design system of a drive with these parameters on a tape."""
     tape = Tape()
-    inputs = {p.symbol: Stage.DESIGN for p in parameters} | {PATH: Stage.INSTANT}
-    inputs |= {u.symbol: Stage.ITERATE for u in system.unknowns}
+    inputs: dict[sp.Symbol, Stage] = {p.symbol: Stage.DESIGN for p in parameters}
+    inputs |= {PATH: Stage.INSTANT} | {u.symbol: Stage.ITERATE for u in system.unknowns}
     inputs |= dict.fromkeys(system.fixed, Stage.ITERATE)
     lower = Lowering(tape, inputs, system.definitions)
     fixed = {lower(symbol): lower(value) for symbol, value in system.fixed.items()}

@@ -9,63 +9,44 @@ edition, 2004: edge contact as tangency of a curve and a surface). Two edges tou
 Conditions that the surfaces keep of their own belong to every system.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import permutations, product
+from itertools import product
 
 from derive.language.contact import common_frame, contact
-from derive.language.drive import Role
+from derive.language.drive import Body, Margin, Role
 from derive.passes import check, linearise
-from derive.passes.geometry import determinant, dot
+from derive.passes.geometry import dot
+from derive.passes.plan import Edges, EdgeSystem, Schedule
+from derive.passes.singular import determinant
+from derive.program.tape import Tape
 
 #: Margins beyond which a flank ends in a convex edge. At its root it runs on into a fillet.
 EDGES = (Role.TIP, Role.THROAT, Role.FACE)
 
 
 @dataclass(frozen=True)
-class EdgeSystem:
-    """A system by the numbers of its ``equations``, as many as there are unknowns.
-
-    ``margins``: of pinion and wheel the number of the margin that is zero, None where the flank itself touches.
-    """
-
-    name: str
-    margins: tuple
-    equations: tuple
-
-
-@dataclass(frozen=True)
-class Edges:
-    """Equations (nodes) and their Jacobian: three components of the distance, mm; the surfaces' own conditions; of each
-    edge its margin, then of each edge its tangency to the mating flank. No equations where no margin is an edge.
-    """
-
-    equations: list
-    jacobian: list
-    systems: tuple[EdgeSystem, ...]
-
-
-@dataclass(frozen=True)
 class _Member:
     """A body in the common frame of both: margins, parameters, point, normal and slopes of its conditions as nodes."""
 
-    body: object
-    margins: tuple
-    parameters: tuple
-    point: tuple
-    normal: tuple
-    slopes: tuple
+    body: Body
+    margins: tuple[int, ...]
+    parameters: tuple[int, ...]
+    point: tuple[int, ...]
+    normal: tuple[int, ...]
+    slopes: tuple[list[int], ...]
 
     @property
-    def edges(self):
+    def edges(self) -> list[int]:
         """Numbers of the margins that are edges."""
         return [k for k, m in enumerate(self.body.margins) if m.role in EDGES and m.along is None and not m.relative]
 
-    def event(self, k):
+    def event(self, k: int) -> str:
         """Name of an edge."""
         return f"{self.body.name}_{self.body.margins[k].event}"
 
 
-def edge_contact(plan, margin):
+def edge_contact(plan: Schedule, margin: Callable[[Body, Margin], int]) -> Edges:
     """The :class:`Edges` of a schedule; ``margin(body, margin)`` is the node of a margin."""
     members = _members(plan, margin)
     pinion, wheel = members
@@ -83,36 +64,38 @@ def edge_contact(plan, margin):
     return Edges(equations, jacobian, tuple(_systems(pinion, wheel, len(always), len(listed))))
 
 
-def _systems(pinion, wheel, always, count):
+def _systems(pinion: _Member, wheel: _Member, always: int, count: int) -> Iterator[EdgeSystem]:
     """The systems, when the equations begin with so many that always hold, and there are so many edges."""
-    common, place = tuple(range(always)), {}
+    common = tuple(range(always))
+    place: dict[tuple[str, int], int] = {}
     for member in (pinion, wheel):
         for k in member.edges:
             place[member.body.name, k] = at = always + len(place)
-            margins = (k, None) if member is pinion else (None, k)
-            yield EdgeSystem(member.event(k), margins, (*common, at, at + count))
+            ends = (k, None) if member is pinion else (None, k)
+            yield EdgeSystem(member.event(k), ends, (*common, at, at + count))
     for i, j in product(pinion.edges, wheel.edges):
         rows = place[pinion.body.name, i], place[wheel.body.name, j]
         yield EdgeSystem(f"{pinion.event(i)}_{wheel.event(j)}", (i, j), (*common, *rows))
 
 
-def _members(plan, margin):
+def _members(plan: Schedule, margin: Callable[[Body, Margin], int]) -> tuple[_Member, _Member]:
     """Pinion and wheel in the frame in which the residual of contact compares them, where their nodes are known."""
-    bodies, tape, lower = plan.drive.bodies, plan.tape, plan.lower
-    order = next((p for p in permutations(bodies) if contact(*(b.placed for b in p)) == plan.drive.residual), bodies)
-    placed = dict(zip((b.name for b in order), common_frame(*(b.placed for b in order)), strict=True))
+    (pinion, wheel), tape, lower = plan.drive.bodies, plan.tape, plan.lower
+    orders = ((pinion, wheel), (wheel, pinion))
+    first, second = next((p for p in orders if contact(p[0].placed, p[1].placed) == plan.drive.residual), orders[0])
+    placed = dict(zip((first.name, second.name), common_frame(first.placed, second.placed), strict=True))
 
-    def member(body):
+    def member(body: Body) -> _Member:
         surface = placed[body.name]
         parameters = tuple(lower(p) for p in body.surface.parameters)
         slopes = tuple([tape.derivative(lower(c), p) for p in parameters] for c in body.surface.conditions)
         point, normal = (tuple(map(lower, vector)) for vector in (surface.body_point(), surface.body_normal()))
         return _Member(body, tuple(margin(body, m) for m in body.margins), parameters, point, normal, slopes)
 
-    return tuple(map(member, bodies))
+    return member(pinion), member(wheel)
 
 
-def _tangent(tape, member, number):
+def _tangent(tape: Tape, member: _Member, number: int) -> list[int]:
     """Nodes of the direction along which neither a margin nor a condition of the member's surface changes."""
     rows = [[tape.derivative(member.margins[number], p) for p in member.parameters], *member.slopes]
     columns, total = range(len(member.parameters)), [tape.constant(0)] * 3

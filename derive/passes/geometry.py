@@ -9,15 +9,25 @@ multipliers λ for the conditions that is [II λ] [tangents; slopes] = −turnin
 parametrised surface), solved by Cramer's rule, so that no parameter is singled out.
 """
 
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from typing import TypeAlias
 
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.chain import Motion
+from derive.language.drive import Body, Drive
 from derive.language.functions import Function, Result
 from derive.language.origin import SINGULAR, UNIT, Origin
 from derive.language.symbols import Quantity
+from derive.passes.plan import Schedule
+from derive.passes.singular import determinant
+from derive.program.tape import Tape
 
+#: Two orthonormal vectors, and a symmetric matrix (a11, a12, a22), of nodes.
+Basis: TypeAlias = tuple[Sequence[int], Sequence[int]]
+Form: TypeAlias = tuple[int, int, int]
 #: What the curvatures of a flank divide by: zero where its singular function is.
 REGULAR = Origin(SINGULAR, "singular function of a flank")
 PRINCIPAL = Origin("derivation/quotient", "larger principal curvature of the gap")
@@ -26,14 +36,14 @@ PINION_ANGLE = Quantity("pinion_angle", "rad", "angle of the pinion in mesh", "f
 WHEEL_ANGLE = Quantity("wheel_angle", "rad", "angle of the wheel in mesh", "f")
 
 
-def placement(drive):
+def placement(drive: Drive) -> Function:
     """The :class:`~derive.language.functions.Function` that places both bodies: motions and axes of rotation.
 
     Of each member the rows of the 3 × 4 matrix (rotation | origin) that takes its frame into the fixed frame, and unit
     direction and a point of the axis about which a growing angle of its own turns it, misalignments included.
     """
     at_wheel_angle = {drive.error: WHEEL_ANGLE - (drive.wheel_angle - drive.error)}
-    results = []
+    results: list[Result] = []
     for body, variable in ((drive.pinion, drive.instant), (drive.wheel, drive.error)):
         direction, point = body.motion.axis(variable)
         motion = body.motion.substitute(at_wheel_angle).substitute({drive.instant: PINION_ANGLE})
@@ -51,30 +61,30 @@ def placement(drive):
     )
 
 
-def _rows(motion):
-    columns = [*(motion.direction(v.vector(*axis)) for axis in (v.I, v.J, v.K)), motion.point((sp.Integer(0),) * 3)]
+def _rows(motion: Motion) -> list[sp.Expr]:
+    columns = [*(motion.direction(axis) for axis in (v.I, v.J, v.K)), motion.point(v.ORIGIN)]
     return [column[row] for row in range(3) for column in columns]
 
 
-def lever_arm(plan, body, variable, point, normal):
+def lever_arm(plan: Schedule, body: Body, variable: Quantity, point: Sequence[int], normal: Sequence[int]) -> int:
     """Node of n · (d × (r − o)): how fast the body's point moves along ``normal`` for a unit of its angle, mm."""
     direction, origin = (list(map(plan.lower, vector)) for vector in body.motion.axis(variable))
     arm = [plan.tape.sub(r, o) for r, o in zip(point, origin, strict=True)]
     return plan.tape.triple(normal, direction, arm)
 
 
-def dot(tape, a, b):
+def dot(tape: Tape, a: Sequence[int], b: Sequence[int]) -> int:
     total = tape.mul(a[0], b[0])
     for p, q in zip(a[1:], b[1:], strict=True):
         total = tape.add(total, tape.mul(p, q))
     return total
 
 
-def cross(tape, a, b):
+def cross(tape: Tape, a: Sequence[int], b: Sequence[int]) -> list[int]:
     return [tape.sub(tape.mul(a[i], b[j]), tape.mul(a[j], b[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
 
 
-def unit(tape, nodes):
+def unit(tape: Tape, nodes: Sequence[int]) -> tuple[list[int], int]:
     """A node vector divided by its length, and the length."""
     square = dot(tape, nodes, nodes)
     with tape.within(UNIT):
@@ -82,14 +92,21 @@ def unit(tape, nodes):
         return [tape.div(i, length) for i in nodes], length
 
 
-def tangent_basis(tape, normal, tangent):
+def tangent_basis(tape: Tape, normal: Sequence[int], tangent: Sequence[int]) -> Basis:
     """Orthonormal basis of the tangent plane: the tangent's part across the unit normal, and normal × it."""
     along = dot(tape, tangent, normal)
     first, _ = unit(tape, [tape.sub(t, tape.mul(along, n)) for t, n in zip(tangent, normal, strict=True)])
     return first, cross(tape, normal, first)
 
 
-def second_form(tape, parameters, point, raw_normal, slopes, basis):
+def second_form(
+    tape: Tape,
+    parameters: Sequence[int],
+    point: Sequence[int],
+    raw_normal: Sequence[int],
+    slopes: Iterable[Iterable[int]],
+    basis: Basis,
+) -> Form:
     """Nodes (II11, II12, II22) of a surface's second fundamental form in an orthonormal ``basis`` of its tangent plane.
 
     ``raw_normal`` is outward, of any length; ``slopes`` are the derivatives of each implicit condition.
@@ -104,7 +121,7 @@ def second_form(tape, parameters, point, raw_normal, slopes, basis):
     with tape.within(REGULAR):
         over = tape.div(tape.constant(-1), determinant(tape, matrix))
 
-    def entry(row, column):
+    def entry(row: int, column: int) -> int:
         replaced = [turned[row] if k == column else line for k, line in enumerate(matrix)]
         return tape.mul(determinant(tape, replaced), over)
 
@@ -112,19 +129,7 @@ def second_form(tape, parameters, point, raw_normal, slopes, basis):
     return entry(0, 0), tape.mul(half, tape.add(entry(0, 1), entry(1, 0))), entry(1, 1)
 
 
-def determinant(tape, rows):
-    """Node of the determinant of a small matrix of nodes, by its first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = None
-    for k, entry in enumerate(rows[0]):
-        minor = determinant(tape, [row[:k] + row[k + 1 :] for row in rows[1:]])
-        term = tape.mul(entry, minor)
-        total = term if total is None else (tape.sub if k % 2 else tape.add)(total, term)
-    return total
-
-
-def principal_curvatures(tape, form):
+def principal_curvatures(tape: Tape, form: Form) -> tuple[int, int]:
     """Smaller and larger eigenvalue of a symmetric matrix (a11, a12, a22), without cancellation or branches.
 
     With mean m and radius r of Mohr's circle the eigenvalue of smaller magnitude is the determinant over |m| + r.

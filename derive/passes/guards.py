@@ -10,14 +10,22 @@ result itself.
 """
 
 from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, reduce
-from operator import or_
+from typing import TypeAlias, TypedDict
 
-from derive.language.origin import ARCCOSINE, PARTIAL
+from derive.language.origin import ARCCOSINE, PARTIAL, Origin
+from derive.passes.completion import ParameterTape, SystemTape
+from derive.passes.plan import DesignGuard, Output, Schedule, Tests
 from derive.passes.quotients import by_reciprocal
 from derive.program.formula import formula
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.tape import Lowering, Node, Stage, Tape
+
+#: A node and what it must be, results of which one must show a failure, and of each node a bit for each condition.
+Condition: TypeAlias = tuple[int, str]
+Group: TypeAlias = tuple[int, ...]
+Bits: TypeAlias = Mapping[int, int]
 
 #: What answers where a condition fails, by the name under which side conditions refer to it.
 GUARDS = {
@@ -47,12 +55,12 @@ class Evaluated:
     tape: Tape
     lower: Lowering
     groups: tuple[tuple[int, ...], ...]
-    known: frozenset
+    known: frozenset[int]
     guard: str
     part: int = 0
 
     @property
-    def outputs(self):
+    def outputs(self) -> list[int]:
         return [i for group in self.groups for i in group]
 
 
@@ -60,23 +68,23 @@ class Evaluated:
 EARLY = ("setup", "set_phi")
 
 
-def solving(plan):
+def solving(plan: Schedule) -> list[int]:
     """Nodes that the solution of a contact needs."""
     flat = [e for row in (*plan.jacobian, *plan.start_jacobian) for e in row]
     start = [*plan.start_residual, *plan.start_guess, *plan.start_scales, *plan.start_solution]
     return [*plan.residual, *plan.scales, *plan.newton_step, *start, *flat]
 
 
-def functions(plan):
+def functions(plan: Schedule) -> Iterator[Evaluated]:
     """Every function of the generated header, in the order in which they are printed."""
     tape, lower = plan.tape, plan.lower
     slots = list(plan.state)
     state, design = frozenset(slots), frozenset(slots[: plan.design_slots])
 
-    def on_tape(name, outputs, guard, known=state):
+    def on_tape(name: str, outputs: Iterable[int], guard: str, known: frozenset[int] = state) -> Evaluated:
         return Evaluated(name, tape, lower, (tuple(outputs),), known, guard)
 
-    def results(name, outputs):
+    def results(name: str, outputs: Iterable[Output]) -> Evaluated:
         return Evaluated(name, tape, lower, tuple(o.nodes for o in outputs), state, "result")
 
     for k, rule in enumerate(plan.rules):
@@ -104,17 +112,17 @@ def functions(plan):
         yield results(function.name, function.outputs)
 
 
-def along(plan):
+def along(plan: Schedule) -> Evaluated:
     """The derivatives of the residual along a direction; they read the design part of the state and the instant."""
     design = frozenset(list(plan.state)[: plan.design_slots])
     return Evaluated("along", plan.tape, plan.lower, (plan.along.first, plan.along.second), design, "tangent")
 
 
-def bounded(plan):
+def bounded(plan: Schedule) -> Iterator[Evaluated]:
     """The functions of bounded flanks; they read parameters and state."""
     known = frozenset(plan.state) | {plan.lower(p.symbol) for p in plan.drive.parameters}
 
-    def on_tape(name, outputs, guard):
+    def on_tape(name: str, outputs: Iterable[int], guard: str) -> Evaluated:
         return Evaluated(name, plan.tape, plan.lower, (tuple(outputs),), known, guard)
 
     if plan.edges.systems:
@@ -126,12 +134,12 @@ def bounded(plan):
             yield on_tape(f"second_{name}", expansion.second, "result")
 
 
-def _on_parameters(name, program, guard, part=0):
+def _on_parameters(name: str, program: ParameterTape, guard: str, part: int = 0) -> Evaluated:
     groups = tuple((i,) for i in program.nodes)
     return Evaluated(name, program.tape, program.lower, groups, frozenset(), guard, part)
 
 
-def _of_system(plan):
+def _of_system(plan: SystemTape) -> Iterator[Evaluated]:
     name, matrix = plan.system.name, [e for row in plan.jacobian for e in row]
     for suffix, outputs, guard in (
         ("guess", plan.guess, "system"),
@@ -143,7 +151,7 @@ def _of_system(plan):
         yield Evaluated(f"{name}_{suffix}", plan.tape, plan.lower, (tuple(outputs),), frozenset(), guard)
 
 
-def partial_operations(evaluated):
+def partial_operations(evaluated: Evaluated) -> list[int]:
     """Nodes of a function that are not defined everywhere; quotients by a constant, and products, are."""
     tape = evaluated.tape
     products = by_reciprocal(tape, evaluated.outputs, evaluated.known)
@@ -151,14 +159,14 @@ def partial_operations(evaluated):
     return [i for i in needed if i in tape.origins and i not in products and not _by_constant(tape, i)]
 
 
-def _by_constant(tape, i):
+def _by_constant(tape: Tape, i: int) -> bool:
     return tape.nodes[i].op == "div" and bool(tape.const_value(tape.nodes[i].args[1]))
 
 
 # -- factors --------------------------------------------------------------------------------------------------------
 
 
-def factors(tape, i):
+def factors(tape: Tape, i: int) -> Counter[int]:
     """Factor node → power of a product; constants left out. Of a quotient only the dividend: the divisor is not 0."""
     node = tape.nodes[i]
     match node.op:
@@ -168,10 +176,11 @@ def factors(tape, i):
             return factors(tape, node.args[0])
         case "const" | "sign":
             return Counter()
-    return Counter({i: 1})
+        case _:
+            return Counter({i: 1})
 
 
-def _square(tape, i):
+def _square(tape: Tape, i: int) -> bool:
     """Whether a node is a sum of products of even powers, or less than that: certainly not negative."""
     node = tape.nodes[i]
     if node.op == "add":
@@ -180,7 +189,7 @@ def _square(tape, i):
     return sign > 0 and all(power % 2 == 0 for power in powers.values())
 
 
-def _positive(tape, i):
+def _positive(tape: Tape, i: int) -> bool:
     """Whether a node is a positive constant and squares, added up."""
     node = tape.nodes[i]
     if node.op == "add":
@@ -188,7 +197,7 @@ def _positive(tape, i):
     return node.op == "const" and node.value > 0
 
 
-def _powers(tape, i):
+def _powers(tape: Tape, i: int) -> tuple[Counter[int], int]:
     """Node → power of a product, and the sign of its constant."""
     node = tape.nodes[i]
     if node.op == "const":
@@ -199,7 +208,7 @@ def _powers(tape, i):
     return Counter({i: 1}), 1
 
 
-def demanded(tape, i):
+def demanded(tape: Tape, i: int) -> list[Condition]:
     """What must hold for a partial operation: (node, "nonzero" or "nonnegative") of each factor, none where it always
     does.
     """
@@ -214,22 +223,12 @@ def demanded(tape, i):
 # -- guards of the design -------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class DesignGuard:
-    """A node that must be positive, the reason, and the design's keys that meet in it; ``of`` is the node guarded."""
-
-    node: int
-    message: str
-    keys: tuple[str, ...]
-    of: int | None = None
-
-
-def design_guards(plan):
+def design_guards(plan: Schedule) -> list[DesignGuard]:
     """A drive's own guards; one for each design quantity by which the solution divides, of which it takes a root, or
     whose failure a later result would not show; one for parameters that are not finite.
     """
     tape = plan.tape
-    guards = []
+    guards: list[DesignGuard] = []
     for g in plan.drive.guards:
         node = plan.lower(g.positive)
         guards.append(DesignGuard(node, g.message, g.keys, node))
@@ -245,7 +244,9 @@ def design_guards(plan):
     return [*guards, _finite(plan, sorted(inputs))]
 
 
-def _lost_in(plan, guards, held=frozenset()):
+def _lost_in(
+    plan: Schedule, guards: Collection[str], held: Collection[int | None] = ()
+) -> Iterator[tuple[Evaluated, Group, int, str]]:
     """(function, group, node, kind) of conditions not in ``held`` that fail unseen in functions with these guards."""
     for f in functions(plan):
         if f.guard in guards and f.name not in EARLY:
@@ -256,11 +257,11 @@ def _lost_in(plan, guards, held=frozenset()):
                     yield from ((f, group, node, kind) for group in groups)
 
 
-def _is_parameter(tape, i):
+def _is_parameter(tape: Tape, i: int) -> bool:
     return tape.nodes[i].op == "input" and tape.stages[i] == Stage.DESIGN
 
 
-def _guard(plan, node, kind):
+def _guard(plan: Schedule, node: int, kind: str) -> DesignGuard:
     tape = plan.tape
     text = formula(tape, node, plan.lower)
     if kind == "nonzero":
@@ -268,7 +269,7 @@ def _guard(plan, node, kind):
     return DesignGuard(node, f"a root of a negative number: {text} must be above 0", _keys(plan, [node]), node)
 
 
-def _finite(plan, inputs):
+def _finite(plan: Schedule, inputs: Iterable[int]) -> DesignGuard:
     """Σp² over itself: 1, or not a number where a parameter is infinite or not a number."""
     tape = plan.tape
     total = tape.constant(1)
@@ -279,7 +280,7 @@ def _finite(plan, inputs):
     return DesignGuard(share, "a value that the contact needs is missing or not finite", required)
 
 
-def _keys(plan, nodes):
+def _keys(plan: Schedule, nodes: Sequence[int]) -> tuple[str, ...]:
     tape = plan.tape
     found = {tape.nodes[a].value for i in tape.needed(nodes) for a in tape.nodes[i].args if _is_parameter(tape, a)}
     found |= {tape.nodes[i].value for i in nodes if _is_parameter(tape, i)}
@@ -291,22 +292,22 @@ def _keys(plan, nodes):
 INFINITE, NAN = "infinite or not a number", "not a number"
 
 
-def _failing(tape, order):
+def _failing(tape: Tape, order: Iterable[int]) -> dict[Condition, dict[int, str]]:
     """(node, kind) → operations that are not defined where this fails, and what is certain of their values."""
-    found = {}
+    found: dict[Condition, dict[int, str]] = {}
     for i in order:
         for node, kind in demanded(tape, i):
             found.setdefault((node, kind), {})[i] = INFINITE if kind == "nonzero" else NAN
     return found
 
 
-def _reached(tape, order, failing):
+def _reached(tape: Tape, order: Iterable[int], failing: Iterable[Mapping[int, str]]) -> tuple[Bits, Bits]:
     """Node → which conditions change its value where they fail, and which make it certainly infinite or not a number.
 
     ``failing`` lists for each condition the operations that are then not defined; condition k is bit k of a number.
     A quotient by an infinite number, the angle of an infinite point and a sign may be finite; all else passes it on.
     """
-    changed, infinite, nan = defaultdict(int), defaultdict(int), defaultdict(int)
+    changed, infinite, nan = (defaultdict[int, int](int) for _ in range(3))
     for k, operations in enumerate(failing):
         for i, certain in operations.items():
             changed[i] |= 1 << k
@@ -335,7 +336,7 @@ def _reached(tape, order, failing):
     return changed, infinite
 
 
-def lost(evaluated, order, failing):
+def lost(evaluated: Evaluated, order: Iterable[int], failing: Collection[Mapping[int, str]]) -> list[list[Group]]:
     """For each condition the groups of results that its ``failing`` operations change and leave finite."""
     changed, infinite = _reached(evaluated.tape, order, failing)
     unseen = [_any(changed, group) & ~_any(infinite, group) for group in evaluated.groups]
@@ -345,19 +346,37 @@ def lost(evaluated, order, failing):
     ]
 
 
-def _any(bits, group):
-    return reduce(or_, (bits[i] for i in group), 0)
+def _any(bits: Bits, group: Iterable[int]) -> int:
+    return reduce(int.__or__, (bits[i] for i in group), 0)
 
 
 # -- the list -------------------------------------------------------------------------------------------------------
 
 OPERATIONS = {"div": "division", "sqrt": "root", "atan2": "arc"}
 
+
 class Unguarded(ValueError):
     """A condition that no guard holds."""
 
 
-def tests(plan):
+class Use(TypedDict):
+    """How often a function evaluates an operation, and the guards that answer."""
+
+    count: int
+    guards: list[str]
+
+
+class SideCondition(TypedDict):
+    """The condition of a partial operation, as plain data: see :func:`side_conditions`."""
+
+    operation: str
+    stage: str
+    condition: str
+    equations: list[str]
+    functions: dict[str, Use]
+
+
+def tests(plan: Schedule) -> Tests:
     """Nodes to test: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
 
     Flanks and observations are not tested: a failing condition must be seen in the results themselves, as in the
@@ -365,7 +384,7 @@ def tests(plan):
     """
     held = {g.of for g in plan.guards}
     testing = {"derive", *(f.name for f in plan.functions)}
-    found = {}
+    found: dict[tuple[str, int], dict[Group, list[int]]] = {}
     for f, group, node, kind in _lost_in(plan, GUARDS.keys() - {"start"}, held):
         if f.name not in testing or kind != "nonzero":
             text = formula(f.tape, node, f.lower)
@@ -374,14 +393,15 @@ def tests(plan):
     return found
 
 
-def side_conditions(plan, evaluated):
+def side_conditions(plan: Schedule, evaluated: Iterable[Evaluated]) -> list[SideCondition]:
     """The condition of every partial operation of these generated functions, as plain data in order of appearance.
 
     Each has the ``operation``, the ``stage``, the ``condition``, the ``equations`` of the record that carry it, and
     ``functions``: for each, how often it is evaluated and the guards that answer.
     """
     numbers = {g.of: k for k, g in enumerate(plan.guards, 1)}
-    shown, entries = cache(formula), {}
+    shown = cache(formula)
+    entries: dict[tuple[str, int, str, str], SideCondition] = {}
     for f in evaluated:
         for i in partial_operations(f):
             node, origin = f.tape.nodes[i], f.tape.origins[i]
@@ -403,12 +423,12 @@ def side_conditions(plan, evaluated):
     return list(entries.values())
 
 
-def _condition(f, i, shown):
+def _condition(f: Evaluated, i: int, shown: Callable[[Tape, int, Lowering], str]) -> str:
     """The condition of a partial operation to read; ``shown`` writes a node as :mod:`derive.program.formula` does."""
     tape, origin = f.tape, f.tape.origins[i]
     node = tape.nodes[i]
 
-    def text(k):
+    def text(k: int) -> str:
         full = shown(tape, k, f.lower)
         return origin.meaning if origin.meaning and "…" in full else full
 
@@ -421,16 +441,16 @@ def _condition(f, i, shown):
     return ", ".join(dict.fromkeys(f"{text(k)} ≠ 0" for k in factors(tape, node.args[1])))
 
 
-def _is_complement(node, origin):
+def _is_complement(node: Node, origin: Origin) -> bool:
     return node.op == "sqrt" and origin == ARCCOSINE
 
 
-def _argument(tape, product):
+def _argument(tape: Tape, product: int) -> int:
     """a of (1 − a)(1 + a)."""
     return next(tape.nodes[k].args[1] for k in tape.nodes[product].args if tape.nodes[k].op == "sub")
 
 
-def _answers(plan, f, i, numbers):
+def _answers(plan: Schedule, f: Evaluated, i: int, numbers: Mapping[int | None, int]) -> list[str]:
     if f.tape.nodes[i].op == "atan2":
         return ["origin"]
     conditions = demanded(f.tape, i)
@@ -439,7 +459,7 @@ def _answers(plan, f, i, numbers):
     return [_answer(plan, f, node, numbers) for node, _ in conditions]
 
 
-def _answer(plan, f, node, numbers):
+def _answer(plan: Schedule, f: Evaluated, node: int, numbers: Mapping[int | None, int]) -> str:
     if f.tape is plan.tape and node in numbers:
         return f"setup {numbers[node]}"
     if any(node in nodes for nodes in plan.tests.get((f.name, f.part), {}).values()):

@@ -130,7 +130,7 @@ def _variables(
     """Solutions of equations, and arguments of sines and cosines that depend on more than one input, as evaluated."""
     inputs = set(inputs)
     acting = {i: {i} for i in inputs}
-    held = set()
+    held: set[int] = set()
     order = tape.needed(outputs, inputs)
     for i in order:
         node = tape.nodes[i]

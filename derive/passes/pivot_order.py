@@ -6,14 +6,26 @@ The order is found at a sample solution: among the entries that are large enough
 least fill (Markowitz). The runtime checks the step and falls back on complete pivoting where the order fails.
 """
 
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+import sympy as sp
+
 from derive.language.origin import ELIMINATION, Origin
 from derive.passes import sample
+from derive.passes.plan import Schedule
+from derive.program.tape import Tape
+
+#: Row and column; numbers at the sample, row by row, and whether they are ever other than zero.
+Pivot: TypeAlias = tuple[int, int]
+Rows: TypeAlias = list[list[float]]
+Present: TypeAlias = list[list[bool]]
 
 #: A pivot must reach this share of the largest scaled entry left in its row.
 STABLE_SHARE = 0.1
 
 
-def newton_step(plan):
+def newton_step(plan: Schedule) -> tuple[list[int], list[int]]:
     """Nodes of the updated unknowns and of their changes."""
     tape, linear = plan.tape, plan.linear
     order = _pivot_order(plan, sample.in_double(plan.sample))
@@ -24,7 +36,7 @@ def newton_step(plan):
     return updated, changes
 
 
-def _pivot_order(plan, inputs):
+def _pivot_order(plan: Schedule, inputs: Mapping[sp.Symbol, float]) -> list[Pivot]:
     matrix = plan.linear.matrix
     n = len(matrix)
     flat = [e for row in matrix for e in row]
@@ -33,7 +45,8 @@ def _pivot_order(plan, inputs):
     size = numbers[n * n :]
     values = [[numbers[i * n + j] * size[j] for j in range(n)] for i in range(n)]
     present = [[plan.tape.const_value(e) != 0 for e in row] for row in matrix]
-    rows, columns, order = set(range(n)), set(range(n)), []
+    rows, columns = set(range(n)), set(range(n))
+    order: list[Pivot] = []
     while rows:
         pivot = _best(values, present, rows, columns)
         order.append(pivot)
@@ -41,9 +54,9 @@ def _pivot_order(plan, inputs):
     return order
 
 
-def _best(values, present, rows, columns):
+def _best(values: Rows, present: Present, rows: set[int], columns: set[int]) -> Pivot:
     """The cheapest stable pivot; a row that vanishes at the sample (line contact) comes last, in any order."""
-    best = None
+    best: tuple[tuple[bool, int, float, int, int], Pivot] | None = None
     for i in sorted(rows):
         largest = max(abs(values[i][j]) for j in columns)
         for j in sorted(columns):
@@ -60,7 +73,7 @@ def _best(values, present, rows, columns):
     return best[1]
 
 
-def _eliminate(values, present, rows, columns, pivot):
+def _eliminate(values: Rows, present: Present, rows: set[int], columns: set[int], pivot: Pivot) -> None:
     i, j = pivot
     rows.discard(i)
     columns.discard(j)
@@ -72,7 +85,7 @@ def _eliminate(values, present, rows, columns, pivot):
                 present[k][m] = present[k][m] or present[i][m]
 
 
-def _solve(tape, matrix, right, order):
+def _solve(tape: Tape, matrix: Sequence[Sequence[int]], right: Sequence[int], order: Sequence[Pivot]) -> list[int]:
     """Gaussian elimination on nodes in the given pivot order; entries known to be zero cost nothing.
 
     The last two unknowns follow together from Cramer's rule: for as many operations, one division less in the chain
@@ -80,7 +93,7 @@ def _solve(tape, matrix, right, order):
     """
     a, b = [list(row) for row in matrix], list(right)
     singly, last = order[:-2], order[-2:]
-    inverse = {}
+    inverse: dict[int, int] = {}
     for step, (i, j) in enumerate(singly):
         inverse[i] = _reciprocal(tape, a[i][j], f"pivot {step + 1}")
         for k, _ in order[step + 1 :]:
@@ -99,14 +112,14 @@ def _solve(tape, matrix, right, order):
     return [solution[j] for j in range(len(order))]
 
 
-def _cramer(tape, a, b, pivots):
+def _cramer(tape: Tape, a: Sequence[Sequence[int]], b: Sequence[int], pivots: Sequence[Pivot]) -> dict[int, int]:
     """Column → unknown, of the one or two equations that are left."""
     if len(pivots) == 1:
         [(i, j)] = pivots
         return {j: tape.mul(b[i], _reciprocal(tape, a[i][j], "last pivot"))}
     (i, j), (k, m) = pivots
 
-    def determinant(p, q, r, s):
+    def determinant(p: int, q: int, r: int, s: int) -> int:
         return tape.sub(tape.mul(p, s), tape.mul(q, r))
 
     over = _reciprocal(tape, determinant(a[i][j], a[i][m], a[k][j], a[k][m]), "determinant of the last two pivots")
@@ -116,6 +129,6 @@ def _cramer(tape, a, b, pivots):
     }
 
 
-def _reciprocal(tape, divisor, meaning):
+def _reciprocal(tape: Tape, divisor: int, meaning: str) -> int:
     with tape.within(Origin(ELIMINATION, f"{meaning} of the Newton step")):
         return tape.div(tape.constant(1), divisor)

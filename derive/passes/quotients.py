@@ -16,7 +16,7 @@ def reciprocals(routine: Routine) -> Routine:
     factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
     if not factors:
         return routine
-    steps = []
+    steps: list[tuple[int, Operation]] = []
     for i in tape.needed(routine.outputs, readable, factors):
         node = tape.nodes[i]
         steps.append((i, Operation("mul", factors[i]) if i in factors else Operation(node.op, node.args)))
@@ -27,7 +27,8 @@ def reciprocals(routine: Routine) -> Routine:
 def by_reciprocal(tape: Tape, outputs: Iterable[int], known: Iterable[int]) -> dict[int, tuple[int, int]]:
     """Quotient → its dividend and the reciprocal of its divisor, in a function that is given ``known``."""
     one, order = tape.constant(1), tape.needed(outputs, known)
-    at_hand, factors = {*known, *order}, {}
+    at_hand = {*known, *order}
+    factors: dict[int, tuple[int, int]] = {}
     for i in order:
         node = tape.nodes[i]
         if node.op == "div" and node.args[0] != one:

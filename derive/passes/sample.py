@@ -1,11 +1,20 @@
 """A small Newton iteration on the tape itself, used at generation time only: sample solutions and self-tests."""
 
-import mpmath
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
 
-from derive.language.drive import PATH
+import mpmath
+import sympy as sp
+
+from derive.language.drive import PATH, Drive
 from derive.language.symbols import Table
-from derive.passes.completion import lower_system
+from derive.passes.completion import SystemTape, lower_system
+from derive.passes.plan import Schedule
 from derive.program.tape import Lowering, Stage, Tape
+
+#: Inputs and their numbers, and a matrix, of many digits.
+Values: TypeAlias = dict[sp.Symbol, mpmath.mpf]
+Rows: TypeAlias = list[list[mpmath.mpf]]
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40
@@ -24,15 +33,15 @@ ON_PATH = 1e-4
 class Completion:
     """What completes the designs of a drive: its rules and its design systems, on tapes."""
 
-    def __init__(self, drive):
+    def __init__(self, drive: Drive) -> None:
         lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
         self._parameters = drive.parameters
         self._rules = [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
         self._systems = [lower_system(system, drive.parameters) for system in drive.systems]
 
-    def __call__(self, design):
+    def __call__(self, design: Mapping[str, float | int | str]) -> Values:
         """Parameter values by symbol for a ``design`` (key → number), complete; parameters left open are NaN."""
-        values = {p.symbol: mpmath.nan for p in self._parameters}
+        values: Values = {p.symbol: mpmath.nan for p in self._parameters}
         for p in self._parameters:
             key = p.key if p.table == Table.FLANK else p.place
             if key in design:
@@ -45,18 +54,18 @@ class Completion:
             self._apply_rules(values)
         return values
 
-    def _apply_rules(self, values):
+    def _apply_rules(self, values: Values) -> None:
         for target, tape, node in self._rules:
             if mpmath.isnan(values[target]):
                 values[target] = tape.evaluate([node], values, mpmath)[0]
 
 
-def sample_parameters(drive):
+def sample_parameters(drive: Drive) -> Values:
     """The drive's sample design as parameter values by symbol: see :class:`Completion`."""
     return Completion(drive)(drive.sample)
 
 
-def _complete(plan, values):
+def _complete(plan: SystemTape, values: Values) -> None:
     """Fill in what a design system gives, following its path in equal steps, exactly only at its end."""
     unknowns = plan.unknowns
     inputs = dict(values)
@@ -70,17 +79,17 @@ def _complete(plan, values):
             values[target] = value
 
 
-def _number(expression):
+def _number(expression: sp.Expr) -> mpmath.mpf:
     return mpmath.mpf(expression.evalf(DIGITS))
 
 
-def sample_contact(plan):
+def sample_contact(plan: Schedule) -> Values:
     """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS):
         return solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
 
 
-def observation(plan):
+def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
     """What is observed of the sample's contact: name → numbers."""
     nodes = [i for output in plan.observed for i in output.nodes]
     with mpmath.workdps(DIGITS):
@@ -88,12 +97,12 @@ def observation(plan):
     return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
 
 
-def in_double(inputs):
+def in_double(inputs: Values) -> dict[sp.Symbol, float]:
     """The same inputs as floats."""
     return {symbol: float(value) for symbol, value in inputs.items()}
 
 
-def beside(plan):
+def beside(plan: Schedule) -> list[float]:
     """Start values (nx,) from which Newton comes to the sample's solution in a few steps.
 
     Each unknown stands off by a share of its natural size. A pair that touches along a line has no Newton step, whose
@@ -102,19 +111,19 @@ def beside(plan):
     n, flat = len(plan.unknowns), [*(e for row in plan.jacobian for e in row), *plan.scales]
     with mpmath.workdps(DIGITS):
         numbers = plan.tape.evaluate(flat, plan.sample, mpmath)
-        _, pivots = _eliminated([[*numbers[i * n : i * n + n], 0] for i in range(n)])
+        _, pivots = _eliminated([[*numbers[i * n : i * n + n], mpmath.mpf(0)] for i in range(n)])
     share = BESIDE if len(pivots) == n else 0.0
     return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
 
-def solve(plan, parameters, angle):
+def solve(plan: Schedule, parameters: Values, angle: float) -> Values:
     """Start system, then contact, by full Newton steps in the current mpmath precision."""
     inputs = _start(plan, parameters, angle)
     _iteration(plan.tape, plan.residual, plan.jacobian, plan.unknowns)(inputs)
     return inputs
 
 
-def _start(plan, parameters, angle):
+def _start(plan: Schedule, parameters: Values, angle: float) -> Values:
     drive = plan.drive
     inputs = dict(parameters)
     inputs[drive.instant] = mpmath.mpf(angle)
@@ -126,7 +135,9 @@ def _start(plan, parameters, angle):
     return inputs
 
 
-def _iteration(tape, residual, jacobian, unknowns):
+def _iteration(
+    tape: Tape, residual: Sequence[int], jacobian: Sequence[Sequence[int]], unknowns: Sequence[sp.Symbol]
+) -> Callable[..., None]:
     """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes, or until a
     change is below the tolerance given.
     """
@@ -134,7 +145,7 @@ def _iteration(tape, residual, jacobian, unknowns):
     evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], mpmath)
     exact = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
 
-    def iterate(inputs, tolerance=None):
+    def iterate(inputs: Values, tolerance: float | None = None) -> None:
         for _ in range(60):
             numbers = evaluate(inputs)
             change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
@@ -147,7 +158,7 @@ def _iteration(tape, residual, jacobian, unknowns):
     return iterate
 
 
-def _change(rows):
+def _change(rows: Rows) -> list[mpmath.mpf]:
     """Solution of matrix · change = residual, given as rows (matrix | residual); directions that the equations do not
     see stay put.
 
@@ -156,15 +167,15 @@ def _change(rows):
     change = [mpmath.mpf(0)] * len(rows)
     rows, pivots = _eliminated(rows)
     for step, j in reversed(pivots):
-        known = sum(rows[step][k] * change[k] for _, k in pivots if k != j)
+        known = sum((rows[step][k] * change[k] for _, k in pivots if k != j), mpmath.mpf(0))
         change[j] = (rows[step][-1] - known) / rows[step][j]
     return change
 
 
-def _eliminated(rows):
+def _eliminated(rows: Rows) -> tuple[Rows, list[tuple[int, int]]]:
     """Rows (matrix | residual) after elimination with complete pivoting, and the pivots (row, column) worth using."""
     n, rows, negligible = len(rows), list(rows), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
-    pivots = []
+    pivots: list[tuple[int, int]] = []
     for step in range(n):
         free = [j for j in range(n) if j not in [column for _, column in pivots]]
         i, j = max(((i, j) for i in range(step, n) for j in free), key=lambda at: abs(rows[at[0]][at[1]]))

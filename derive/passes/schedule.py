@@ -7,168 +7,36 @@ iterate  every Newton step: ``eval``, ``step``; at a solution: ``observe``; anyw
 A value is computed at the earliest stage that knows its inputs, and stored in the state if a later one reads it.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
 from itertools import combinations_with_replacement
 
 import sympy as sp
 
-from derive.language.drive import Body, Drive, System
-from derive.language.limits import singular_function
+from derive.language.drive import Body, Drive, Margin, System, Values
+from derive.language.functions import Function
 from derive.language.origin import STEP_SIZE, Origin
+from derive.language.surface import Surface
+from derive.language.symbols import Quantity
 from derive.passes import check, geometry, guards, linearise, pivot_order, sample
-from derive.passes.completion import ParameterTape, SystemTape, lower_system, on_parameters
+from derive.passes.completion import lower_system, on_parameters
 from derive.passes.directional import Derivatives
-from derive.passes.edges import Edges, edge_contact
-from derive.passes.guards import DesignGuard
+from derive.passes.edges import edge_contact
+from derive.passes.plan import Along, BodyOutputs, Expansion, Flank, FunctionOutputs, Output, Schedule
+from derive.passes.singular import singular_function
 from derive.program.tape import Lowering, Stage, Tape
 
 #: What the instantaneous ratio divides by.
 LEVER = Origin("derivation/quotient", "lever arm of the wheel")
 
 
-@dataclass(frozen=True)
-class Output:
-    """A named result: ``width`` consecutive numbers with one unit and frame."""
-
-    name: str
-    nodes: tuple[int, ...]
-    unit: str = ""
-    frame: str = ""
-
-
-@dataclass(frozen=True)
-class Flank:
-    """A flank, or another region of a member, and its curvature: functions of its own parameters, body frame."""
-
-    body: str
-    parameters: tuple
-    outputs: tuple[Output, ...]
-    curvature: tuple[Output, ...]
-    region: str = "flank"
-
-    @property
-    def limits(self):
-        """Nodes of the regular function and of the margins: what must be positive on the surface."""
-        return [o.nodes[0] for o in self.outputs if o.name == "regular" or o.name.startswith("margin_")]
-
-    @property
-    def conditions(self):
-        """Nodes of the surface's own conditions."""
-        return [o.nodes[0] for o in self.outputs if o.name.startswith("condition_") and not o.name.endswith("_slopes")]
-
-
-@dataclass(frozen=True)
-class Expansion:
-    """A surface beyond its tangents, nodes: ``slopes`` of each limit by each parameter; ``second`` derivatives of each
-    coordinate of the point, of each limit and of each condition, by the pairs (1, 1), (1, 2), … (2, 2), … of
-    parameters; none of a region, where nothing asks for them.
-    """
-
-    of: Flank
-    slopes: tuple[int, ...]
-    second: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class FunctionOutputs:
-    """A function of its own arguments; ``rests_on`` are statements of the audit record."""
-
-    name: str
-    meaning: str
-    parameters: tuple
-    outputs: tuple[Output, ...]
-    rests_on: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class BodyOutputs:
-    """Where the observation of one body is found: see :func:`_observe_body`."""
-
-    parameters: int
-    conditions: int
-    at: int
-    singular: int
-    margins: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class Along:
-    """First and second derivatives of the residual along a direction of (unknowns, instant), nodes.
-
-    ``direction`` are the input nodes of that direction.
-    """
-
-    direction: tuple[int, ...]
-    first: tuple[int, ...]
-    second: tuple[int, ...]
-
-
-@dataclass
-class Schedule:
-    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
-
-    ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
-    contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
-    """
-
-    drive: Drive
-    tape: Tape
-    lower: Lowering
-    sample: dict = field(default_factory=dict)
-    residual: list[int] = field(default_factory=list)
-    linear: linearise.Linear | None = None
-    jacobian: list[list[int]] = field(default_factory=list)
-    scales: list[int] = field(default_factory=list)
-    step: list[int] = field(default_factory=list)
-    change: list[int] = field(default_factory=list)
-    weight: list[int] = field(default_factory=list)
-    start_residual: list[int] = field(default_factory=list)
-    start_jacobian: list[list[int]] = field(default_factory=list)
-    start_guess: list[int] = field(default_factory=list)
-    start_scales: list[int] = field(default_factory=list)
-    start_solution: list[int] = field(default_factory=list)
-    guards: list[DesignGuard] = field(default_factory=list)
-    tests: dict = field(default_factory=dict)
-    observed: list[Output] = field(default_factory=list)
-    bodies: dict = field(default_factory=dict)
-    flanks: list[Flank] = field(default_factory=list)
-    regions: list[Flank] = field(default_factory=list)
-    rules: list[ParameterTape] = field(default_factory=list)
-    systems: list[SystemTape] = field(default_factory=list)
-    sizes: ParameterTape | None = None
-    functions: list[FunctionOutputs] = field(default_factory=list)
-    along: Along | None = None
-    edges: Edges | None = None
-    expansions: list[Expansion] = field(default_factory=list)
-    state: dict[int, int] = field(default_factory=dict)
-    design_slots: int = 0
-
-    @property
-    def unknowns(self):
-        return [u.symbol for u in self.drive.unknowns]
-
-    @property
-    def placement(self):
-        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
-        return self.functions[0]
-
-    @property
-    def newton_step(self):
-        """Results of the fused Newton step: the unknowns after it, their changes, and one over their natural sizes.
-
-        The size of the step is the sum of the changes' magnitudes by these weights.
-        """
-        return [*self.step, *self.change, *self.weight]
-
-
-def schedule(drive):
+def schedule(drive: Drive) -> Schedule:
     """All functions of a drive on one tape: derived, reduced and bound."""
     return bind(reduce(derive(drive)))
 
 
-def derive(drive):
+def derive(drive: Drive) -> Schedule:
     """The equations of a drive on one tape: rules, design systems, residual and Jacobian of contact, start system."""
-    inputs = {p.symbol: Stage.DESIGN for p in drive.parameters}
+    inputs: dict[sp.Symbol, Stage] = {p.symbol: Stage.DESIGN for p in drive.parameters}
     inputs[drive.instant] = Stage.INSTANT
     inputs |= {u.symbol: Stage.ITERATE for u in drive.unknowns}
     inputs |= {q: Stage.ITERATE for region in drive.regions for q in region.surface.parameters}
@@ -189,7 +57,7 @@ def derive(drive):
     return plan
 
 
-def reduce(plan):
+def reduce(plan: Schedule) -> Schedule:
     """The equations with their linear system solved: Newton's step, in the order of pivots of the sample's contact."""
     tape = plan.tape
     plan.sample = sample.sample_contact(plan)
@@ -200,7 +68,7 @@ def reduce(plan):
     return plan
 
 
-def bind(plan):
+def bind(plan: Schedule) -> Schedule:
     """The equations with all that is read from them, each value at the earliest stage that knows its inputs."""
     drive, tape = plan.drive, plan.tape
     _observe(plan)
@@ -223,20 +91,23 @@ def bind(plan):
     return plan
 
 
-def _system(plan, residual, unknowns, fixed=None):
+def _system(
+    plan: Schedule, residual: Iterable[sp.Expr], unknowns: Iterable[Quantity], fixed: Values | None = None
+) -> tuple[list[int], linearise.Linear]:
     lower, tape = plan.lower, plan.tape
     nodes = [lower(r) for r in residual]
     if fixed:
         nodes = [_fixed(plan, i, fixed) for i in nodes]
-    solutions = () if fixed else [tuple(map(lower, entry)) for entry in plan.drive.definitions.equations()]
+    equations = () if fixed else plan.drive.definitions.equations()
+    solutions = [(lower(solution), lower(equation), lower(slope)) for solution, equation, slope in equations]
     return nodes, linearise.linearise(tape, nodes, [lower(u) for u in unknowns], solutions)
 
 
-def _fixed(plan, node, values):
+def _fixed(plan: Schedule, node: int, values: Values) -> int:
     return plan.tape.substitute(node, {plan.lower(k): plan.lower(value) for k, value in values.items()})
 
 
-def _start(plan, start: System):
+def _start(plan: Schedule, start: System) -> None:
     unknowns = [u.symbol for u in start.unknowns]
     plan.start_residual, linear = _system(plan, start.residual, unknowns, start.fixed)
     plan.start_jacobian = linearise.jacobian(plan.tape, linear)
@@ -246,11 +117,11 @@ def _start(plan, start: System):
     plan.start_solution = list(solution)
 
 
-def _vector(plan, vector):
+def _vector(plan: Schedule, vector: Iterable[sp.Expr]) -> list[int]:
     return [plan.lower(c) for c in vector]
 
 
-def _observe(plan):
+def _observe(plan: Schedule) -> None:
     drive = plan.drive
     put = plan.observed.append
     for body in drive.bodies:
@@ -272,7 +143,7 @@ def _observe(plan):
     _observe_contact(plan)
 
 
-def _observe_body(plan, body: Body):
+def _observe_body(plan: Schedule, body: Body) -> None:
     """Derivatives of the point by the surface parameters, fixed frame; of its conditions; its margins."""
     tape = plan.tape
     parameters = [plan.lower(p) for p in body.surface.parameters]
@@ -286,7 +157,7 @@ def _observe_body(plan, body: Body):
         put(Output(f"condition_{body.name}_{k}", slopes))
     singular = _count(plan.observed)
     put(Output(f"regular_{body.name}", (_regular(plan, body),)))
-    margins = []
+    margins: list[int] = []
     for margin in body.margins:
         margins.append(_count(plan.observed))
         put(Output(f"margin_{body.name}_{margin.event}", (_margin(plan, body, margin),)))
@@ -295,26 +166,28 @@ def _observe_body(plan, body: Body):
     )
 
 
-def _slopes(plan, surface):
+def _slopes(plan: Schedule, surface: Surface) -> list[tuple[int, ...]]:
     """Derivatives of each implicit condition of a surface by its parameters."""
     parameters = [plan.lower(p) for p in surface.parameters]
     return [tuple(plan.tape.derivative(plan.lower(c), p) for p in parameters) for c in surface.conditions]
 
 
-def _observe_contact(plan):
+def _observe_contact(plan: Schedule) -> None:
     """Second fundamental forms of both flanks and of the gap in one tangent basis, its curvatures; lever arms.
 
     The basis is that of the pinion's first tangent and the contact normal, the pinion's outward normal; both arms are
     those of the pinion's point, which is the wheel's.
     """
     drive, tape = plan.drive, plan.tape
-    pinion, wheel = drive.bodies
+    pinion, _ = drive.bodies
     normal, _ = geometry.unit(tape, _vector(plan, pinion.placed.body_normal()))
     points = [_vector(plan, body.placed.body_point()) for body in drive.bodies]
     first = plan.lower(pinion.surface.parameters[0])
     basis = geometry.tangent_basis(tape, normal, [tape.derivative(i, first) for i in points[0]])
     forms = [_second_form(plan, body.placed, basis) for body in drive.bodies]
-    gap = [tape.sub(tape.neg(a), b) for a, b in zip(*forms, strict=True)]
+    first_form, second_form = forms
+    entries = [tape.sub(tape.neg(a), b) for a, b in zip(first_form, second_form, strict=True)]
+    gap = entries[0], entries[1], entries[2]
     arms = [
         geometry.lever_arm(plan, body, variable, points[0], normal)
         for body, variable in zip(drive.bodies, (drive.instant, drive.error), strict=True)
@@ -324,20 +197,20 @@ def _observe_contact(plan):
     plan.observed += [
         Output("tangent_basis", (*basis[0], *basis[1]), "", "f"),
         *(Output(f"second_form_{b.name}", form, "1/mm", "f") for b, form in zip(drive.bodies, forms, strict=True)),
-        Output("second_form_gap", tuple(gap), "1/mm", "f"),
+        Output("second_form_gap", gap, "1/mm", "f"),
         Output("curvature_gap", geometry.principal_curvatures(tape, gap), "1/mm"),
         *(Output(f"lever_arm_{body.name}", (arm,), "mm") for body, arm in zip(drive.bodies, arms, strict=True)),
         Output("instantaneous_ratio", (ratio,)),
     ]
 
 
-def _second_form(plan, surface, basis):
+def _second_form(plan: Schedule, surface: Surface, basis: geometry.Basis) -> geometry.Form:
     parameters = [plan.lower(p) for p in surface.parameters]
     point, normal = _vector(plan, surface.body_point()), _vector(plan, surface.body_normal())
     return geometry.second_form(plan.tape, parameters, point, normal, _slopes(plan, surface), basis)
 
 
-def _along(plan):
+def _along(plan: Schedule) -> Along:
     """Derivatives of the residual along a direction: see :class:`Along`."""
     tape, symbols = plan.tape, [*plan.unknowns, plan.drive.instant]
     seeds = {plan.lower(s): tape.input(sp.Symbol(f"along_{s}"), Stage.ITERATE) for s in symbols}
@@ -346,7 +219,7 @@ def _along(plan):
     return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))
 
 
-def _expansion(plan, flank, *, second):
+def _expansion(plan: Schedule, flank: Flank, *, second: bool) -> Expansion:
     """The :class:`Expansion` of a flank or region."""
     tape, parameters = plan.tape, [plan.lower(p) for p in flank.parameters]
     slopes = [tape.derivative(i, p) for i in flank.limits for p in parameters]
@@ -360,23 +233,23 @@ def _expansion(plan, flank, *, second):
     return Expansion(flank, tuple(slopes), tuple(bent))
 
 
-def _count(outputs):
+def _count(outputs: Iterable[Output]) -> int:
     return sum(len(o.nodes) for o in outputs)
 
 
-def _relative(plan, body, node):
+def _relative(plan: Schedule, body: Body, node: int) -> int:
     at_reference = _fixed(plan, node, body.reference)
     with plan.tape.within(Origin("derivation/relative", f"the same at the reference point of the {body.name}")):
         return plan.tape.div(node, at_reference)
 
 
-def _regular(plan, body):
+def _regular(plan: Schedule, body: Body) -> int:
     if body.regular is not None:
         return plan.tape.mul(plan.lower(body.regular), singular_function(plan.lower, body.surface))
     return _relative(plan, body, singular_function(plan.lower, body.surface))
 
 
-def _margin(plan, body, margin):
+def _margin(plan: Schedule, body: Body, margin: Margin) -> int:
     """A margin in terms of surface parameters; body coordinates stand for the surface's own."""
     node = plan.lower(margin.positive)
     if margin.along is not None:
@@ -384,7 +257,9 @@ def _margin(plan, body, margin):
     return _relative(plan, body, node) if margin.relative else node
 
 
-def _surface(plan, surface, frame, regular, limits):
+def _surface(
+    plan: Schedule, surface: Surface, frame: str, regular: int, limits: Iterable[Output]
+) -> tuple[tuple[Quantity, ...], tuple[Output, ...], tuple[Output, ...]]:
     """Parameters of a surface, what is known at them, and its curvature there, body frame."""
     normal, _ = geometry.unit(plan.tape, _vector(plan, surface.body_normal()))
     parameters = [plan.lower(p) for p in surface.parameters]
@@ -411,16 +286,16 @@ def _surface(plan, surface, frame, regular, limits):
     return tuple(surface.parameters), tuple(outputs), curvature
 
 
-def _functions(drive):
+def _functions(drive: Drive) -> tuple[Function, ...]:
     return geometry.placement(drive), *drive.functions
 
 
-def _function(plan, function):
+def _function(plan: Schedule, function: Function) -> FunctionOutputs:
     outputs = (Output(r.name, tuple(map(plan.lower, r.values)), r.unit, r.frame) for r in function.results)
     return FunctionOutputs(function.name, function.meaning, function.arguments, tuple(outputs), function.rests_on)
 
 
-def iterate_outputs(plan):
+def iterate_outputs(plan: Schedule) -> Iterator[int]:
     """All nodes that iterate-stage functions return."""
     yield from plan.residual
     for row in plan.jacobian:
@@ -443,7 +318,7 @@ def iterate_outputs(plan):
             yield from output.nodes
 
 
-def bounded_outputs(plan):
+def bounded_outputs(plan: Schedule) -> Iterator[int]:
     """All nodes that the functions of bounded flanks return: they form what they need of the design themselves."""
     yield from plan.edges.equations
     for row in plan.edges.jacobian:
@@ -452,15 +327,15 @@ def bounded_outputs(plan):
         yield from (*expansion.slopes, *expansion.second)
 
 
-def _assign_state(plan):
+def _assign_state(plan: Schedule) -> None:
     """Number the values that one stage leaves for a later one."""
     tape = plan.tape
-    wanted = {Stage.DESIGN: {}, Stage.INSTANT: {}}
+    wanted: dict[Stage, dict[int, None]] = {Stage.DESIGN: {}, Stage.INSTANT: {}}
 
-    def leave(i, reader):
+    def leave(i: int, reader: Stage) -> None:
         stage = tape.stages[i]
         if stage in wanted and stage < reader:
-            wanted[stage].setdefault(i)
+            wanted[stage][i] = None
 
     early = {i for i, stage in enumerate(tape.stages) if stage <= Stage.INSTANT}
     outputs = list(iterate_outputs(plan))

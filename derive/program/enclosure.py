@@ -31,7 +31,7 @@ class Enclosure:
     @classmethod
     def of_symbol(cls, symbol: sp.Expr) -> Enclosure:
         """The enclosure of a SymPy number such as π, from its digits; a SymPy float is the double that it holds."""
-        if symbol.is_Float:
+        if isinstance(symbol, sp.Float):
             return cls.of(float(symbol))
         with mpmath.workdps(DIGITS):
             digits = Fraction(int(mpmath.floor(mpmath.mpf(symbol.evalf(DIGITS)) * 10 ** (DIGITS - 10))))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
 from enum import IntEnum
 from fractions import Fraction
@@ -20,6 +20,7 @@ import sympy as sp
 from derive.language.choice import excess, unit_step
 from derive.language.definitions import Definitions
 from derive.language.origin import ARCCOSINE, PARTIAL, TANGENT, Origin
+from derive.language.vectors import Number
 from derive.program.enclosure import Enclosure
 
 Exact = Fraction | int | float
@@ -69,7 +70,7 @@ class Tape:
     # -- building ---------------------------------------------------------------------------------------------
 
     @contextmanager
-    def within(self, origin: Origin | None) -> Iterator[None]:
+    def within(self, origin: Origin | None) -> Generator[None]:
         """New partial operations are of this :class:`~derive.language.origin.Origin`; None: each of its own kind."""
         before, self._within = self._within, origin
         yield
@@ -338,7 +339,8 @@ class Tape:
             case "atan2":
                 square = self.add(self.mul(a, a), self.mul(b, b))
                 return self.div(self.sub(self.mul(b, d[0]), self.mul(a, d[1])), square)
-        raise AssertionError(node.op)
+            case _:
+                raise AssertionError(node.op)
 
     def substitute(self, i: int, replacement: Mapping[int, int]) -> int:
         """The node with inputs replaced by other nodes (``replacement``: index → index)."""
@@ -363,7 +365,8 @@ class Tape:
 
         ``instead`` holds the arguments of nodes that are computed from others than their own.
         """
-        nodes, order, seen, instead = self.nodes, [], set(known), instead or {}
+        nodes, seen, instead = self.nodes, set(known), instead or {}
+        order: list[int] = []
         stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
         while stack:
             i = stack.pop()
@@ -422,13 +425,21 @@ def _number(exact: Exact, make: Callable[[Any], Any]) -> Any:  # noqa: ANN401  o
     return make(exact.numerator) / exact.denominator if isinstance(exact, Fraction) else make(exact)
 
 
+def _quotient(a: Any, b: Any) -> Any:  # noqa: ANN401  of any arithmetic
+    return a / b
+
+
+def _sign(a: Any) -> int:  # noqa: ANN401  of any arithmetic
+    return -1 if a < 0 else 1
+
+
 _ALGEBRA: dict[str, Callable[..., Any]] = {
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
-    "div": operator.truediv,
+    "div": _quotient,
     "neg": operator.neg,
-    "sign": lambda a: -1 if a < 0 else 1,
+    "sign": _sign,
 }
 
 
@@ -456,33 +467,33 @@ class Lowering:
         """From now on these symbols stand for these nodes."""
         self._done.update(zip(symbols, nodes, strict=True))
 
-    def __call__(self, expression: sp.Expr | int) -> int:
+    def __call__(self, expression: Number) -> int:
         """Node of an expression; its symbols are inputs, definitions or stand for nodes."""
-        expression = sp.sympify(expression)
-        if expression not in self._done:
-            node = self._done[expression] = self._lower(expression)
-            if expression.is_Symbol and expression in self.definitions:
-                self._names.setdefault(node, str(expression))
-        return self._done[expression]
+        e = sp.sympify(expression)
+        if e not in self._done:
+            node = self._done[e] = self._lower(e)
+            if isinstance(e, sp.Symbol) and e in self.definitions:
+                self._names.setdefault(node, str(e))
+        return self._done[e]
 
     def _lower(self, e: sp.Expr) -> int:
         t = self.tape
-        if e.is_Rational:
+        if isinstance(e, sp.Rational):
             return t.constant(Fraction(int(e.p), int(e.q)))
-        if e.is_Symbol:
+        if isinstance(e, sp.Symbol):
             if e in self.inputs:
                 return t.input(e, self.inputs[e])
             if e in self.definitions:
                 with t.within(self.definitions.origin(e)):
                     return self(self.definitions[e])
             raise KeyError(f"{e} is neither an input nor defined")
-        if e.is_NumberSymbol or e.is_Float:
+        if isinstance(e, sp.NumberSymbol | sp.Float):
             return t.constant(float(e), Enclosure.of_symbol(e))
-        if e.is_Add:
+        if isinstance(e, sp.Add):
             return self._sum(e.args)
-        if e.is_Mul:
+        if isinstance(e, sp.Mul):
             return self._product(e)
-        if e.is_Pow:
+        if isinstance(e, sp.Pow):
             return self._power(e)
         function = self._FUNCTIONS.get(e.func)
         if function is None:
@@ -498,15 +509,16 @@ class Lowering:
             total = t.add(total, node)
         return total
 
-    def _product(self, e: sp.Expr) -> int:
+    def _product(self, e: sp.Mul) -> int:
         t = self.tape
-        top, bottom = [], []
+        top: list[int] = []
+        bottom: list[int] = []
         for factor in e.args:
-            if factor.is_Rational and not factor.is_Integer:
+            if isinstance(factor, sp.Rational) and not isinstance(factor, sp.Integer):
                 top.append(self(factor)) if factor.p != 1 and factor.p != -1 else bottom.append(t.constant(factor.q))
                 if factor.p == -1:
                     top.append(t.constant(-1))
-            elif factor.is_Pow and factor.exp.is_Rational and factor.exp < 0:
+            elif isinstance(factor, sp.Pow) and isinstance(factor.exp, sp.Rational) and factor.exp < 0:
                 bottom.append(self(factor.base**-factor.exp))
             else:
                 top.append(self(factor))
@@ -527,11 +539,11 @@ class Lowering:
             value = t.mul(value, node)
         return value
 
-    def _power(self, e: sp.Expr) -> int:
+    def _power(self, e: sp.Pow) -> int:
         base, exponent = e.base, e.exp
-        if exponent.is_Integer:
+        if isinstance(exponent, sp.Integer):
             return self.tape.power(self(base), int(exponent))
-        if exponent.is_Rational and exponent.q == 2:
+        if isinstance(exponent, sp.Rational) and exponent.q == 2:
             return self.tape.power(self.tape.sqrt(self(base)), int(exponent.p))
         raise TypeError(f"power {exponent} has no operation on the tape")
 
@@ -562,16 +574,31 @@ class Lowering:
         t = self.tape
         return t.mul(t.constant(Fraction(1, 2)), t.add(t.constant(1), t.sign(a)))
 
-    _FUNCTIONS: ClassVar[dict[Any, Callable[..., int]]] = {
+    def _excess(self, a: int) -> int:
+        return self.tape.mul(a, self._step(a))
+
+    def _sign(self, a: int) -> int:
+        return self.tape.sign(a)
+
+    def _sin(self, a: int) -> int:
+        return self.tape.sin(a)
+
+    def _cos(self, a: int) -> int:
+        return self.tape.cos(a)
+
+    def _atan2(self, y: int, x: int) -> int:
+        return self.tape.atan2(y, x)
+
+    _FUNCTIONS: ClassVar[dict[type[sp.Expr], Callable[..., int]]] = {
         unit_step: _step,
-        excess: lambda self, a: self.tape.mul(a, self._step(a)),
+        excess: _excess,
         sp.Abs: _abs,
-        sp.sign: lambda self, a: self.tape.sign(a),
-        sp.sin: lambda self, a: self.tape.sin(a),
-        sp.cos: lambda self, a: self.tape.cos(a),
+        sp.sign: _sign,
+        sp.sin: _sin,
+        sp.cos: _cos,
         sp.tan: _tan,
         sp.atan: _atan,
         sp.asin: _asin,
         sp.acos: _acos,
-        sp.atan2: lambda self, y, x: self.tape.atan2(y, x),
+        sp.atan2: _atan2,
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from derive.prove.angles import PI, BaseAngle, linear_form, quarter_turns
 from derive.prove.fraction import Quotient
@@ -15,7 +15,8 @@ from derive.prove.statement import Statement
 from derive.prove.tree import NotationError, Tree
 
 Vector: TypeAlias = "tuple[Quotient, ...]"
-Value: TypeAlias = "Quotient | Vector | tuple[Vector, ...]"
+#: What a tree becomes: a quotient, or three, or nine of them; which, its grammar says, not Python's types.
+Value: TypeAlias = Any
 
 
 @dataclass(frozen=True)

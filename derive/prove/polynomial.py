@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, TypeAlias
 
+flint: Any
 try:
     import flint
 except ImportError:
@@ -21,6 +22,8 @@ BACKENDS = ("flint", "sympy") if flint else ("sympy",)
 
 class PolynomialRing:
     """Z[names] with lexicographic order. Polynomials are the back end's own and support + - * and **."""
+
+    _context: Any  # of FLINT or of SymPy
 
     def __init__(self, names: tuple[str, ...], backend: str = BACKENDS[0]):
         self.names = names

@@ -129,7 +129,7 @@ def _instance(evaluator: Evaluator, sides, open_parts: list[bool]) -> tuple[Inst
         differing = {
             k
             for k, (a, b) in enumerate(zip(left, right, strict=True))
-            if open_parts[k] and abs(a - b) > (THRESHOLD if rounded else 0)
+            if a is not None and b is not None and open_parts[k] and abs(a - b) > (THRESHOLD if rounded else 0)
         }
         if best[0] is None or len(differing) > len(best[1]):
             best = Instance(point, tuple(left), tuple(right), rounded), differing

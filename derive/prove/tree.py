@@ -20,9 +20,10 @@ import ast
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping
-from typing import TypeAlias
+from typing import Any, TypeAlias, cast
 
-Tree: TypeAlias = "str | int | tuple"
+#: Which node has which parts, the grammar says, not Python's types.
+Tree: TypeAlias = Any
 
 FUNCTIONS = ("cos", "sin", "tan", "sqrt")
 ROTATIONS = ("Rx", "Ry", "Rz")
@@ -125,7 +126,7 @@ class _Reader:
             raise NotationError(f"a vector has components x, y, z: {self.text!r}")
         return ("at", self.read(node.value), COMPONENTS[node.attr])
 
-    def _call(self, node: ast.Call) -> Tree:
+    def _call(self, node: Any) -> Tree:
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if name in self.arity and len(node.args) == self.arity[name]:
             return (name, *map(self.read, node.args))
@@ -138,9 +139,9 @@ class _Reader:
             return ("d", self.read(node.args[0]), *map(self._direction, node.args[1:]))
         raise NotationError(f"unknown function {name or '?'} or wrong number of arguments: {self.text!r}")
 
-    def _direction(self, node: ast.expr) -> Tree:
+    def _direction(self, node: Any) -> Tree:
         if isinstance(node, ast.Tuple):
-            symbol, rate = node.elts
+            symbol, rate = cast(Any, node).elts
             return (symbol.id, self.read(rate))
         return (node.id, 1)
 

@@ -54,7 +54,7 @@ def tip_rounding(tool, body, definitions):
         definitions.let_vector(f"e_{axis}_round_{name}", e, f"{meaning} of the helix of centres", "", name)
         for axis, (e, meaning) in axes.items()
     )
-    motion = advance @ translation(*centre) @ placement(*frame, (0, 0, 0))
+    motion = advance @ translation(*centre) @ placement(frame[0], frame[1], frame[2], (0, 0, 0))
     xi = Quantity(f"xi_round_{name}", "rad", f"turn of the rounding's normal from the radius of the {name}", name)
     outward = (sp.cos(xi), sp.Integer(0), -body.flank * sp.sin(xi))
     turning = definitions.derivative_vector(outward, xi)
@@ -70,5 +70,5 @@ def tip_rounding(tool, body, definitions):
         pole=at_centre,
         steps=(*tool.flank.steps, "helicoids/rounding-normal", "helicoids/rounding-join", "helicoids/rounding-tip"),
     )
-    before_flank = sum(a * v.dot(normal, axis) for a, axis in zip(turning, frame, strict=True))
+    before_flank = sp.Add(*(a * v.dot(normal, axis) for a, axis in zip(turning, frame, strict=True)))
     return Rounding(surface, before_flank)

@@ -84,6 +84,8 @@ def joined(arguments):
 
 def main(arguments=None):
     """Run one command; returns the exit status."""
+    # Matrices here are small: a second thread of the linear algebra mostly waits for the first, at full load.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     words = joined(sys.argv[1:] if arguments is None else arguments)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal without a letter of ours shows "?"

@@ -218,8 +218,16 @@ class Drive:
         """
         from meshwright.flank.region import region
 
-        found = region(self, member, name, self.uses)
-        if found.empty or name not in ("flank", "fillet"):
+        if (member, name) not in self._regions:
+            self._regions[member, name] = self._bounded(member, region(self, member, name, self.uses))
+        return self._regions[member, name]
+
+    @cached_property
+    def _regions(self):
+        return {}
+
+    def _bounded(self, member, found):
+        if found.empty or found.flank.region not in ("flank", "fillet"):
             return found
         crossing = self.crossing(member)
         return found if crossing is None else crossing.bounds(found)

@@ -30,7 +30,7 @@ DRIVES = {
     "tools/rack_section.py": CONCAVE, "tools/cutter_blade.py": "bevel_formate", "tools/head_cutter.py": "bevel_formate",
     "language/chain.py": SPUR, "language/contact.py": SPUR, "language/differentiate.py": SPUR,
     "language/envelope.py": SPUR, "language/surface.py": SPUR, "language/vectors.py": SPUR,
-    "language/rack_and_pinion.py": ZN, "language/limits.py": ZN, "language/functions.py": SPUR,
+    "language/rack_and_pinion.py": ZN, "passes/singular.py": ZN, "language/functions.py": SPUR,
     "passes/completion.py": SPUR, "passes/directional.py": SPUR, "passes/edges.py": SPUR, "passes/fuse.py": SPUR,
     "passes/geometry.py": SPUR, "passes/linearise.py": SPUR, "passes/quotients.py": SPUR,
     "program/tape.py": SPUR, "emit/c99.py": SPUR, "emit/lanes.py": SPUR, "emit/sensitivity.py": SPUR,

@@ -2,8 +2,12 @@
 
 A solid's triangles and its B-spline faces are made from different points; their volumes agree. Three teeth stand for
 all of them, since they are copies.
+
+All of them are hours for a processor (``make validate SIZE=full``); otherwise one design a family, drawn by lot, and
+those that were once refused or written beyond 1 µm.
 """
 
+import random
 import struct
 import tempfile
 from pathlib import Path
@@ -12,15 +16,37 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.design.design import packaged_names
+from meshwright.design.design import packaged_names, read
 from meshwright.fe.closed_body import solid_body
 from meshwright.flank import exports
 from meshwright.flank.step import Spline, step
+from tests.quick import full
 
 MICROMETRE = 1e-3
 TEETH = 3
 
-EVERY = [(name, member) for name in packaged_names() for member in ("pinion", "wheel")]
+SEED = 17
+
+ONCE_WRONG = [
+    ("zk-zn-45", "wheel"), ("zk-zn-60", "wheel"), ("face-worm-conical-concave", "wheel"),
+    ("face-worm-cylindrical-concave", "wheel"), ("bevel-crowned-profile", "pinion"),
+]  # fmt: skip
+
+
+def _chosen():
+    """Designs and members: all in full size, otherwise a sample of which every family has its share."""
+    every = [(name, member) for name in packaged_names() for member in ("pinion", "wheel")]
+    if full():
+        return every
+    families = {}
+    for name in packaged_names():
+        families.setdefault(read(name)["drive"], []).append(name)
+    lot = random.Random(SEED)
+    drawn = {lot.choice(names) for _, names in sorted(families.items())}
+    return [case for case in every if case[0] in drawn or case in ONCE_WRONG]
+
+
+CHOSEN = _chosen()
 
 
 def _beyond(drive, member, points):
@@ -111,10 +137,9 @@ def _of_stl(content):
     return float(np.sum(np.cross(a, b) * c) / 6.0)
 
 
-
 @pytest.mark.validate
 @pytest.mark.parametrize("region", ["flank", "fillet"])
-@pytest.mark.parametrize(("name", "member"), EVERY)
+@pytest.mark.parametrize(("name", "member"), CHOSEN)
 def test_a_step_file_is_within_a_micrometre_of_its_surface_and_valid(name, member, region):
     pytest.importorskip("OCP.TColgp")
     whole, _ = Drive.load(name).design.with_whole_blank()
@@ -130,7 +155,7 @@ def test_a_step_file_is_within_a_micrometre_of_its_surface_and_valid(name, membe
 
 
 @pytest.mark.validate
-@pytest.mark.parametrize(("name", "member"), EVERY)
+@pytest.mark.parametrize(("name", "member"), CHOSEN)
 def test_a_solid_is_closed_whole_and_inside_its_blank(name, member):
     pytest.importorskip("OCP.TColgp")
     from meshwright.flank.solid_step import solid_step
@@ -151,5 +176,5 @@ def test_a_solid_is_closed_whole_and_inside_its_blank(name, member):
             assert _beyond(drive, member, exported) < 1e-6, patch.kind
     faceted = body.faceted(4 * MICROMETRE)
     assert faceted.departure <= 4 * MICROMETRE
-    assert _of_stl(exports.stl(faceted.points, faceted.triangles, name)) == pytest.approx(volume, rel=2e-3)
+    assert _of_stl(exports.stl(faceted.points, faceted.triangles, name)) == pytest.approx(volume, rel=5e-4)
     assert _beyond(drive, member, faceted.points) < 1e-6

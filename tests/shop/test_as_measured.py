@@ -40,9 +40,10 @@ def test_splines_hold_what_they_can(count):
     """A line, a parabola, a cubic to rounding, with their slopes."""
     knots, x = Knots.at(np.linspace(0.0, 1.0, count) ** 1.2), np.linspace(0.0, 1.0, 17)
     for power in range(min(count, 4)):
-        value, slope = knots.weights(x)
+        value, slope, bent = knots.weights(x)
         assert value @ knots.places**power == pytest.approx(x**power, abs=1e-13)
         assert slope @ knots.places**power == pytest.approx(power * x ** max(power - 1, 0), abs=1e-12)
+        assert bent @ knots.places**power == pytest.approx(power * (power - 1) * x ** max(power - 2, 0), abs=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -78,6 +79,44 @@ def test_the_difference_to_another_design_gives_that_design(design, member, chan
         found = AsMeasured.of(drive, member, _difference(drive, other, member, lines)).tca(angles)
         off.append(np.abs(found.errors - wanted.error).max() / ARCSEC)
     assert off[1] < 1e-3 and (off[1] < 0.2 * off[0] or off[0] < 1e-7)
+
+
+@pytest.mark.parametrize(
+    ("design", "member"),
+    [("plain-za", "wheel"), ("helical-crowned", "pinion"), ("spherical-table-3-1-convex", "pinion"),
+     ("face-worm-cylindrical-convex", "pinion")],
+)  # fmt: skip
+def test_derivatives_are_those_of_differences(design, member):
+    """Of surfaces and of the equations of contact: sixth-order differences, at random places of a rough flank."""
+    drive, rng = Drive.load(design), np.random.default_rng(3)
+    points = _points(drive, member, (5, 7), lambda p: 0.02 * rng.standard_normal(len(p.tooth)))
+    measured = AsMeasured.of(drive, member, points)
+    own = [b["name"] for b in measured._bodies].index(member)
+    surface = measured._surfaces()[own]
+    nodes = measured.field.nodes
+    q = np.array([0.6 * nodes[1, 2] + 0.4 * nodes[2, 3], 0.7 * nodes[3, 4] + 0.3 * nodes[2, 3]])  # between the knots
+    steps = 2e-4 * np.ptp(nodes.reshape(-1, nodes.shape[2]), axis=0)
+    for exact, found in zip(surface.slopes(q), _differences(lambda at: surface(at)[:3], q, steps), strict=True):
+        assert (np.abs(exact - found) * steps).max(initial=0.0) < 1e-11
+    angles = np.zeros(len(q))
+    start = measured.tca(0.0).solutions
+    x = np.concatenate([start, start + 1e-3 * np.append(np.zeros(start.shape[1] - 1), 1.0)])
+    sizes = np.full(x.shape[1], 2e-4)
+    [found] = _differences(lambda y: measured._residual(angles, y)[:1], x, sizes)
+    exact = measured._jacobian(angles, x)
+    assert np.abs(exact - found).max() < 1e-7 * np.abs(exact).max()
+
+
+def _differences(function, q, steps):
+    """Derivatives of each of the function's results (P, …) by every parameter of q (P, k), to the sixth order."""
+    columns = []
+    for step, size in zip(np.diag(steps), steps, strict=True):
+        parts = [
+            [share * (a - b) / size for a, b in zip(function(q + m * step), function(q - m * step), strict=True)]
+            for m, share in ((1, 3.0 / 4.0), (2, -3.0 / 20.0), (3, 1.0 / 60.0))
+        ]
+        columns.append([sum(of_each) for of_each in zip(*parts, strict=True)])
+    return [np.stack(of_each, axis=-1) for of_each in zip(*columns, strict=True)]
 
 
 def test_a_constant_deviation_turns_the_wheel_and_leaves_the_ease_off():

@@ -89,7 +89,7 @@ def check_record(objects: Mapping[str, dict], folder: Path, log: Callable[[str],
         counts[name], axioms[name] = count, frozenset(found)
         log(f"{name:20} {count:4} theorems {seconds[name]:6.1f} CPU s")
 
-    for document, every in translate.theorems(objects).items():
+    for document, every in translate.theorems(dict(objects)).items():
         long = {theorem.name: len(theorem.text) for theorem in every if len(theorem.text) > LARGEST}
         left_out |= {name: f"its {size} characters are more than {LARGEST}" for name, size in long.items()}
         stated = [theorem for theorem in every if theorem.name not in long]

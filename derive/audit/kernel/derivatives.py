@@ -17,6 +17,7 @@ from derive.drives import cylindrical_worm
 from derive.language import vectors as v
 from derive.language.definitions import Definitions
 from derive.language.envelope import envelope
+from derive.language.symbols import Quantity
 from derive.prove.normal_form import Relation, reduce
 
 CHAIN = "zn_wheel"
@@ -27,7 +28,7 @@ def file_text() -> str:
     """The Coq file of the chain."""
     definitions = Definitions()
     _, hob = cylindrical_worm.helicoids("ZN", "ZN", definitions)
-    phi = sp.Symbol("phi")
+    phi = Quantity("phi", "rad", "angle of the hob")
     wheel = envelope(hob.flank, cylindrical_worm.cutting(phi), phi)
     t, psi, *_ = wheel.parameters
     plain = _Plain(definitions, keep={"r_t_hob"})
@@ -72,14 +73,14 @@ class _File:
             case sp.Symbol():
                 return self.names[e]
             case sp.Integer():
-                return str(e) if e >= 0 else f"({e})"
+                return str(e) if int(e) >= 0 else f"({e})"
             case sp.cos() | sp.sin():
                 return f"({type(e).__name__} {self.real(e.args[0])})"
             case sp.Add():
                 return "(" + " + ".join(map(self.real, e.args)) + ")"
             case sp.Mul():
                 return "(" + " * ".join(map(self.real, e.args)) + ")"
-            case sp.Pow() if e.exp.is_Integer and e.exp > 0:
+            case sp.Pow() if isinstance(e.exp, sp.Integer) and int(e.exp) > 0:
                 return "(" + " * ".join([self.real(e.base)] * int(e.exp)) + ")"
         raise ValueError(f"{e} has no place in the chain")
 
@@ -222,7 +223,7 @@ def _polynomial(e: sp.Expr, file: _File, place: dict) -> dict:
     atoms = {a: sp.Symbol(f"g{place[file.real(a)]}") for a in (*e.atoms(sp.cos, sp.sin),)}
     flat = e.xreplace(atoms)
     flat = flat.xreplace({a: sp.Symbol(f"g{place[file.real(a)]}") for a in flat.free_symbols if a in file.names})
-    generators = sp.symbols([f"g{k}" for k in range(len(place))])
+    generators = [sp.Symbol(f"g{k}") for k in range(len(place))]
     return {powers: int(amount) for powers, amount in sp.Poly(flat, *generators).terms()}
 
 

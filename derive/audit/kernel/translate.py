@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from derive.audit import check
 
@@ -118,7 +119,7 @@ class Theorem:
     text: str
 
 
-def theorems(objects: Mapping[str, dict]) -> dict[str, list[Theorem]]:
+def theorems(objects: dict[str, dict]) -> dict[str, list[Theorem]]:
     """Document -> its theorems, in the order of the record."""
     found: dict[str, list[Theorem]] = {}
     for item in objects.values():
@@ -188,7 +189,7 @@ def _scale(left, right, component: dict, scope: dict) -> list[dict]:
     return missing
 
 
-def _expanded(term, env: check.Expanded):
+def _expanded(term: Any, env: check.Expanded) -> Any:  # noqa: ANN401  0, or a value of the checker's ring
     if not isinstance(term, Term):
         return 0
     match term.node:
@@ -214,7 +215,7 @@ def _pairs(certificate: dict, component: dict) -> list[tuple[dict, str, dict]]:
     ]
 
 
-def _theorem(name: str, head: str, left, right, pairs: list, generators: Sequence[str], scale: list[dict]) -> Theorem:
+def _theorem(name: str, head: str, left, right, pairs: list, generators: list[Any], scale: list[dict]) -> Theorem:
     sides = [part.node if isinstance(part, Term) else ("Int", 0) for part in (left, right)]
     variables: dict[str, int] = {}
     for side in sides:
@@ -312,6 +313,8 @@ def _shown(node: tuple, names: Mapping[str, str]) -> str:
             return f"(- {_shown(a, names)})"
         case ("Inv", a):
             return f"(/ {_shown(a, names)})"
+        case _:
+            raise ValueError(f"{node[0]} is no node of a term")
 
 
 def _reified(node: tuple, variables: Mapping[str, int]) -> str:

@@ -17,6 +17,7 @@ from meshwright.base.errors import UsageError
 from meshwright.base.files import write_bytes, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.drive import Drive
 from meshwright.flank import exports
 from meshwright.flank.step import step
 from meshwright.limits.sections import section
@@ -47,6 +48,9 @@ def add_arguments(parser):
     )
     parser.add_argument("--solid", action="store_true", help="the closed body of the member; needs --stl or --step")
     parser.add_argument("--teeth", type=common.count, metavar="N", help="with --solid: so many teeth; default: all")
+    parser.add_argument(
+        "--other-flank", metavar="DESIGN", help="with --solid: the design of the other flank, if flanks have their own"
+    )
 
 
 def run(options):
@@ -56,6 +60,8 @@ def run(options):
         return _write_solid(options, drive)
     if options.teeth is not None:
         raise UsageError(f"--teeth {options.teeth}: goes with --solid; add it, or leave --teeth out")
+    if options.other_flank is not None:
+        raise UsageError(f"--other-flank {options.other_flank}: goes with --solid; add it, or leave --other-flank out")
     if options.section is not None:
         _refuse_with_section(options)
         found = section(drive, options.member, options.section, shape[0])
@@ -92,7 +98,8 @@ def _write_solid(options, drive):
         from meshwright.flank.solid_step import solid_step
     except ModuleNotFoundError as error:
         raise UsageError(f"--solid: {error.name} is not installed; `pip install 'meshwright[fe]'` brings it") from error
-    body = solid_body(drive, options.member, options.teeth)
+    other = options.other_flank and Drive.load(options.other_flank, drive.backend)
+    body = solid_body(drive, options.member, options.teeth, other=other)
     name = f"{drive.design.tables['name'] or drive.design.family} {options.member}, {body.teeth} teeth"
     departures = []
     if options.stl:

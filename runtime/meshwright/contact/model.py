@@ -25,10 +25,12 @@ class DriveModel(Protocol):
     @property
     def design(self) -> Design:
         """The checked design."""
+        ...
 
     @property
     def backend(self) -> str:
         """What evaluates the equations: "c" or "casadi"."""
+        ...
 
     @property
     def model(self) -> Any:  # noqa: ANN401  cffi has no type for a pointer to a structure
@@ -37,31 +39,41 @@ class DriveModel(Protocol):
     @property
     def ratio(self) -> float:
         """Wheel turns per pinion turn."""
+        ...
 
     def pitch(self) -> float:
         """Pinion angle from one tooth pair to the next."""
+        ...
 
     def about_the_middle(self, pitches: ArrayLike) -> np.ndarray:
         """Pinion angles so many pitches from the one to which relative errors refer."""
+        ...
 
     def state(self, angle: float = 0.0) -> np.ndarray:
         """The model's state for this design at an input angle."""
+        ...
 
     def trace(self, angles: ArrayLike) -> tuple[np.ndarray, list[str]]:
         """Unknowns (N, nx) and status words at input angles (N,)."""
+        ...
 
     def tca(self, angles: ArrayLike) -> TCA:
         """Tooth contact analysis at pinion angles (N,), in any order."""
+        ...
 
     def flank(self, member: str, region: str = "flank") -> Flank:
         """A surface of ``"pinion"`` or ``"wheel"``."""
+        ...
 
     def function(self, name: str) -> Function:
         """A generated function by name."""
+        ...
 
     @property
     def enclosed(self) -> EnclosedDesign:
         """The design's state, enclosed."""
+        ...
 
     def with_(self, **tables: object) -> Self:
         """The drive with keys of its design changed."""
+        ...

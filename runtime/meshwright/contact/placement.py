@@ -20,6 +20,14 @@ class Placements:
     axes: dict[str, tuple[np.ndarray, np.ndarray]]
 
 
+def about_z(angle):
+    """The motion (4, 4) that turns by an angle about +z."""
+    motion = np.eye(4)
+    c, s = np.cos(angle), np.sin(angle)
+    motion[:2, :2] = [[c, -s], [s, c]]
+    return motion
+
+
 def placements(drive, angles):
     """:class:`Placements` of both members in contact at ascending input angles (rad), line contact included."""
     angles = np.asarray(angles, dtype=float)

@@ -124,7 +124,7 @@ class TCA:
 
     def to_xarray(self):
         """The same as an ``xarray.Dataset`` over the pinion angle (needs xarray)."""
-        import xarray
+        import xarray  # pyright: ignore[reportMissingImports]  of no extra
 
         angle, axis = ("pinion_angle",), ("pinion_angle", "axis")
         data = {

@@ -12,7 +12,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.model import DriveModel
-from meshwright.contact.placement import placements_at
+from meshwright.contact.placement import placed, placements_at
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, Uses, region
 
@@ -228,33 +228,33 @@ class _Search:
         turn, sense = _senses(drive, angles[middle], solutions[middle])
         if errors is not None:
             solutions, angles = solutions[middle : middle + 1], angles[middle : middle + 1]
-        lead = () if errors is None else _misaligned(drive, errors, angles, solutions)
+        lead = () if errors is None else _misaligned(drive, errors, angles)
         return cls(drive, table, (kept, views), work, solutions, angles, lead, turn, sense), ""
 
     def at(self, angles):
         """``mw_first`` or None at angles (N,) of the right-hand drive."""
         design = self.drive.design
         state = self.drive.flank(design.description["bodies"][1]["name"]).state
-        return [self._one(design.model, state, angle) for angle in angles]
+        here = zip(*_placed(self.drive, angles), strict=True)
+        return [self._one(design.model, state, *both) for both in zip(angles, here, strict=True)]
 
-    def _one(self, compiled, state, angle):
-        """``mw_first`` at one angle: from the contact known nearest to it, else from others."""
+    def _one(self, compiled, state, angle, here):
+        """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from
+        others.
+        """
         order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
         for known in order[[i for i in STARTS if i < len(order)]]:
-            found = self._from(known, compiled, state, angle)
+            found = self._from(known, compiled, state, angle, here)
             if found.status >= 0:
                 return found
             if found.status == library().MW_NO_CONTACT:
                 break
         return None
 
-    def _from(self, known, compiled, state, angle):
-        away = angle - self.solved_at[known]
-        steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
-        angles = self.solved_at[known] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1))
-        x = self.solutions[known]
-        placed = [*self.lead, _placed(self.drive, angles, x)]
-        pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in placed]) for k in (0, 1))
+    def _from(self, known, compiled, state, angle, here):
+        away, x = angle - self.solved_at[known], self.solutions[known]
+        stand = [*self.lead, self._way(known, away) if away else [matrix[None] for matrix in here]]
+        pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in stand]) for k in (0, 1))
         start = np.concatenate([x[b["unknowns"]] for b in self.drive.design.description["bodies"][::-1]])
         start = np.append(start, x[self.drive.design.description["error"]])
         found = ffi.new("mw_first *")
@@ -264,6 +264,11 @@ class _Search:
         )  # fmt: skip
         return found
 
+    def _way(self, known, away):
+        """Placements from a known contact to an angle ``away`` from it."""
+        steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
+        return _placed(self.drive, self.solved_at[known] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else 1.0))
+
 
 def _on_regular_flanks(drive, solutions):
     """Whether solutions (N, nx) lie before the singular lines of both flanks: beyond them is another sheet."""
@@ -271,19 +276,18 @@ def _on_regular_flanks(drive, solutions):
     return np.all([~(drive.flank(b["name"])(solutions[:, b["unknowns"]]).regular < 0.0) for b in bodies], axis=0)
 
 
-def _placed(drive, angles, x):
+def _placed(drive, angles):
     """Placements (N, 4, 4) of pinion and wheel at angles (N,), the wheel without transmission error."""
-    still = np.tile(x, (len(angles), 1))
-    still[:, drive.design.description["error"]] = 0.0
-    matrices = placements_at(drive, angles, still).matrices
+    angles = np.atleast_1d(angles)
+    matrices = placed(drive, angles, drive.ratio * angles).matrices
     return [matrices[b["name"]] for b in drive.design.description["bodies"]]
 
 
-def _misaligned(drive, errors, angles, solutions):
+def _misaligned(drive, errors, angles):
     """Placements that lead from the aligned drive to the given one."""
     shares = np.arange(LEAD) / LEAD
     drives = [drive.with_(misalignment={key: share * value for key, value in errors.items()}) for share in shares]
-    return [_placed(part, angles, solutions[0]) for part in drives]
+    return [_placed(part, angles) for part in drives]
 
 
 def _senses(drive, angle, x):
@@ -291,8 +295,8 @@ def _senses(drive, angle, x):
     turned = np.stack([x, x])
     turned[1, drive.design.description["error"]] += TURN
     pinion, wheel = (b["name"] for b in drive.design.description["bodies"])
-    placed = placements_at(drive, np.array([angle, angle]), turned).matrices
-    rotation = placed[wheel][0, :3, :3].T @ placed[wheel][1, :3, :3]
+    stand = placements_at(drive, np.array([angle, angle]), turned).matrices
+    rotation = stand[wheel][0, :3, :3].T @ stand[wheel][1, :3, :3]
     turn = math.copysign(1.0, math.atan2(rotation[1, 0], rotation[0, 0]))
     flank = drive.flank(wheel)
     at = flank(x[drive.design.description["bodies"][1]["unknowns"]][None])

@@ -38,7 +38,8 @@ def as_measured(gear: GearPair, drive: Drive, member: str, points: Points, tooth
         start = nodes[near]
         q, distance = along(flank, start, Rays(body, flank(start).normals))
         at = flank(q)
-        value, _, place = found.field.at(at)
+        shift, place = found.field.at(at)
+        value = np.einsum("px,px->p", shift, at.normals)
         with np.errstate(invalid="ignore"):
             known = (np.abs(distance) < _ON_FLANK) & found.field.inside(place)
         return np.where(known, value / (at.normals @ direction), 0.0), known

@@ -6,9 +6,10 @@ flanks, or B-splines through the patches' points, depart from the exact surfaces
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -27,6 +28,8 @@ from meshwright.flank.region import Region, region
 from meshwright.flank.sections import EVEN, Sections
 from meshwright.flank.sides import RegionSide, Side
 from meshwright.flank.step import Spline
+
+_AnySide = TypeVar("_AnySide", bound=Side)
 
 # Rows over flank and face from which the refinement of facets starts, and at which it ends.
 _FEWEST, _MOST = (8, 16), (96, 4096)
@@ -94,13 +97,15 @@ def closed_body(
     return solid_body(drive, member, teeth, rim_thickness).faceted(departure)
 
 
-def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thickness: float | None = None) -> Body:
-    """The body of a member with so many teeth; None: all of them. rim_thickness in mm.
+def solid_body(
+    drive: Drive, member: str, teeth: int | None = None, rim_thickness: float | None = None, other: Drive | None = None
+) -> Body:
+    """The body of a member with so many teeth; None: all of them. rim_thickness in mm. ``other``: the drive of the
+    other flank, where flanks have designs of their own; None takes the packaged partner, or this one's other flank.
 
     Raises UsageError for a member without a closed body, DesignError for teeth that are not whole.
     """
-    whole, _ = drive.design.with_whole_blank()
-    drive = Drive(whole, drive.backend)
+    drive, other = _whole_blank(drive), _other(drive, other)
     sizes, count = solid_sizes(drive, member), drive.teeth(member)
     make = _thread if "tip_radius" in sizes else _gear
     if make is _thread and teeth not in (None, count):
@@ -108,9 +113,39 @@ def solid_body(drive: Drive, member: str, teeth: int | None = None, rim_thicknes
     if teeth is not None and not 1 <= teeth <= count:
         raise UsageError(f"--teeth {teeth}: the {member} has {count} teeth; choose from 1 to {count}")
     with _whole(member):
-        tooth = make(drive, member, sizes, rim_thickness)
+        tooth = make((drive, other), member, sizes, rim_thickness)
     flip = drive.design.mirror.flip if drive.design.mirror.sign < 0 else None
     return Body(tooth, teeth or count, count, flip)
+
+
+def _whole_blank(drive: Drive) -> Drive:
+    whole, _ = drive.design.with_whole_blank()
+    return Drive(whole, drive.backend)
+
+
+def _other(drive: Drive, given: Drive | None) -> Drive:
+    """The drive of the other flank: the one that is given, if it goes with the drive."""
+    apart, flank = drive.design.description["flanks_apart"], drive.design.other_flank
+    if given is None:
+        try:
+            return other_flank(_whole_blank(drive))
+        except DesignError as error:
+            if not apart:
+                raise
+            reason = f"with flank = {flank!r}, for the other side of the teeth, the same design is refused: {error}"
+            remedy = "give --other-flank a design of that flank, or change this one until both flanks can be made"
+            raise DesignError("flank", drive.design.tables["flank"], reason, remedy) from error
+    if not apart:
+        raise UsageError("--other-flank: one design makes both flanks of these teeth; leave --other-flank out")
+    for what, own, its in (
+        ("drive", drive.design.family, given.design.family), ("flank", flank, given.design.tables["flank"]),
+        ("number of teeth of the pinion", drive.teeth("pinion"), given.teeth("pinion")),
+        ("number of teeth of the wheel", drive.teeth("wheel"), given.teeth("wheel")),
+        ("hand", drive.design.mirrored, given.design.mirrored),
+    ):  # fmt: skip
+        if own != its:
+            raise UsageError(f"--other-flank {given.design.label}: its {what} is {its}; give a design with {own}")
+    return _whole_blank(given)
 
 
 @contextmanager
@@ -129,22 +164,23 @@ def gear_tooth(drive: Drive, member: str, rim: float | None) -> tuple[Tooth, int
     :func:`solid_body`.
     """
     with _whole(member):
-        sides, faces = _sides(drive, member)
+        sides, faces = _sides((drive, _other(drive, None)), member)
         tooth = _between(drive, member, sides, faces, drive.teeth(member), solid_sizes(drive, member), rim)
     return tooth, 0 if tooth.sides[0] is sides[0] else 1
 
 
-def _gear(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
-    """The tooth of a gear from the regions of its flank and fillet."""
-    sides, faces = _sides(drive, member)
-    return _between(drive, member, sides, faces, drive.teeth(member), sizes, rim)
+def _gear(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The tooth of a gear from the regions of its flank and fillet, of either flank's drive."""
+    sides, faces = _sides(drives, member)
+    return _between(drives[0], member, sides, faces, drives[0].teeth(member), sizes, rim)
 
 
-def _sides(drive: Drive, member: str) -> tuple[list[RegionSide], tuple[float, float]]:
+def _sides(drives: tuple[Drive, Drive], member: str) -> tuple[list[RegionSide], tuple[float, float]]:
     """Both sides of the teeth of a gear, the flank in hand first, and the sections at their ends."""
+    drive = drives[0]
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
     sides, sections = [], Sections.of(drive.flank(member))
-    for one in (drive, other_flank(drive)):
+    for one in drives:
         names = ("flank", "fillet") if fillet else ("flank",)
         regions = [region(one, member, name, one.uses) for name in names]
         if Sections.of(regions[0].flank) is None:
@@ -173,13 +209,14 @@ def _of_blank(flank: Region, member: str) -> Sections:
     return sections
 
 
-def _thread(drive: Drive, member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
-    """The thread of a member, along its axis as far as what contact uses of its flanks."""
+def _thread(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
+    """The thread of a member, along its axis as far as what contact uses of its flanks, of either flank's drive."""
+    drive = drives[0]
     if rim is not None:
         check_rim(rim, {member: sizes["root_radius"]})
-    used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in (drive, other_flank(drive))])
+    used = np.concatenate([one.surface(member).mesh.points[:, 2] for one in drives])
     ends = float(used.min()), float(used.max())
-    threads = thread_sides(drive, member, rim or RIM_MODULES * sizes["module"])
+    threads = thread_sides(drive, member, rim or RIM_MODULES * sizes["module"], drives[1])
     sides = [ThreadSide.of(threads.flanks[name], threads.blank, ends) for name in ("left", "right")]
     bore = threads.blank.bored
 
@@ -243,7 +280,9 @@ def _deepest(sections: Sections, values: Floats, root: float) -> float:
     return DEEPEST_RIM * float((sine * values + cosine * root).min()) / cosine
 
 
-def _in_order(member: str, sides: list[Side], faces: tuple[float, float]) -> tuple[Side, Side, bool]:
+def _in_order(
+    member: str, sides: Sequence[_AnySide], faces: tuple[float, float]
+) -> tuple[_AnySide, _AnySide, bool]:
     """The sides at the smaller and larger azimuth of the tooth, told by their normals, and whether they are swapped."""
     at = np.array([0.5 * sum(faces)])
     signs = []
@@ -256,7 +295,8 @@ def _in_order(member: str, sides: list[Side], faces: tuple[float, float]) -> tup
             f"--solid: both flanks of the {member} face the same way round its axis; the description of the drive has "
             "to make the one the other side of its teeth where the flank's sign changes"
         )
-    return (*(sides if signs[0] < 0.0 else sides[::-1]), bool(signs[0] > 0.0))
+    low, high = sides if signs[0] < 0.0 else sides[::-1]
+    return low, high, bool(signs[0] > 0.0)
 
 
 def _thickness(low: RegionSide, high: RegionSide, section: float, profile: float | None) -> float:
@@ -291,18 +331,19 @@ def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
         if reached <= departure or finer == (flank, along):
             break
         flank, along = finer[0], min(finer[1], _MOST[1] // pieces)
-    radius = float(np.hypot(grid.low[1][..., 0], grid.low[1][..., 1]).max())
+    bore = tooth.sections.points(grid.values, tooth.bore(grid.values), 0.0)
+    radius = max(float(np.hypot(of[..., 0], of[..., 1]).max()) for of in (grid.low[1], bore))
     step = np.sqrt(8.0 * departure / radius)
     tip, land = (max(1, int(np.ceil(angle / step))) for angle in _widths(tooth, grid))
     return tooth.grid(Rows(along, max(8, flank // 2), flank, tip, land)), float(reached)
 
 
 def _widths(tooth: Tooth, grid: Grid) -> tuple[float, float]:
-    """Largest angles in rad of tip and root land."""
+    """Largest angles in rad of a tooth, at tip or root, below which lies as much of the bore, and of a root land."""
     ends = [np.arctan2(side[part][:, place, 1], side[part][:, place, 0]) for part, place in ((1, -1), (0, 0))
             for side in (grid.low, grid.high)]  # fmt: skip
     tip, root = (ends[1] - ends[0]) % (2.0 * np.pi), (ends[3] - ends[2]) % (2.0 * np.pi)
-    return float(tip.max()), float((tooth.pitch - root).max())
+    return float(max(tip.max(), root.max())), float((tooth.pitch - root).max())
 
 
 def _smooth_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:

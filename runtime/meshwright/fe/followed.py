@@ -74,10 +74,10 @@ class Line:
 
     def of(self, chosen: Bools) -> Line:
         """The same in some of the sections."""
-        tables = (table[:, chosen] for table in (self.face, self.regular, self.radius))
         return Line(
-            self.generated, self.sections[chosen], self.profile[:, chosen], self.start[chosen], *tables
-        )
+            self.generated, self.sections[chosen], self.profile[:, chosen], self.start[chosen],
+            self.face[:, chosen], self.regular[:, chosen], self.radius[:, chosen],
+        )  # fmt: skip
 
     @cached_property
     def _near(self) -> RegularGridInterpolator:

@@ -8,14 +8,16 @@ axis and at the smaller of one along the radius. Sizes come from the drive's fun
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
+from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
-from meshwright.fe.generated import about_z, constant, region_surface, tip_parameter, turned
+from meshwright.fe.generated import constant, region_surface, tip_parameter, turned
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, SectionCurves
 from meshwright.fe.rim import bore_radius, bored
@@ -37,7 +39,8 @@ def gear_teeth(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     faces = (sizes["face_first"], sizes["face_last"])
     pitch = 2.0 * np.pi / sizes["teeth"]
     lie = _LIES[body_of(drive, member)["lengthwise"]]
-    sides = {name: _side(one, member, lie.section) for name, one in flank_pair(drive).items()}
+    pair = flank_pair(drive)
+    sides: dict[SideName, ToothSide] = {name: _side(one, member, lie.section) for name, one in pair.items()}
     own: SideName = "left" if drive.design.flank > 0 else "right"
     if lie is _LIES["axial"] and _points_inwards(sides[own], faces):
         lie = _INTERNAL
@@ -73,7 +76,7 @@ def _undercut(drive: Drive, member: str, flank: SectionCurves, sections: Floats)
 def _crossing(drive: Drive, member: str, sections: Floats) -> tuple[Floats, Floats]:
     """Profile parameters (K,) of flank and fillet where they meet in sections (K,); raises DesignError if nowhere."""
     side = undercut_side(drive, member)
-    if side is None:
+    if side is None or side.fillet is None:
         raise DesignError(
             "design",
             drive.design.tables.get("name"),
@@ -162,7 +165,7 @@ class _Lie:
 
     section: Section
     right: int
-    back: type(_bore)
+    back: Callable[..., Cut]
 
 
 _LIES = {"axial": _Lie(_axial, -1, _bore), "radius": _Lie(_radius, 1, _plane_back)}

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, SectionCurves, Surface
@@ -52,11 +53,3 @@ def turned(surface: Surface, angle: float) -> Surface:
 def constant(value: float) -> Callable[[Floats], Floats]:
     """The same profile parameter on every section."""
     return lambda sections: np.full_like(sections, value)
-
-
-def about_z(angle: float) -> Floats:
-    """4 x 4 rotation about z."""
-    motion = np.eye(4)
-    c, s = np.cos(angle), np.sin(angle)
-    motion[:2, :2] = [[c, -s], [s, c]]
-    return motion

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from meshwright.base.errors import DesignError
+from meshwright.contact.placement import about_z
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.fe.generated import about_z
 from meshwright.fe.generated_side import generated_side
 from meshwright.fe.rim import bore_radius, bored
 from meshwright.fe.sizes import key_of, other_flank, solid_sizes

@@ -99,7 +99,7 @@ def _face_zone(flank: SectionCurves, faces: tuple[float, float], zone: ContactZo
     """Extent of the ellipse across the sections: that of its two semi-axes together."""
     semi_axes = [zone.semi_major * zone.major_direction, zone.semi_minor * zone.minor_direction]
     halves = [0.5 * float(flank.section(zone.centre + d) - flank.section(zone.centre - d)) for d in semi_axes]
-    reach = float(np.hypot(*halves))
+    reach = float(np.hypot(halves[0], halves[1]))
     centre = float(flank.section(zone.centre)) - faces[0]
     largest = density.largest_section * (faces[1] - faces[0])
     return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major, largest)

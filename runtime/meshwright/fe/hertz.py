@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,7 +72,7 @@ def elliptic_contact(
     peak = 1.5 * force / (pi * semi_major * semi_minor)
     approach = peak * semi_minor / modulus * elliprf(0.0, ratio**2, 1.0)
 
-    def stress(depth: float) -> NDArray[np.float64]:
+    def stress(depth: float) -> NDArray[np.floating[Any]]:
         return peak * _axis_stress(depth / semi_major, ratio, poisson_ratio)
 
     subsurface, depth = _largest_von_mises(stress, semi_minor)
@@ -83,7 +84,7 @@ def line_contact(force_per_length: float, curvature: float, modulus: float, pois
     semi_minor = sqrt(4.0 * force_per_length / (pi * modulus * curvature))
     peak = 2.0 * force_per_length / (pi * semi_minor)
 
-    def stress(depth: float) -> NDArray[np.float64]:
+    def stress(depth: float) -> NDArray[np.floating[Any]]:
         root = np.hypot(semi_minor, depth)
         across = -((semi_minor**2 + 2.0 * depth**2) / root - 2.0 * depth) / semi_minor
         normal = -semi_minor / root
@@ -94,7 +95,7 @@ def line_contact(force_per_length: float, curvature: float, modulus: float, pois
     return HertzContact(float("inf"), semi_minor, peak, float("inf"), subsurface, depth)
 
 
-def _largest_von_mises(stress: Callable[[float], NDArray[np.float64]], scale: float) -> tuple[float, float]:
+def _largest_von_mises(stress: Callable[[float], NDArray[np.floating[Any]]], scale: float) -> tuple[float, float]:
     found = minimize_scalar(
         lambda depth: -float(von_mises(stress(depth))),
         bounds=(1e-6 * scale, 2.0 * scale),
@@ -104,7 +105,7 @@ def _largest_von_mises(stress: Callable[[float], NDArray[np.float64]], scale: fl
     return -float(found.fun), float(found.x)
 
 
-def _axis_stress(zeta: float, k: float, nu: float) -> NDArray[np.float64]:
+def _axis_stress(zeta: float, k: float, nu: float) -> NDArray[np.floating[Any]]:
     """Stress over peak pressure at depth zeta = z/a below the centre of an ellipse with b/a = k.
 
     Johnson (4.28) with every difference that vanishes with the eccentricity written out.

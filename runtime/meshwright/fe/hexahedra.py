@@ -6,14 +6,15 @@ Node order and face labels are those of CalculiX and Abaqus: nodes 1-4 below, 5-
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
 Ints = NDArray[np.int64]
 
 # Local nodes of the faces S1..S6, each right-handed about its outward normal.
@@ -105,7 +106,7 @@ def merge(meshes: list[HexMesh], tolerance: float) -> tuple[HexMesh, list[Ints]]
     Returns the joined mesh and, for each input, the (N_i,) new numbers of its nodes.
     """
     nodes = np.concatenate([mesh.nodes for mesh in meshes])
-    pairs = cKDTree(nodes).query_pairs(tolerance, output_type="ndarray")
+    pairs = KDTree(nodes).query_pairs(tolerance, output_type="ndarray")
     graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(nodes), len(nodes)))
     labels = connected_components(graph, directed=False)[1]
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,7 @@ class Material:
         return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
 
     @property
-    def stiffness(self) -> NDArray[np.float64]:
+    def stiffness(self) -> NDArray[np.floating[Any]]:
         """6 x 6 stiffness in MPa, order xx yy zz xy yz zx, engineering shear strains."""
         nu = self.poisson_ratio
         matrix = np.zeros((6, 6))
@@ -40,14 +41,14 @@ def contact_modulus(first: Material, second: Material) -> float:
     return 1.0 / (1.0 / first.plane_strain_modulus + 1.0 / second.plane_strain_modulus)
 
 
-def von_mises(stress: NDArray[np.float64]) -> NDArray[np.float64]:
+def von_mises(stress: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
     """Von Mises stress of (..., 6) stresses, order xx yy zz xy yz zx."""
     xx, yy, zz, xy, yz, zx = np.moveaxis(np.asarray(stress), -1, 0)
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
     return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + zx**2))
 
 
-def max_principal(stress: NDArray[np.float64]) -> NDArray[np.float64]:
+def max_principal(stress: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
     """Largest principal stress of (..., 6) stresses, order xx yy zz xy yz zx."""
     xx, yy, zz, xy, yz, zx = np.moveaxis(np.asarray(stress), -1, 0)
     rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from meshwright.contact.placement import about_z
 from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
 from meshwright.fe.grading import ContactZone, MeshDensity
@@ -96,12 +97,13 @@ def build_model(
     arms = [abs(lever_arm(loaded, contact.touch.point, contact.touch.normal)) for contact in contacts]
     least = _LEAST_FORCE * float(max(forces))
     hertz = tuple(hertz_of(gear, c, max(float(f), least)) for c, f in zip(contacts, forces, strict=True))
-    angles = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
+    angles: dict[BodyName, float] = {"pinion": pinion_angle, "wheel": unloaded_wheel_angle(gear, contacts)}
     carrying = [(c, h) for c, h, f in zip(contacts, hertz, forces, strict=True) if f > 0.0]
     numbers = pair_numbers(gear, pinion_angle, pairs)
     numbers = range(numbers.start - idle, numbers.stop + idle)
-    orders = {name: tooth_order(member, angles[name], numbers) for name, member in _members(gear).items()}
-    bodies = {
+    members = _members(gear).items()
+    orders: dict[BodyName, list[int]] = {name: tooth_order(member, angles[name], numbers) for name, member in members}
+    bodies: dict[BodyName, BodyMesh] = {
         name: mesh_body(_teeth(gear, name, angles[name], orders[name], carrying), density) for name in _members(gear)
     }
     lead = int(np.argmax(forces))
@@ -111,7 +113,7 @@ def build_model(
     for name, member in _members(gear).items():
         motion = frame @ member.pose(angles[name])
         if name == load.member:
-            motion = _about_z(start) @ motion
+            motion = about_z(start) @ motion
         nodes = bodies[name].mesh.nodes @ motion[:3, :3].T + motion[:3, 3]
         parts.append(Part(name.upper(), HexMesh(nodes, bodies[name].mesh.elements), member.material))
     deck = Deck(
@@ -179,10 +181,3 @@ def _rims(bodies: dict[BodyName, BodyMesh], load: Load, direction: int) -> tuple
         )
         for name, body in bodies.items()
     )
-
-
-def _about_z(angle: float) -> Floats:
-    motion = np.eye(4)
-    c, s = np.cos(angle), np.sin(angle)
-    motion[:2, :2] = [[c, -s], [s, c]]
-    return motion

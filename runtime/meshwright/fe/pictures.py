@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,6 +12,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from meshwright.fe.hexahedra import FACES, Floats, HexMesh, Ints
@@ -80,7 +82,8 @@ def _von_mises(model: PairModel, solution: Solution, name: BodyName) -> Figure:
     low, high = mesh.nodes[quads].min(axis=(0, 1)), mesh.nodes[quads].max(axis=(0, 1))
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     # An upright box would reach into the title.
-    axes.set_box_aspect(high - low, zoom=0.85 if high[2] - low[2] >= (high - low)[:2].max() else 1.0)
+    zoom: Any = 0.85 if high[2] - low[2] >= (high - low)[:2].max() else 1.0  # matplotlib declares a whole number
+    axes.set_box_aspect(high - low, zoom=zoom)
     axes.set(xlabel="x / mm", ylabel="y / mm")
     axes.zaxis.set_rotate_label(False)  # else it may stand on its head
     axes.set_zlabel("z / mm", rotation=90)
@@ -155,9 +158,10 @@ def _flank_pressure(axes: Axes, model: PairModel, solution: Solution, number: in
     field = np.zeros(len(mesh.nodes))
     field[nodes] = values
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    drawn = axes.tripcolor(*local.T, triangles, field, shading="gouraud", vmin=0.0, vmax=peak, cmap=_COLOURS)
+    grid = Triangulation(local[:, 0], local[:, 1], triangles)
+    drawn = axes.tripcolor(grid, field, shading="gouraud", vmin=0.0, vmax=peak, cmap=_COLOURS)
     edges = local[quads][:, [0, 1, 2, 3, 0]]
-    axes.add_collection(LineCollection(edges, colors="white", linewidths=0.15))
+    axes.add_collection(LineCollection(list(edges), colors="white", linewidths=0.15))
     axes.set_xlabel("along the major axis / mm")
     flank = local[np.unique(quads)]
     axes.set(xlim=(flank[:, 0].min(), flank[:, 0].max()), ylim=(flank[:, 1].min(), flank[:, 1].max()))

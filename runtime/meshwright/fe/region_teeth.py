@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
 from meshwright.fe.closed_body import gear_tooth
-from meshwright.fe.generated import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, SectionCurves
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide
@@ -113,7 +113,8 @@ class _Curves:
         lines = self.at(self._sections)
         q = solve(lines.region, flat, values, self._near(lines, flat, values))
         found = lines.region.flank(q)
-        return tuple((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
+        points, normals = ((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
+        return points, normals
 
     def _near(self, lines: Lines, profile: Floats, values: Floats) -> Floats:
         """Parameters (N, k) near places, between those of known sections."""

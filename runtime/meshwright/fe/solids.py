@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
-from meshwright.contact.placement import placed
+from meshwright.contact.placement import about_z, placed
 from meshwright.contact.results import TCA
 from meshwright.cycle.first_contact import FirstContacts, first_contact_of
 from meshwright.cycle.pairs import Mesh
@@ -18,7 +18,6 @@ from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window
 from meshwright.drive import Drive
 from meshwright.fe.gear import gear_teeth
-from meshwright.fe.generated import about_z
 from meshwright.fe.generated_wheel import generated_wheel
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials

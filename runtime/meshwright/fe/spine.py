@@ -51,7 +51,8 @@ class Spine:
             raise ValueError("its middle section holds no flank below the tip")
         halves = [here.carried(begun, centre, face, step) for face in faces]
         places = [*reversed(halves[0]), (centre, *begun), *halves[1]]
-        return cls(*np.array([[float(np.squeeze(v)) for v in place] for place in places]).T, ends)
+        columns = np.array([[float(np.squeeze(v)) for v in place] for place in places]).T
+        return cls(*columns, bounds=ends)
 
     def at(self, sections: Floats) -> tuple[Floats, Floats]:
         """Profile parameters and angles (K,) near the flank in other sections (K,)."""
@@ -75,7 +76,8 @@ class _Section:
 
     def carried(self, begun: tuple, centre: float, face: float, step: float) -> list[tuple]:
         """Sections with their places from a middle one to a face, the flank's middle foreseen from the last two."""
-        places, way, size = [(centre, *begun)], np.sign(face - centre), step
+        places: list[tuple] = [(centre, *begun)]
+        way, size = np.sign(face - centre), step
         while places[-1][0] != face:
             at, profile, angle = places[-1][:3]
             size = min(size, abs(face - at))
@@ -84,7 +86,7 @@ class _Section:
             if len(places) > 1:
                 before = places[-2]
                 share = (section - at) / (at - before[0])
-                foreseen = tuple(now + share * (now - then) for now, then in zip(foreseen, before[1:3], strict=True))
+                foreseen = profile + share * (profile - before[1]), angle + share * (angle - before[2])
             found = self.centred(section, *foreseen) or self.centred(section, profile, angle)
             if found:
                 places.append((section, *found))
@@ -107,7 +109,7 @@ class _Section:
         near = min((*ends, start), key=lambda place: abs(place[0] - at)[0])
         trial = at, self._solved(section, at, near[1])
         found = trial if self._good(section, *trial) else start
-        return *found, ends[0][0], ends[1][0]
+        return found[0], found[1], ends[0][0], ends[1][0]
 
     def _end(self, section: float, profile: Floats, face: Floats, end: float) -> tuple[Floats, Floats]:
         """The last place inside on the way to an end of the profile."""

@@ -66,7 +66,7 @@ def read_solution(model: PairModel, input_file: Path) -> Solution:
     """Read the result files beside ``input_file``.  Raises KeyError or OSError if they lack a result."""
     fields = read_frd(input_file.with_suffix(".frd"))
     tables = read_dat(input_file.with_suffix(".dat"))
-    stresses = {name: _of_body(model, fields["STRESS"], name) for name in model.bodies}
+    stresses: dict[BodyName, Floats] = {name: _of_body(model, fields["STRESS"], name) for name in model.bodies}
     pressures = tuple(_pressures(model, fields["CONTACT"], number) for number in range(len(model.contacts)))
     pairs = tuple(_pair(model, number, pressures[number], stresses) for number in range(len(model.contacts)))
     turned = tables["displacements", f"ROTATION_{model.load.member.upper()}"].values[0, 2]

@@ -14,7 +14,7 @@ from functools import cache
 
 import numpy as np
 
-from meshwright.fe.generated import about_z
+from meshwright.contact.placement import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Section, Surface
 from meshwright.fe.rounding import Outline, Span, rounded_side

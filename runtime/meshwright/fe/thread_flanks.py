@@ -52,14 +52,16 @@ def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     return thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
 
 
-def thread_sides(drive: Drive, member: str, rim_thickness: float) -> ThreadSides:
-    """Flanks and blank of the thread of a drive with a whole blank, as for :func:`threads`."""
+def thread_sides(drive: Drive, member: str, rim_thickness: float, other: Drive | None = None) -> ThreadSides:
+    """Flanks and blank of the thread of a drive with a whole blank, as for :func:`threads`; ``other``: the drive of the
+    other flank, None for that of :func:`~meshwright.fe.sizes.other_flank`.
+    """
     sizes = solid_sizes(drive, member)
     bore = bore_radius(sizes["root_radius"], rim_thickness)
     blank = ThreadBlank(sizes["tip_radius"], sizes["root_radius"], sizes["rounding"], bore, sizes["taper"])
     facing, normal = contact(drive, member)
     working = side_of(normal)
-    other = other_flank(drive)
+    other = other or other_flank(drive)
     surfaces = _surface(drive, member), _surface(other, member)
     spans = span(drive, member), span(other, member)
     if "thickness" in sizes:

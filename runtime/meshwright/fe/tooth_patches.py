@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshwright.base.errors import DesignError
-from meshwright.fe.generated import about_z
+from meshwright.contact.placement import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.flank.patches import Patch
 from meshwright.flank.sections import Sections

@@ -6,14 +6,15 @@ The same patches, with more points, are the body's triangles.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
 Ints = NDArray[np.int64]
 
 #: Points of neighbouring patches that are one are no further apart, mm.
@@ -59,7 +60,7 @@ def triangulated(patches: list[Patch]) -> tuple[Floats, Ints]:
 
 def _first_of_each(points: Floats) -> Ints:
     """For each of points (N, 3) the number of the first one that is the same."""
-    return first_of_groups(cKDTree(points).query_pairs(TOGETHER, output_type="ndarray"), len(points))
+    return first_of_groups(KDTree(points).query_pairs(TOGETHER, output_type="ndarray"), len(points))
 
 
 def first_of_groups(pairs: Ints, count: int) -> Ints:

@@ -76,6 +76,18 @@ class Sections:
             slopes = slopes + sine * np.einsum("nkj,nj->nk", tangents[:, :, :2], points[:, :2]) / radius
         return slopes
 
+    def second_slopes(self, points, tangents, second):
+        """Second derivatives (N, k, k) of the section by the parameters, from those of the points (N, 3, k, k)."""
+        sine, cosine = self.sides
+        bent = cosine * second[:, 2]
+        if sine:
+            radius = np.hypot(points[:, 0], points[:, 1])[:, None, None]
+            radial = np.einsum("nkj,nj->nk", tangents[:, :, :2], points[:, :2]) / radius[:, 0]
+            inner = np.einsum("nkj,nlj->nkl", tangents[:, :, :2], tangents[:, :, :2])
+            inner = inner + np.einsum("njkl,nj->nkl", second[:, :2], points[:, :2])
+            bent = bent + sine * (inner - radial[:, :, None] * radial[:, None, :]) / radius
+        return bent
+
     def points(self, section, height, azimuth):
         """Points (..., 3) of sections at heights and azimuths in rad."""
         sine, cosine = self.sides
@@ -91,6 +103,14 @@ def lengthwise(flank, found):
     slopes = np.zeros(found.parameters.shape)
     slopes[:, -1] = 1.0
     return found.parameters[:, -1], slopes
+
+
+def lengthwise_bending(flank, found, second):
+    """Second derivatives (N, k, k) of the coordinate along the tooth, from those of the points (N, 3, k, k)."""
+    sections = Sections.of(flank)
+    if sections:
+        return sections.second_slopes(found.points, found.tangents, second)
+    return np.zeros((len(second), *second.shape[2:]))
 
 
 def solved(matrix, residual):

@@ -7,7 +7,7 @@ without a fillet of its own ends at its root.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from meshwright.flank.lines import Lines, changes, ended_by, lines
 from meshwright.flank.region import Region
 from meshwright.flank.sections import Sections
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
@@ -35,18 +35,25 @@ PLACES_ALONG, MODIFIED = 17, 0.1
 class Side(Protocol):
     """A side of a tooth: its fillet, if there is one, and its flank, between which there may be a step."""
 
-    sections: Sections
-    has_fillet: bool
-    has_step: bool
+    @property
+    def sections(self) -> Sections: ...
+
+    @property
+    def has_fillet(self) -> bool: ...
+
+    @property
+    def has_step(self) -> bool: ...
 
     def grids(self, values: Floats, fillet: Floats, flank: Floats) -> tuple[Floats, Floats, Floats]:
         """Points of fillet (K, F, 3) and flank (K, J, 3) and the flank's normals, at section values (K,), ascending,
         and at shares (F,), (J,) of the ways from root land to joint and from joint to tip. Without a fillet the first
         is the joint alone, (K, 1, 3).
         """
+        ...
 
     def breaks(self) -> Floats:
         """Section values at which an end of the side has a corner, ascending."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,14 @@
 """A closed body of patches as a solid of B-spline faces in a STEP file, by Open CASCADE (extra ``cad``)."""
 
+# pyright: reportMissingImports=false
+# The extra is large and seldom installed.
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.patches import TOGETHER, Floats, Ints, Patch, first_of_groups
@@ -128,7 +131,7 @@ def _middle(line: Floats) -> Floats:
 
 
 def _same(points: Floats) -> Ints:
-    return first_of_groups(cKDTree(points).query_pairs(TOGETHER, output_type="ndarray"), len(points))
+    return first_of_groups(KDTree(points).query_pairs(TOGETHER, output_type="ndarray"), len(points))
 
 
 def _boundary(spline: Spline):

@@ -1,5 +1,8 @@
 """A region of a tooth as a STEP file: B-spline surfaces trimmed along the limits, by Open CASCADE (extra ``cad``)."""
 
+# pyright: reportMissingImports=false
+# The extra is large and seldom installed.
+
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path

@@ -108,6 +108,20 @@ class Flank:
         library().mw_bounds(compiled, self.number, 1, pointer(self.state), pointer(q), len(q), pointer(slopes))
         return slopes
 
+    def second_derivatives(self, parameters):
+        """Second derivatives by the parameters at ``parameters`` (N, k): of the point (N, 3, k, k), body frame, mm, and
+        of each implicit condition (N, c, k, k). Flanks have them, other regions do not.
+        """
+        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        k, limits, compiled = q.shape[1], 1 + len(self.body["margins"]), self.drive.design.model
+        rows, columns = np.triu_indices(k)
+        pairs = np.empty((len(q), 3 + limits + self.body["conditions"], len(rows)))
+        if library().mw_bounds(compiled, self.number, 2, pointer(self.state), pointer(q), len(q), pointer(pairs)) < 0:
+            raise UsageError(f"the {self.region} of the {self.body['name']} has no second derivatives; a flank has")
+        full = np.empty((*pairs.shape[:2], k, k))
+        full[:, :, rows, columns] = full[:, :, columns, rows] = pairs
+        return full[:, :3], full[:, 3 + limits :]
+
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
         q = np.asarray(parameters, dtype=float, order="C")

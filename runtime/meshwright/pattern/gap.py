@@ -4,6 +4,7 @@ Both flanks are met by the line through a point of the tangent plane along the c
 the two is the separation. Vectorised over N points, each in the plane of its own contact.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -126,9 +127,18 @@ def _newton_step(found, misses, tangents, plane):
     residual = np.concatenate([misses, found.conditions[:, :, 0]], axis=1)
     slopes = np.matmul(plane, np.swapaxes(tangents, 1, 2))
     matrix = np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1)
-    good = np.isfinite(matrix).all(axis=(1, 2)) & (np.abs(np.linalg.det(np.nan_to_num(matrix))) > 0.0)
-    step = np.full((len(residual), matrix.shape[2]), np.nan)
-    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    step = _solved(matrix, residual)
     length = np.linalg.norm(np.matmul(step[:, None], tangents)[:, 0], axis=1)
     limit = np.minimum(1.0, STEP_LIMIT / np.maximum(length, 1e-300))
     return step * limit[:, None], length
+
+
+def _solved(matrix, residual):
+    """Solutions (N, k) of N systems; NaN where one is singular or not finite."""
+    if np.isfinite(matrix).all():
+        with suppress(np.linalg.LinAlgError):
+            return np.linalg.solve(matrix, residual[:, :, None])[:, :, 0]
+    good = np.isfinite(matrix).all(axis=(1, 2)) & (np.abs(np.linalg.det(np.nan_to_num(matrix))) > 0.0)
+    step = np.full((len(residual), matrix.shape[2]), np.nan)
+    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    return step

@@ -5,7 +5,9 @@ normal reaches the given one or a flank ends. Five unknowns a direction: two par
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -26,19 +28,24 @@ LONGEST = 40.0
 class Contour:
     """The patch of one contact at pinion ``angle`` (rad) and ``separation`` (mm).
 
-    ``directions`` (N,), rad, about the contact normal (out of the pinion) from the major direction. ``radii`` (N,), mm,
-    from the contact point to the separation, the flanks continued past their edges, NaN where they never reach it;
-    ``radii_on_flank`` end at the edges of the flanks. ``points`` (N, 3): the edge of the patch on the flanks, in the
-    tangent plane, fixed frame; ``body_points[member]`` (N, 3) the same on each flank, body frame.
+    ``directions`` (N,), rad, about the contact normal (out of the pinion) from the major direction.
+    ``radii_on_flank`` (N,), mm, from the contact point to the separation or the edge of a flank. ``points`` (N, 3): the
+    edge of the patch on the flanks, in the tangent plane, fixed frame; ``body_points[member]`` (N, 3) the same on each
+    flank, body frame.
     """
 
     angle: float
     separation: float
     directions: np.ndarray
-    radii: np.ndarray
     radii_on_flank: np.ndarray
     points: np.ndarray
     body_points: dict[str, np.ndarray]
+    past_edges: Callable[[], np.ndarray] = field(repr=False)
+
+    @cached_property
+    def radii(self):
+        """Radii (N,), mm, to the separation on flanks continued past their edges; NaN where they never reach it."""
+        return self.past_edges()
 
 
 def evenly(count, *_curvatures):
@@ -112,10 +119,9 @@ def _contours(drive, found, rows, count, separation, spacing):
     contact = (flip * a[of] for a in (found.points, found.normals, found.major))
     gap = Gap.at(drive, mirror * found.angles[of], found.solutions[of], *contact)
     rays = _Rays.of(gap, found.curvatures[of], mirror * directions, separation)
-    reached = rays.followed(_separation_reached)
     on_flank = rays.followed(_separation_or_edge_reached)
     places = np.matmul((on_flank.radius[:, None] * rays.along)[:, None], gap.axes[:, :2])[:, 0]
-    radii, points = np.where(reached.value == 0.0, reached.radius, np.nan), flip * (gap.point + places)
+    points, reached = flip * (gap.point + places), cache(lambda: rays.past_edges(on_flank))
     bodies = drive.design.description["bodies"]
     on_bodies = {
         b["name"]: flip * side.flank(q).points
@@ -124,8 +130,8 @@ def _contours(drive, found, rows, count, separation, spacing):
 
     def one(k, part):
         on = {name: body[part] for name, body in on_bodies.items()}
-        around = directions[part], radii[part], on_flank.radius[part]
-        return Contour(float(found.angles[k]), float(separation), *around, points[part], on)
+        around = directions[part], on_flank.radius[part], points[part]
+        return Contour(float(found.angles[k]), float(separation), *around, on, lambda: reached()[part])
 
     parts = {k: one(k, slice(i * count, (i + 1) * count)) for i, k in enumerate(solved)}
     return tuple(parts.get(k) for k in rows)
@@ -177,6 +183,16 @@ class _Rays:
             outer.put(going, rays._at(here.radius + rays.step, here, remaining))
         return self._refined(inner, outer, remaining)
 
+    def past_edges(self, on_flank):
+        """Radii (N,) at which the separation is reached, the flanks continued past their edges, NaN where it never is;
+        ``on_flank`` is where it is reached or a flank ends.
+        """
+        reached = on_flank.only(np.arange(len(self.along)))
+        (ended,) = np.nonzero(~((on_flank.value == 0.0) & (on_flank.margin > 0.0)))
+        if len(ended):
+            reached.put(ended, self.only(ended).followed(_separation_reached))
+        return np.where(reached.value == 0.0, reached.radius, np.nan)
+
     def only(self, chosen):
         """The chosen rays."""
         return _Rays(self.gap.only(chosen), self.along[chosen], self.sign[chosen], self.step[chosen], self.separation)
@@ -184,11 +200,13 @@ class _Rays:
     def _at(self, radius, near, remaining):
         sections = self.gap.separations(radius[:, None] * self.along, near.parameters)
         value = remaining(self, sections)
-        return _State(radius.copy(), sections.parameters, np.where(np.isfinite(value), value, np.nan))
+        return _State(
+            radius.copy(), sections.parameters, np.where(np.isfinite(value), value, np.nan), sections.margin
+        )
 
     def _refined(self, inner, outer, remaining):
         """The place between an inner and an outer state, by false position (Illinois) or bisection."""
-        weight = np.stack([inner.value, outer.value])
+        weight, beyond = np.stack([inner.value, outer.value]), outer.margin.copy()
         last = np.zeros(len(inner.radius))
         for _ in range(REFINEMENTS):
             width = outer.radius - inner.radius
@@ -207,29 +225,36 @@ class _Rays:
             inner.put(wide[before], middle.only(before))
             outer.put(wide[~before], middle.only(~before))
         found = np.isfinite(outer.value) & (outer.value <= 0.0)
-        return _State(inner.radius, inner.parameters, np.where(found, 0.0, np.nan))
+        margin = np.fmin(beyond, outer.margin)
+        return _State(inner.radius, inner.parameters, np.where(found, 0.0, np.nan), margin)
 
 
 @dataclass(frozen=True)
 class _State:
-    """A place on each ray: radius (N,), parameters of both flanks there, and what remains to the end."""
+    """A place on each ray: radius (N,), parameters of both flanks there, what remains to the end, and the smallest
+    margin of both flanks; at the end of a ray, the smallest of the margins beyond it.
+    """
 
     radius: np.ndarray
     parameters: tuple[np.ndarray, np.ndarray]
     value: np.ndarray
+    margin: np.ndarray
 
     @classmethod
     def start(cls, rays):
         """The contact point itself."""
         n = len(rays.along)
-        return cls(np.zeros(n), tuple(q.copy() for q in rays.gap.parameters), np.full(n, rays.separation))
+        return cls(
+            np.zeros(n), tuple(q.copy() for q in rays.gap.parameters), np.full(n, rays.separation), np.full(n, np.inf)
+        )
 
     def only(self, chosen):
         """The state on the chosen rays."""
-        return _State(self.radius[chosen], tuple(q[chosen] for q in self.parameters), self.value[chosen])
+        parameters = tuple(q[chosen] for q in self.parameters)
+        return _State(self.radius[chosen], parameters, self.value[chosen], self.margin[chosen])
 
     def put(self, chosen, other):
         """Take over another state, of the chosen rays alone, in place."""
-        self.radius[chosen], self.value[chosen] = other.radius, other.value
+        self.radius[chosen], self.value[chosen], self.margin[chosen] = other.radius, other.value, other.margin
         for mine, its in zip(self.parameters, other.parameters, strict=True):
             mine[chosen] = its

@@ -13,9 +13,13 @@ def breaks(drive, tca):
 
     Positions without a contact point break no curve: there is none at them.
     """
-    mirror = drive.design.mirror.sign
-    joints = np.flatnonzero(tca.solved[1:] & tca.solved[:-1]) + 1
-    return np.array([k for k in joints if not _one_branch(drive, mirror * tca.angles, tca.solutions, k)], dtype=int)
+    known = np.flatnonzero(tca.solved)
+    angles, found = drive.design.mirror.sign * tca.angles, []
+    for run in np.split(known, np.flatnonzero(np.diff(known) > 1) + 1):
+        while run.size > 1:
+            run = run[_on_one_branch(drive, angles[run], tca.solutions[run]) :]
+            found += run[:1].tolist()
+    return np.array(found, dtype=int)
 
 
 def broken(values, places):
@@ -23,9 +27,9 @@ def broken(values, places):
     return np.insert(np.asarray(values, dtype=float), places, np.nan, axis=0)
 
 
-def _one_branch(drive, angles, solutions, k):
-    """Whether the solution before position ``k``, followed to its angle, becomes its solution."""
-    path = Path.through(drive, angles[k - 1], solutions[k - 1]).extended(angles[k])
-    reached = path.angles[-1] == angles[k] if angles[k] > angles[k - 1] else path.angles[0] == angles[k]
-    end = path.unknowns[-1 if angles[k] > angles[k - 1] else 0]
-    return bool(reached and np.allclose(end, solutions[k], rtol=SAME, atol=SAME))
+def _on_one_branch(drive, angles, solutions):
+    """How many of the solutions at angles (N,), ascending or descending, lie on the branch through the first."""
+    path = Path.through(drive, angles[0], solutions[0]).extended(angles[-1])
+    there = path.solve(angles[1:])
+    same = np.isclose(there, solutions[1:], rtol=SAME, atol=SAME).all(axis=1)
+    return len(angles) if same.all() else 1 + int(np.argmin(same))

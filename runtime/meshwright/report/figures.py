@@ -10,6 +10,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from meshwright.contact.results import ARCSEC
 from meshwright.report import loaded_figure, pattern_figure, sensitivity_figures, style, whole_figure
 from meshwright.report.branches import broken
+from meshwright.report.layout import arrange
 from meshwright.report.numbers import number as text_of
 
 PINION_ANGLE = "pinion angle, deg"
@@ -33,7 +34,9 @@ class Picture:
     def figure(self, analysis):
         """The drawn figure."""
         with style.drawing():
-            return self.draw(analysis)
+            figure = self.draw(analysis)
+            arrange(figure)
+        return figure
 
 
 def pictures(analysis):
@@ -293,7 +296,7 @@ _SENSITIVITY_ERROR = Picture(
 _SENSITIVITY_PATH = Picture(
     "sensitivity-path",
     "Path of contact on the wheel under misalignment",
-    "With each misalignment alone, either way, on top of the design as given. One under which no point touches "
-    "has no panel.",
+    "With each misalignment alone, either way, on top of the design as given; the axes are stretched, each by its own "
+    "scale. One under which no point touches has no panel.",
     sensitivity_figures.path,
 )

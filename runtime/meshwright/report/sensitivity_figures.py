@@ -10,6 +10,9 @@ from meshwright.report.branches import broken
 
 _COLUMNS = 2
 
+#: Steps on the abscissa of a panel at most: numbers of a shift by thousandths are long.
+_TICKS = 3
+
 #: Longest line of a panel's title, characters.
 _TITLE = 28
 
@@ -44,6 +47,7 @@ def path(analysis):
             points = broken(moved.body_points["wheel"], breaks)
             axes.plot(*projection(points), color=colour, label=f"{sign}{effect.label}")
         axes.margins(x=0.1)
+        axes.locator_params(axis="x", nbins=_TICKS)
         axes.set(xlabel=horizontal, xlim=_widened(axes.get_xlim(), LEAST_SHIFT))
         axes.set_ylim(_room(axes.get_ylim(), LEAST_SHIFT))
         axes.legend(ncols=3, handlelength=1.0, columnspacing=0.8, loc="upper center", fontsize=8)

@@ -32,7 +32,9 @@ _SETTINGS = {
     "lines.linewidth": 1.5,
     "legend.frameon": False,
     "legend.fontsize": 8.5,
-    "figure.constrained_layout.use": True,
+    "axes.titley": 1.0,
+    "axes.formatter.limits": (-9, 9),
+    "axes.formatter.useoffset": False,
     "svg.fonttype": "none",
 }
 

@@ -75,7 +75,8 @@ class Sheet:
         open_ = np.array([name == OPEN for name in self.whole.limits], dtype=bool)
         ends = self.places[self.whole.edges]
         for chosen, look in ((~open_, {"colors": colour}), (open_, {"colors": style.SOFT, "linestyles": "dashed"})):
-            axes.add_collection(LineCollection(ends[chosen], linewidths=1.0, **look))
+            shown = _shown(axes, ends[chosen])
+            axes.add_collection(LineCollection(shown, linewidths=1.0, **look), autolim=False)
 
     def path(self, axes, analysis, member):
         """Draw the path of contact and name its ends."""
@@ -104,13 +105,13 @@ def pattern(analysis, member):
     flip = np.array([1.0, analysis.mirror, 1.0])
     lines = [sheet.flat(line.body_points[member] * flip) for line in analysis.lines if len(line.points)]
     rings = [sheet.flat(c.body_points[member]) for c in analysis.pattern if np.isfinite(c.body_points[member]).all()]
+    rings = [np.vstack([ring, ring[:1]]) for ring in rings]
+    lines = lines[:: max(1, len(lines) // 24)]
     for axes in panels:
         for distance, alpha in ((whole.alone, 0.22), (whole.running, 0.38)):
             _fill(axes, sheet, distance, analysis.marking, colour, alpha)
-        for ring in rings:
-            axes.plot(*np.vstack([ring, ring[:1]]).T, color=colour, linewidth=0.6)
-        for line in lines[:: max(1, len(lines) // 24)]:
-            axes.plot(*line.T, color=colour, linewidth=0.9)
+        for drawn, width in ((rings, 0.6), (lines, 0.9)):
+            axes.add_collection(LineCollection(_shown(axes, drawn), colors=colour, linewidths=width), autolim=False)
         sheet.border(axes, colour)
         sheet.path(axes, analysis, member)
     return figure
@@ -129,6 +130,12 @@ def loaded_lines(analysis, member):
         sheet.border(axes, colour)
         sheet.path(axes, analysis, member)
     return figure
+
+
+def _shown(axes, lines):
+    """Those of the lines (M, 2) each that reach into what the axes show."""
+    low, high = axes.get_xlim()
+    return [line for line in lines if line[:, 0].max() >= low and line[:, 0].min() <= high]
 
 
 def _fill(axes, sheet, distance, thickness, colour, alpha):

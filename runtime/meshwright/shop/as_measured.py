@@ -1,8 +1,10 @@
-"""The as-measured flank in contact: nominal surface plus interpolated deviation along its normal.
+"""The as-measured flank in contact: nominal surface plus interpolated deviation.
 
-r̃ = r + δ n with a bicubic spline δ through the measured values; along the tooth its coordinate is that of the lines,
-and across it the share of the way from the first to the last of them. The normal follows without differences: with the
-shape operator S, ñ ∝ n − (1 − δ S)⁻¹ ∇δ. Nothing is extrapolated: a contact beyond the measured grid has no numbers.
+r̃ = r + δ n with bicubic splines δ and n through the measured deviations and the nominal normals at their places; along
+the tooth their coordinate is that of the lines, and across it the share of the way from the first to the last of them.
+Derivatives are exact, by the chain rule: those of the splines with first and second ones of the nominal surface. The
+normal of a surface with an implicit condition f = 0 is the sum over cyclic (a, b, c) of f_a ∂r̃/∂b × ∂r̃/∂c, without
+one ∂r̃/∂a × ∂r̃/∂b. Nothing is extrapolated: a contact beyond the measured grid has no numbers.
 """
 
 import math
@@ -13,7 +15,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
 from meshwright.drive import Drive
-from meshwright.flank.sections import lengthwise
+from meshwright.flank.sections import lengthwise, lengthwise_bending
 from meshwright.pattern.gap import smallest_margin
 from meshwright.shop.located import located
 from meshwright.shop.spline import Knots
@@ -22,13 +24,15 @@ from meshwright.shop.tables import Points
 #: Points of a file are a grid if shares of the profile differ by less than this from line to line.
 REGULAR = 1e-4
 
-#: Newton steps, the size at which they are done (mm and rad), what is left of a solved contact, and steps of the
-#: differences by which the matrix of the equations, not their solution, is known.
-STEPS, DONE, SOLVED, DIFFERENCE = 40, 1e-12, 1e-9, 1e-6
+#: Newton steps, the size at which they are done (mm and rad), and what is left of a solved contact.
+STEPS, DONE, SOLVED = 40, 1e-12, 1e-9
 
 #: Points into which each cell of the grid is divided, each way, for first contact, pattern and ease-off; angles of the
 #: window at which pattern and ease-off are looked at.
 FINER, ANGLES = 4, 33
+
+#: Three parameters of a surface with one condition, in turn.
+CYCLIC = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
 
 #: A place outside the grid by less than this share of a cell is on its border.
 ON_BORDER = 1e-6
@@ -40,7 +44,7 @@ OVERLAP = 1e-6
 @dataclass(frozen=True)
 class Field:
     """Deviations ``values`` (N, M), mm, over a flank: lines across it at ``along`` (M,) with ``ends`` (2, M) of the
-    profile parameter; ``nodes`` (N, M, k) parameters of the flank.
+    profile parameter; ``nodes`` (N, M, k) parameters of the flank, ``normals`` (N, M, 3) of it there.
     """
 
     flank: object
@@ -49,6 +53,7 @@ class Field:
     ends: np.ndarray
     values: np.ndarray
     nodes: np.ndarray
+    normals: np.ndarray
 
     @classmethod
     def of(cls, drive, member, points, tooth=None):
@@ -83,7 +88,8 @@ class Field:
 
     @classmethod
     def _over(cls, flank, nodes, values):
-        reached = lengthwise(flank, flank(nodes.reshape(-1, nodes.shape[2])))[0].reshape(values.shape)
+        found = flank(nodes.reshape(-1, nodes.shape[2]))
+        reached, normals = lengthwise(flank, found)[0].reshape(values.shape), found.normals.reshape(*values.shape, 3)
         profile, along = nodes[:, :, 0], reached.mean(axis=0)
         ends = profile[[0, -1]]
         shares = (profile - ends[0]) / (ends[1] - ends[0])
@@ -93,30 +99,64 @@ class Field:
             raise UsageError("--measured: its points are not those of one `meshwright grid`; measure such a grid")
         order = np.argsort(along)
         return cls(
-            flank, Knots.at(across), Knots.at(along[order]), ends[:, order], values[:, order], nodes[:, order]
-        )
+            flank, Knots.at(across), Knots.at(along[order]), ends[:, order], values[:, order], nodes[:, order],
+            normals[:, order],
+        )  # fmt: skip
 
     def at(self, found):
-        """Deviations (P,) at flank points, their slopes by the flank's parameters (P, k), and places (P, 2) in the
-        grid: 0 to 1 each way inside it.
+        """Displacements (P, 3) at flank points, body frame, mm, and places (P, 2): 0 to 1 each way in the grid."""
+        share, y, reached = self._place(found)
+        weights = self.across.weights(share[1])[0], self.along.weights(y)[0]
+        place = np.stack([share[0], (reached - self.along.places[0]) / np.ptp(self.along.places)], axis=1)
+        value, normal = self._interpolated(*weights)
+        return value * normal, place
+
+    def derivatives(self, found, second):
+        """First (P, 3, k) and second (P, 3, k, k) derivatives of the displacement by the flank's parameters, from the
+        second ones (P, 3, k, k) of the flank's points.
         """
-        reached, by_q = lengthwise(self.flank, found)
-        room = np.diff(self.along.places)
+        _, y_slopes = lengthwise(self.flank, found)
+        y_bent = lengthwise_bending(self.flank, found, second)
+        share, y, _ = self._place(found)
+        along = self.along.weights(y)
+        low, low_1, low_2 = (w @ self.ends[0] for w in along)
+        width, width_1, width_2 = (w @ (self.ends[1] - self.ends[0]) for w in along)
+        # the share s of the profile parameter q, from s·width = q − low
+        by_q, by_y = 1.0 / width, -(low_1 + share[0] * width_1) / width
+        by_q_y, by_y_y = -width_1 / width**2, -(low_2 + 2.0 * by_y * width_1 + share[0] * width_2) / width
+        across = self.across.weights(share[1])
+        (v, n), (v_s, n_s), (v_y, n_y), (v_ss, n_ss), (v_sy, n_sy), (v_yy, n_yy) = (
+            self._interpolated(across[i], along[j]) for i, j in ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+        )
+        d_s, d_y, d_ss = v_s * n + v * n_s, v_y * n + v * n_y, v_ss * n + 2.0 * v_s * n_s + v * n_ss
+        d_sy, d_yy = v_sy * n + v_s * n_y + v_y * n_s + v * n_sy, v_yy * n + 2.0 * v_y * n_y + v * n_yy
+        q_slopes = np.zeros_like(y_slopes)
+        q_slopes[:, 0] = 1.0
+        y_y, q_y = _outer(y_slopes, y_slopes), _outer(q_slopes, y_slopes)
+        s_slopes = by_q[:, None] * q_slopes + by_y[:, None] * y_slopes
+        s_bent = by_q_y[:, None, None] * (q_y + q_y.transpose(0, 2, 1)) + by_y_y[:, None, None] * y_y
+        s_bent += by_y[:, None, None] * y_bent
+        s_y = _outer(s_slopes, y_slopes)
+        first = _each(d_s, s_slopes) + _each(d_y, y_slopes)
+        bent = _each(d_ss, _outer(s_slopes, s_slopes)) + _each(d_sy, s_y + s_y.transpose(0, 2, 1))
+        return first, bent + _each(d_yy, y_y) + _each(d_s, s_bent) + _each(d_y, y_bent)
+
+    def _place(self, found):
+        """The share of the profile (P,) and that within reach of the spline; the coordinate along the tooth (P,)
+        within its reach, and as it is.
+        """
+        reached, _ = lengthwise(self.flank, found)
+        room, step = np.diff(self.along.places), np.diff(self.across.places)
         y = np.clip(reached, self.along.places[0] - room[0], self.along.places[-1] + room[-1])
-        along, along_slope = self.along.weights(y)
+        along = self.along.weights(y)[0]
         low, high = along @ self.ends[0], along @ self.ends[1]
-        low_slope, high_slope = along_slope @ self.ends[0], along_slope @ self.ends[1]
         share = (found.parameters[:, 0] - low) / (high - low)
-        step = np.diff(self.across.places)
-        across, across_slope = self.across.weights(np.clip(share, -step[0], 1.0 + step[-1]))
+        return (share, np.clip(share, -step[0], 1.0 + step[-1])), y, reached
+
+    def _interpolated(self, across, along):
+        """Deviations (P, 1) and normals (P, 3) with these weights of the nodes, or derivatives of both."""
         value = np.einsum("pi,ij,pj->p", across, self.values, along)
-        by_share = np.einsum("pi,ij,pj->p", across_slope, self.values, along)
-        by_along = np.einsum("pi,ij,pj->p", across, self.values, along_slope)
-        by_along -= by_share * (low_slope + share * (high_slope - low_slope)) / (high - low)
-        slopes = by_along[:, None] * by_q
-        slopes[:, 0] += by_share / (high - low)
-        place = np.stack([share, (reached - self.along.places[0]) / np.ptp(self.along.places)], axis=1)
-        return value, slopes, place
+        return value[:, None], np.einsum("pi,ijx,pj->px", across, self.normals, along)
 
     def inside(self, place):
         """Which places (P, 2) lie in the grid."""
@@ -154,22 +194,63 @@ class Surface:
         found = self.flank(q)
         if self.field is None:
             return found.points, found.normals, found.conditions[:, :, 0], smallest_margin(found) > -SOLVED
-        value, slopes, place = self.field.at(found)
-        curved = self.flank.curvature(q)
-        matrix = np.concatenate(
-            [np.einsum("pax,pkx->pak", curved.basis, found.tangents), found.conditions[:, :, 1:]], axis=1
+        shift, place = self.field.at(found)
+        first, _ = self.field.derivatives(found, self.flank.second_derivatives(q)[0])
+        raw = _normal(found.tangents.transpose(0, 2, 1) + first, found.conditions[:, :, 1:])
+        sign = np.sign(np.einsum("px,px->p", raw, found.normals)) / np.linalg.norm(raw, axis=1)
+        return found.points + shift, sign[:, None] * raw, found.conditions[:, :, 0], self.field.inside(place)
+
+    def slopes(self, q):
+        """Derivatives by the parameters of points (P, 3, k), unit normals (P, 3, k) and conditions (P, c, k)."""
+        found, (second, conditions) = self.flank(q), self.flank.second_derivatives(q)
+        tangents = found.tangents.transpose(0, 2, 1)
+        if self.field is not None:
+            first, bent = self.field.derivatives(found, second)
+            tangents, second = tangents + first, second + bent
+        left = found.conditions[:, :, 1:]
+        raw = _normal(tangents, left)
+        changes = (
+            _normal_change(tangents, second[:, :, :, j], left, conditions[:, :, :, j]) for j in range(q.shape[1])
         )
-        right = np.zeros((len(value), matrix.shape[1], 2))
-        right[:, 0, 0] = right[:, 1, 1] = 1.0
+        turned = np.stack([*changes], axis=2)
         with np.errstate(invalid="ignore"):
-            steps = _solve(matrix, right)
-        gradient = np.einsum("pk,pka->pa", slopes, steps)
-        shrunk = np.eye(2) - value[:, None, None] * curved.second_form
-        turned = _solve(shrunk, gradient[:, :, None])[:, :, 0]
-        normals = found.normals - np.einsum("pa,pax->px", turned, curved.basis)
-        normals = normals / np.linalg.norm(normals, axis=1)[:, None]
-        points = found.points + value[:, None] * found.normals
-        return points, normals, found.conditions[:, :, 0], self.field.inside(place)
+            raw_size = np.linalg.norm(raw, axis=1)
+            normal = raw / raw_size[:, None]
+            turned -= normal[:, :, None] * np.einsum("px,pxj->pj", normal, turned)[:, None]
+            sign = np.sign(np.einsum("px,px->p", raw, found.normals)) / raw_size
+        return tangents, sign[:, None, None] * turned, left
+
+
+def _normal(tangents, slopes):
+    """Σ f_a ∂r/∂b × ∂r/∂c (P, 3) over cyclic (a, b, c) for tangents (P, 3, 3) and slopes f (P, 1, 3) of a condition;
+    without one ∂r/∂a × ∂r/∂b.
+    """
+    if not slopes.shape[1]:
+        return np.cross(tangents[:, :, 0], tangents[:, :, 1])
+    return sum(slopes[:, 0, a, None] * np.cross(tangents[:, :, b], tangents[:, :, c]) for a, b, c in CYCLIC)
+
+
+def _normal_change(tangents, tangent_changes, slopes, slope_changes):
+    """Change (P, 3) of :func:`_normal` with those of tangents and slopes."""
+    if not slopes.shape[1]:
+        (a, b), (da, db) = (np.moveaxis(t, 2, 0) for t in (tangents, tangent_changes))
+        return np.cross(da, b) + np.cross(a, db)
+    total = _normal(tangents, slope_changes)
+    for a, b, c in CYCLIC:
+        turned = np.cross(tangent_changes[:, :, b], tangents[:, :, c]) + np.cross(
+            tangents[:, :, b], tangent_changes[:, :, c]
+        )
+        total = total + slopes[:, 0, a, None] * turned
+    return total
+
+
+def _outer(a, b):
+    return a[:, :, None] * b[:, None, :]
+
+
+def _each(vectors, weights):
+    """Vectors (P, 3) times numbers (P, …) of each point: (P, 3, …)."""
+    return np.einsum("px,p...->px...", vectors, weights)
 
 
 def _solve(matrix, right):
@@ -273,9 +354,7 @@ class AsMeasured:
             count = len(surface.flank.parameters)
             q = solution[at : at + count]
             rotation = stand.matrices[body["name"]][0, :3, :3]
-            steps = DIFFERENCE * np.maximum(1.0, np.abs(q)) * 10.0
-            sides = [surface(q + sign * np.diag(steps)) for sign in (1.0, -1.0)]
-            slopes = [(a - b).T / (2.0 * steps) for a, b in zip(sides[0][:3], sides[1][:3], strict=True)]
+            slopes = [s[0] for s in surface.slopes(q[None])]
             points, normals = rotation @ slopes[0], rotation @ slopes[1]
             if basis is None:
                 first = points[:, 0] / np.linalg.norm(points[:, 0])
@@ -375,15 +454,7 @@ class AsMeasured:
         """Tangencies from start values (N, k1 + k2 + 1) by Newton's method."""
         x = start.copy()
         for _ in range(STEPS):
-            residual = self._residual(angles, x)[0]
-            matrix = np.empty((*residual.shape, x.shape[1]))
-            for c in range(x.shape[1]):
-                step = DIFFERENCE * np.maximum(1.0, np.abs(x[:, c]))
-                ahead, back = x.copy(), x.copy()
-                ahead[:, c] += step
-                back[:, c] -= step
-                sides = [self._residual(angles, y)[0] for y in (ahead, back)]
-                matrix[:, :, c] = (sides[0] - sides[1]) / (2.0 * step)[:, None]
+            residual, matrix = self._residual(angles, x)[0], self._jacobian(angles, x)
             step = _solve(matrix, residual[:, :, None])[:, :, 0]
             x = x - step * np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1), 1e-300))[:, None]
             if not (np.abs(step) > DONE * np.maximum(1.0, np.abs(x))).any():
@@ -406,10 +477,53 @@ class AsMeasured:
             conditions.append(left)
             inside &= here
             at += count
-        first = np.cross(normals[0], np.eye(3)[np.argmin(np.abs(np.nan_to_num(normals[0])), axis=1)])
-        first /= np.linalg.norm(first, axis=1)[:, None]
-        apart = [np.einsum("ni,ni->n", normals[1], t)[:, None] for t in (first, np.cross(normals[0], first))]
+        across = _tangents(normals[0])[0]
+        apart = [np.einsum("ni,ni->n", normals[1], t)[:, None] for t in across]
         return np.concatenate([points[0] - points[1], *apart, *conditions], axis=1), points[0], normals[0], inside
+
+    def _jacobian(self, angles, x):
+        """Derivatives (N, k1 + k2 + 1, k1 + k2 + 1) of the residual by the parameters and the transmission error."""
+        stand = placed(self.drive, angles, self.drive.ratio * angles + x[:, -1])
+        direction, origin = stand.axes["wheel"]
+        n, size = x.shape
+        moved, turned, normals = np.zeros((2, n, 3, size)), np.zeros((2, n, 3, size)), []
+        matrix, at, row = np.zeros((n, size, size)), 0, 5
+        for k, (body, surface) in enumerate(zip(self._bodies, self._surfaces(), strict=True)):
+            columns = slice(at, at + len(surface.flank.parameters))
+            q, motion = x[:, columns], stand.matrices[body["name"]]
+            rotation = motion[:, :3, :3]
+            point, normal = (np.einsum("nij,nj->ni", rotation, v) for v in surface(q)[:2])
+            tangents, turnings, left = surface.slopes(q)
+            moved[k][:, :, columns], turned[k][:, :, columns] = rotation @ tangents, rotation @ turnings
+            if body["name"] == "wheel":
+                moved[k][:, :, -1] = np.cross(direction, point + motion[:, :3, 3] - origin)
+                turned[k][:, :, -1] = np.cross(direction, normal)
+            matrix[:, row : row + left.shape[1], columns] = left
+            normals.append(normal)
+            at, row = columns.stop, row + left.shape[1]
+        matrix[:, :3] = moved[0] - moved[1]
+        (first, other), (first_1, other_1) = _tangents(normals[0], turned[0])
+        for k, (t, t_1) in enumerate(((first, first_1), (other, other_1))):
+            matrix[:, 3 + k] = np.einsum("ni,nij->nj", t, turned[1]) + np.einsum("ni,nij->nj", normals[1], t_1)
+        return matrix
+
+
+def _tangents(normals, changes=None):
+    """Two unit vectors (N, 3) at right angles to unit normals (N, 3) and to each other, and their changes (N, 3, k)
+    with those of the normals.
+    """
+    axis = np.eye(3)[np.argmin(np.abs(np.nan_to_num(normals)), axis=1)]
+    first = np.cross(normals, axis)
+    length = np.linalg.norm(first, axis=1)[:, None]
+    first = first / length
+    other = np.cross(normals, first)
+    if changes is None:
+        return (first, other), None
+    turned = np.cross(changes, axis[:, :, None], axis=1) / length[:, None]
+    turned = turned - first[:, :, None] * np.einsum("ni,nij->nj", first, turned)[:, None]
+    return (first, other), (
+        turned, np.cross(changes, first[:, :, None], axis=1) + np.cross(normals[:, :, None], turned, axis=1)
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

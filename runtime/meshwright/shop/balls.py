@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.contact.placement import about_z
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import OPEN, solved
-from meshwright.shop.nominal import flank_words, of_flank, rotation
+from meshwright.shop.nominal import flank_words, of_flank
 
 NEWTON_STEPS = 60
 
@@ -87,7 +88,7 @@ class _Side:
         return cls(region, np.eye(3), triangles.parameters, triangles.points, triangles.normals)
 
     def turned(self, angle):
-        turn = rotation(angle)
+        turn = about_z(angle)[:3, :3]
         return _Side(self.region, turn, self.q, self.points @ turn.T, self.normals @ turn.T)
 
     def offset(self, q, distance):

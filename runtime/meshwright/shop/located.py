@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.contact.placement import about_z
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import NEWTON_STEPS, solved
-from meshwright.shop.nominal import of_flank, rotation
+from meshwright.shop.nominal import of_flank
 
 #: Nominal points of a file lie on the flanks of its design this well, mm.
 ON_FLANK = 1e-3
@@ -27,7 +28,7 @@ class Rays:
 def rays(drive, member, points, tooth):
     """:class:`Rays` of points and normals (N, 3) of teeth ``tooth`` (N,), turned back to the first, unmirrored."""
     places, directions = points
-    turns = np.stack([rotation(-2.0 * np.pi * (k - 1) / drive.teeth(member)) for k in tooth])
+    turns = np.stack([about_z(-2.0 * np.pi * (k - 1) / drive.teeth(member))[:3, :3] for k in tooth])
     flip = drive.design.mirror.flip
     return Rays(*(flip * np.einsum("nij,nj->ni", turns, vectors) for vectors in (places, directions)))
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.contact.placement import about_z
 from meshwright.shop.tables import Points
 
 
@@ -25,7 +26,7 @@ def nominal(drive, member, lines, margin, teeth=(1,), flanks=None):
         index = np.argwhere(np.isfinite(found.points).all(axis=1).reshape(lines))
         rows = index[:, 0] * lines[1] + index[:, 1]
         for tooth in teeth:
-            turn = rotation(2.0 * math.pi * (tooth - 1) / count)
+            turn = about_z(2.0 * math.pi * (tooth - 1) / count)[:3, :3]
             parts.append((tooth, word, index, found.points[rows] @ turn.T, found.normals[rows] @ turn.T))
     sizes = [len(index) for _, _, index, _, _ in parts]
     index = np.concatenate([part[2] for part in parts])
@@ -56,7 +57,3 @@ def of_flank(drive, word):
     return drive.with_(flank=word)
 
 
-def rotation(angle):
-    """Rotation (3, 3) about +z."""
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

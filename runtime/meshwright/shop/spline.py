@@ -30,7 +30,7 @@ class Knots:
         return cls(places, np.linalg.solve(matrix, right))
 
     def weights(self, x):
-        """Weights (P, n) of the values at the knots for the value at x (P,), and for its slope."""
+        """Weights (P, n) of the values at the knots for the value at x (P,), its slope and its second derivative."""
         p, x = self.places, np.asarray(x, dtype=float)
         k = np.clip(np.searchsorted(p, x, side="right") - 1, 0, len(p) - 2)
         rows, h = np.arange(len(x)), np.diff(p)[k]
@@ -42,4 +42,4 @@ class Knots:
         first, second = self.bending[k], self.bending[k + 1]
         value += ((a**3 - a) * h**2 / 6.0)[:, None] * first + ((b**3 - b) * h**2 / 6.0)[:, None] * second
         slope += ((1.0 - 3.0 * a**2) * h / 6.0)[:, None] * first + ((3.0 * b**2 - 1.0) * h / 6.0)[:, None] * second
-        return value, slope
+        return value, slope, a[:, None] * first + b[:, None] * second

@@ -1,9 +1,13 @@
-"""Limits that a surface has by itself: where it is singular (an edge of regression, the edge of an undercut)."""
+"""Where a surface is singular by itself: an edge of regression, the edge of an undercut."""
 
+from collections.abc import Sequence
 from itertools import combinations
 
+from derive.language.surface import Surface
+from derive.program.tape import Lowering, Tape
 
-def singular_function(lower, surface):
+
+def singular_function(lower: Lowering, surface: Surface) -> int:
     """Node of the function that vanishes where a surface is singular, body frame.
 
     A surface r(q) of k + 2 parameters under k conditions is singular where its two directions of motion, those that
@@ -22,24 +26,24 @@ def singular_function(lower, surface):
         return tape.triple(normal, *tangents)
     total = tape.constant(0)
     for others in combinations(range(len(parameters)), len(slopes)):
-        minor = _determinant(tape, [[row[k] for k in others] for row in slopes])
+        minor = determinant(tape, [[row[k] for k in others] for row in slopes])
         a, b = (k for k in range(len(parameters)) if k not in others)
         pair = (a, b) if _is_even((*others, a, b)) else (b, a)
         total = tape.add(total, tape.mul(minor, tape.triple(normal, *(tangents[k] for k in pair))))
     return total
 
 
-def _determinant(tape, rows):
+def determinant(tape: Tape, rows: Sequence[list[int]]) -> int:
     """Node of a determinant, by the minors of its first row."""
     if len(rows) == 1:
         return rows[0][0]
     total = tape.constant(0)
     for k, entry in enumerate(rows[0]):
-        term = tape.mul(entry, _determinant(tape, [row[:k] + row[k + 1 :] for row in rows[1:]]))
+        term = tape.mul(entry, determinant(tape, [row[:k] + row[k + 1 :] for row in rows[1:]]))
         total = tape.sub(total, term) if k % 2 else tape.add(total, term)
     return total
 
 
-def _is_even(order):
+def _is_even(order: Sequence[int]) -> bool:
     """Whether a permutation of 0, 1, … is even."""
     return sum(order[i] > order[j] for i, j in combinations(range(len(order)), 2)) % 2 == 0

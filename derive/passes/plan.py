@@ -1,0 +1,188 @@
+"""The plan of a drive: what the passes fill in, one after the other, and the printers read.
+
+Values are nodes of one tape; each table says which of them a generated function returns, by name, unit and frame.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import mpmath
+import sympy as sp
+
+from derive.language.drive import Drive
+from derive.language.symbols import Quantity
+from derive.passes.completion import ParameterTape, SystemTape
+from derive.passes.linearise import Linear
+from derive.program.tape import Lowering, Tape
+
+#: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
+Tests: TypeAlias = Mapping[tuple[str, int], Mapping[tuple[int, ...], list[int]]]
+
+
+@dataclass(frozen=True)
+class Output:
+    """A named result: ``width`` consecutive numbers with one unit and frame."""
+
+    name: str
+    nodes: tuple[int, ...]
+    unit: str = ""
+    frame: str = ""
+
+
+@dataclass(frozen=True)
+class Flank:
+    """A flank, or another region of a member, and its curvature: functions of its own parameters, body frame."""
+
+    body: str
+    parameters: tuple[Quantity, ...]
+    outputs: tuple[Output, ...]
+    curvature: tuple[Output, ...]
+    region: str = "flank"
+
+    @property
+    def limits(self) -> list[int]:
+        """Nodes of the regular function and of the margins: what must be positive on the surface."""
+        return [o.nodes[0] for o in self.outputs if o.name == "regular" or o.name.startswith("margin_")]
+
+    @property
+    def conditions(self) -> list[int]:
+        """Nodes of the surface's own conditions."""
+        return [o.nodes[0] for o in self.outputs if o.name.startswith("condition_") and not o.name.endswith("_slopes")]
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """A surface beyond its tangents, nodes: ``slopes`` of each limit by each parameter; ``second`` derivatives of each
+    coordinate of the point, of each limit and of each condition, by the pairs (1, 1), (1, 2), … (2, 2), … of
+    parameters; none of a region, where nothing asks for them.
+    """
+
+    of: Flank
+    slopes: tuple[int, ...]
+    second: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class FunctionOutputs:
+    """A function of its own arguments; ``rests_on`` are statements of the audit record."""
+
+    name: str
+    meaning: str
+    parameters: tuple[Quantity, ...]
+    outputs: tuple[Output, ...]
+    rests_on: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BodyOutputs:
+    """Where the observation of one body is found: see :func:`_observe_body`."""
+
+    parameters: int
+    conditions: int
+    at: int
+    singular: int
+    margins: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Along:
+    """First and second derivatives of the residual along a direction of (unknowns, instant), nodes.
+
+    ``direction`` are the input nodes of that direction.
+    """
+
+    direction: tuple[int, ...]
+    first: tuple[int, ...]
+    second: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class EdgeSystem:
+    """A system by the numbers of its ``equations``, as many as there are unknowns.
+
+    ``margins``: of pinion and wheel the number of the margin that is zero, None where the flank itself touches.
+    """
+
+    name: str
+    margins: tuple[int | None, int | None]
+    equations: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Edges:
+    """Equations (nodes) and their Jacobian: three components of the distance, mm; the surfaces' own conditions; of each
+    edge its margin, then of each edge its tangency to the mating flank. No equations where no margin is an edge.
+    """
+
+    equations: list[int]
+    jacobian: list[list[int]]
+    systems: tuple[EdgeSystem, ...]
+
+
+@dataclass(frozen=True)
+class DesignGuard:
+    """A node that must be positive, the reason, and the design's keys that meet in it; ``of`` is the node guarded."""
+
+    node: int
+    message: str
+    keys: tuple[str, ...]
+    of: int | None = None
+
+
+@dataclass
+class Schedule:
+    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
+
+    ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
+    contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
+    """
+
+    drive: Drive
+    tape: Tape
+    lower: Lowering
+    sample: dict[sp.Symbol, mpmath.mpf] = field(init=False)
+    residual: list[int] = field(init=False)
+    linear: Linear = field(init=False)
+    jacobian: list[list[int]] = field(init=False)
+    scales: list[int] = field(init=False)
+    step: list[int] = field(init=False)
+    change: list[int] = field(init=False)
+    weight: list[int] = field(init=False)
+    start_residual: list[int] = field(init=False)
+    start_jacobian: list[list[int]] = field(init=False)
+    start_guess: list[int] = field(init=False)
+    start_scales: list[int] = field(init=False)
+    start_solution: list[int] = field(init=False)
+    guards: list[DesignGuard] = field(default_factory=list[DesignGuard])
+    tests: Tests = field(default_factory=dict[tuple[str, int], dict[tuple[int, ...], list[int]]])
+    observed: list[Output] = field(default_factory=list[Output])
+    bodies: dict[str, BodyOutputs] = field(default_factory=dict[str, BodyOutputs])
+    flanks: list[Flank] = field(default_factory=list[Flank])
+    regions: list[Flank] = field(default_factory=list[Flank])
+    rules: list[ParameterTape] = field(init=False)
+    systems: list[SystemTape] = field(init=False)
+    sizes: ParameterTape = field(init=False)
+    functions: list[FunctionOutputs] = field(init=False)
+    along: Along = field(init=False)
+    edges: Edges = field(init=False)
+    expansions: list[Expansion] = field(init=False)
+    state: dict[int, int] = field(default_factory=dict[int, int])
+    design_slots: int = 0
+
+    @property
+    def unknowns(self) -> list[Quantity]:
+        return [u.symbol for u in self.drive.unknowns]
+
+    @property
+    def placement(self) -> FunctionOutputs:
+        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
+        return self.functions[0]
+
+    @property
+    def newton_step(self) -> list[int]:
+        """Results of the fused Newton step: the unknowns after it, their changes, and one over their natural sizes.
+
+        The size of the step is the sum of the changes' magnitudes by these weights.
+        """
+        return [*self.step, *self.change, *self.weight]
