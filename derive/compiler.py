@@ -18,7 +18,7 @@ import json
 from pathlib import Path
 
 from derive.audit.provenance import provenance
-from derive.emit import bounded, c99, casadi, certified, lanes, metadata, sensitivity
+from derive.emit import bounded, c99, casadi, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals
 from derive.passes import guards
@@ -89,6 +89,7 @@ def emit(plan, origin):
     tangents = sensitivity.tangents(plan)
     files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
     files[f"c/{drive.name}_certified.h"] = certified.header(plan, metadata.GENERATOR)
+    files[f"c/{drive.name}_certify.h"] = certify.header(plan, metadata_of, RUNTIME)
     evaluated = [*guards.functions(plan), guards.along(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
     files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"

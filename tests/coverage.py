@@ -25,10 +25,11 @@ LINES, BRANCHES, PYTHON = 0.95, 0.85, 0.92
 
 SEED, INPUTS = 0, 1000
 
-#: What runs under coverage.py: of the default tests those that use the runtime.
+#: What runs under coverage.py: of the default tests those that use the runtime and neither derive nor compile.
 TESTS = (
     "-m", "not slow and not validate", "--numprocesses", "auto", "--dist", "loadfile", "--ignore=tests/prove",
-    "--ignore=tests/derive", "--ignore=tests/audit", "--ignore=tests/benchmarks",
+    "--ignore=tests/derive", "--ignore=tests/audit", "--ignore=tests/benchmarks", "--ignore=tests/embedding",
+    "--ignore=tests/outside",
 )  # fmt: skip
 DESIGNS = ("zk-zn-45", "zk-zn-90", "spherical-table-2-3", "helical-crowned", "face-worm-conical-concave")
 

@@ -51,8 +51,16 @@ STEPS = (
     (
         "One solution",
         "z = C R(x̃), M = |I − C J(X)| with any matrix C, X = x̃ + [−d, d]: |z| + M d < d in every component. R "
-        "in double-double, J over the box by midpoint and radius. A comparison with what is not a number fails.",
-        "Krawczyk 1969; Neumaier 1990, 5.1",
+        "in double-double, or where many points are asked for and in the header that stands alone in doubles, J over "
+        "the box by midpoint and radius. A comparison with what is not a number fails.",
+        "Krawczyk 1969; Neumaier 1990, 5.1; Higham 2002, 3.1",
+    ),
+    (
+        "One fold or crossing",
+        "The same test on the extended system of unknowns, angle and a left null vector ψ of the Jacobian, regular "
+        "where two contacts meet. Of a crossing with one more unknown μ, of the equations changed by μ ψ: branches "
+        "cross once the equations are changed by so little, a number between two bounds.",
+        "Moore 1980; Moore and Spence 1980",
     ),
     (
         "One branch",
@@ -76,8 +84,8 @@ TRUSTED = (
     ),
     (
         "The tables are the program",
-        "One printer writes them from the tape; enclosures are compared with sixty-digit solutions of "
-        "independently written equations for worm and spherical drives.",
+        "One printer writes them from the tape, another the same operations as code; enclosures are compared with "
+        "sixty-digit solutions of independently written equations for drives of every family.",
     ),
     (
         "Compiler and processor keep IEEE arithmetic, to nearest, with subnormal numbers, without wider doubles",
@@ -94,7 +102,7 @@ TRUSTED = (
 OPEN = (
     "That nothing else of the two flanks touches first: a certificate is of the contact, not of the rest of the "
     "flanks.",
-    "Contact along a line, and points at or next to a fold or crossing: they are unknown.",
+    "Contact along a line, and contacts next to a fold or crossing: they are unknown.",
     "Designs whose placing systems have no regular solution within the reach of the test: the design is then the "
     "reason.",
 )

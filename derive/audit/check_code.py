@@ -261,9 +261,12 @@ def read_companion(path: Path, ending: str) -> str:
     return companion.read_text(encoding="utf-8") if companion.is_file() else ""
 
 
+COMMENT = re.compile(r" */\*.*?\*/", re.DOTALL)
+
+
 def body_of(text: str, name: str) -> str:
     """What stands between the braces of a function, by its name."""
-    return re.search(rf"\b{name}\)?\([^)]*\)\n{{\n(.*?)\n}}", text, re.DOTALL)[1]
+    return COMMENT.sub("", re.search(rf"\b{name}\)?\([^)]*\)\n{{\n(.*?)\n}}", text, re.DOTALL)[1])
 
 
 def read_lanes(text: str, name: str) -> Function:
@@ -304,7 +307,7 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
 def without_blocks(body: str) -> Iterator[str]:
     """The lines outside inner braces, which hold the guards of the design."""
     depth = 0
-    for line in map(str.strip, body.splitlines()):
+    for line in map(str.strip, COMMENT.sub("", body).splitlines()):
         depth += line.count("{")
         if not depth:
             yield line

@@ -55,15 +55,26 @@ def scope(
     jets: Mapping[str, tuple[str, ...]] | None = None,
     signs: Sequence[str] = (),
     extends: Scope | None = None,
+    described: Mapping[str, Tree] | None = None,
 ) -> Scope:
-    """Read definitions, one `name = expression` a line; a line that starts with a space continues the one before."""
+    """Read definitions, one `name = expression` a line; a line that starts with a space continues the one before.
+
+    `described` are definitions read from a drive's description; those of the text may use them.
+    """
     merged = dict(extends.jets if extends else {}) | dict(jets or {})
-    definitions = dict(extends.definitions if extends else {})
+    definitions = dict(extends.definitions if extends else {}) | dict(described or {})
     for line in text.strip().replace("\n ", " ").splitlines():
         if line.strip():
             name, expression = line.split(" = ", 1)
             definitions[name.strip()] = parse(expression, merged)
     return Scope(key, definitions, merged, frozenset(signs) | (extends.signs if extends else frozenset()))
+
+
+def with_sign(context: Scope, key: str, name: str, value: int, described: Mapping[str, Tree]) -> Scope:
+    """The same scope for one of the two values of a sign, beside definitions read from a description."""
+    chosen: Tree = value if value > 0 else ("-", -value)
+    definitions = {name: chosen, **context.definitions, **described}
+    return Scope(key, definitions, context.jets, context.signs - {name})
 
 
 Texts = str | Sequence[str]

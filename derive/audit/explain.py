@@ -109,7 +109,8 @@ def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[s
         f"source     {source['document']}, {source['locator']}",
     ]
     if source["verbatim"]:
-        lines.append(f"printed    {source['verbatim']}")
+        told = "transliterated" if source["offset"] is None else f"character {source['offset']}"
+        lines.append(f"printed    {source['verbatim']}   ({told})")
     if source["ocr_doubt"]:
         lines.append(f"extraction {source['ocr_doubt']}")
     for role in ("readings", "corrected", "contradiction"):

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from derive.audit.check import root_of, sha256_of, status_of
 from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, Scope, as_list
+from derive.audit.coverage import offset
 from derive.prove import Decision, Outcome, Statement, certificate, decide
 from derive.prove.edits import correction
 from derive.prove.tree import parse_formula, symbols
@@ -132,6 +133,7 @@ def _source(document: Document, claim: Claim | FigureClaim) -> dict:
         "document_sha256": document.sha256,
         "locator": claim.where,
         "verbatim": claim.verbatim,
+        "offset": offset(f"{document.key}/{claim.key}", claim.verbatim),
         "ocr_doubt": getattr(claim, "damage", ""),
         "reading": claim.read() if isinstance(claim, Claim) and not claim.contradiction else {},
         "figures": [[figure.formula, figure.printed] for figure in getattr(claim, "figures", ())],

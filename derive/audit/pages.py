@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -12,8 +12,11 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from derive.audit import coverage
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
+from derive.audit.check import sha256_of
 from derive.audit.claims import Document, Figure
+from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
 from derive.audit.mutations import measured
@@ -25,7 +28,7 @@ from derive.prove.certificate import decimal
 from derive.prove.points import arctangent
 from derive.prove.polynomial import Terms
 from derive.prove.prover import Instance
-from derive.prove.tree import parse_formula
+from derive.prove.tree import Tree, parse_formula
 
 STATUS_TEXT = {
     "proved": "proved",
@@ -55,9 +58,11 @@ class Part:
     equation: Markup
     latex: str
     outcome: str
-    definitions: tuple[Markup, ...]
+    definitions: tuple[tuple[str, Markup], ...]
+    """Anchor and letter of each definition in use; they stand once on the page."""
     latex_definitions: tuple[str, ...]
     evidence: str
+    certificate: str
     conditions: tuple[str, ...]
     instance: dict | None
     identifier: str
@@ -79,6 +84,8 @@ class Entry:
     damage: str
     missing: str
     change: str
+    offset: int | None
+    """Where the verbatim text stands in the source; None for a transliteration."""
 
 
 def pages(
@@ -86,10 +93,12 @@ def pages(
     chapters: list[Chapter],
     functions: Mapping[str, Mapping[str, list[str]]],
     conditions: Mapping[str, list[Row]],
+    generated: Mapping[str, str],
 ) -> dict[str, str]:
     """File name -> text of every page.
 
-    `functions` maps generated headers to their functions and equation ids, `conditions` families to side conditions.
+    `functions` maps generated headers to their functions and equation ids, `conditions` families to side conditions,
+    `generated` the paths of all generated files to their texts.
     """
     shown = [
         (chapter.document, [_entry(chapter.document, verdict) for verdict in ledger.verdicts[chapter.document.key]])
@@ -107,9 +116,25 @@ def pages(
         for entry in entries
         if entry.status in ("proved_with_correction", "false", "ambiguous")
     ]
+    claims = {chapter.document.key: chapter.claims for chapter in chapters if chapter.document.sha256}
+    covered = coverage.rows(claims)
+    drives = drive_pages(generated, functions)
+    used = _used(drives)
+    names = {document.key: document.name for document, _ in sources}
     counts = {document.key: Counter(entry.status for entry in entries) for document, entries in shown}
     texts = {
-        "index.html": _render("index.html.jinja", **common, shown=shown, counts=counts, corrections=corrections),
+        "index.html": _render(
+            "index.html.jinja",
+            **common,
+            shown=shown,
+            counts=counts,
+            corrections=corrections,
+            covered=[(names[line[0]], *line) for line in coverage.summary(covered)],
+            unjudged=[(row, names[row.document]) for row in covered if not row.entries],
+            drives=[(file_name(page.name), page.name, page.title, page.family) for page in drives],
+            literal=sum(entry.offset is not None for _, entries in sources for entry in entries),
+            quoted=sum(bool(entry.verdict.claim.verbatim) for _, entries in sources for entry in entries),
+        ),
         "validation.html": _render(
             "validation.html.jinja",
             **common,
@@ -132,6 +157,8 @@ def pages(
         ),
         "audit.tex": _render("audit.tex.jinja", **common, shown=shown, tex=_tex),
     }
+    for page in drives:
+        texts[file_name(page.name)] = _render("drive.html.jinja", **common, page=page)
     for document, entries in shown:
         texts[f"{document.key}.html"] = _render(
             "chapter.html.jinja",
@@ -140,8 +167,23 @@ def pages(
             entries=entries,
             symbols=_symbols(document),
             counts=counts[document.key],
+            definitions=_definitions(document, ledger.verdicts[document.key]),
+            used=used,
         )
     return texts
+
+
+def _used(drives: list[Page]) -> dict[str, list[tuple[str, list[str]]]]:
+    """Statement -> the drives whose functions rest on it, with these functions."""
+    found: dict[str, list[tuple[str, list[str]]]] = {}
+    for page in drives:
+        own: dict[str, list[str]] = {}
+        for function in page.functions:
+            for key in function.rests_on:
+                own.setdefault(key, []).append(function.name)
+        for key, names in own.items():
+            found.setdefault(key, []).append((page.name, names))
+    return found
 
 
 def _render(template: str, **values) -> str:
@@ -172,12 +214,32 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
         conditions + ((f"step: divided by {mathml.plain(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
         getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
         re.sub(r"\w+", lambda word: names.get(word[0], word[0]), verdict.change),
+        coverage.offset(verdict.id, verdict.claim.verbatim),
     )  # fmt: skip
+
+
+def anchor(name: str, tree: Tree) -> str:
+    """Where a definition stands on its page: the same name may be defined otherwise elsewhere on it."""
+    return f"def-{name}-{sha256_of({'tree': tree})[:8]}"
+
+
+def _definitions(document: Document, verdicts: Sequence[Verdict]) -> list[tuple[str, Markup]]:
+    """Anchor and formula of every definition that a chapter's statements use, in the order of first use."""
+    mathml = MathML({name: shown for name, (shown, _, _) in document.symbols.items()})
+    found: dict[str, Markup] = {}
+    for verdict in verdicts:
+        for reading in (*verdict.readings, verdict.corrected, verdict.contradiction):
+            for part in reading.parts if reading else ():
+                for name, tree in () if isinstance(part.of, Figure) else part.statement.used.items():
+                    key = anchor(name, tree)
+                    if key not in found:
+                        found[key] = Markup(mathml.equation(name, tree))
+    return [*found.items()]
 
 
 def _evidence_of(verdict: Verdict) -> str:
     reading = verdict.corrected or verdict.contradiction or (verdict.readings[-1] if verdict.readings else None)
-    return reading.parts[0].certificate[:12] if reading else "–"
+    return reading.parts[0].certificate if reading else ""
 
 
 def _parts(mathml: MathML, reading: Reading, other: Reading | None = None) -> tuple[Part, ...]:
@@ -193,11 +255,12 @@ def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
     if previous is not None and not isinstance(previous.of, Figure):
         left, right = difference(left, previous.statement.lhs), difference(right, previous.statement.rhs)
     latex = LaTeX(mathml.names)
-    definitions = tuple(Markup(mathml.equation(name, tree)) for name, tree in statement.used.items())
+    definitions = tuple((anchor(name, tree), Markup(f"<math>{mathml.name(name)}</math>"))
+                        for name, tree in statement.used.items())  # fmt: skip
     return Part(
         Markup(mathml.equation(left, right)), latex.equation(left, right), str(part.outcome), definitions,
         tuple(latex.equation(name, tree) for name, tree in statement.used.items()), _evidence(mathml, part),
-        _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
+        part.certificate, _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
     )  # fmt: skip
 
 
@@ -215,7 +278,8 @@ def _figure_part(mathml: MathML, part: Judged) -> Part:
         str(part.outcome),
         (),
         (),
-        f"numeric, certificate {part.certificate[:12]}",
+        "numeric",
+        part.certificate,
         (),
         None,
         part.equation[:12],
@@ -224,7 +288,6 @@ def _figure_part(mathml: MathML, part: Judged) -> Part:
 
 def _evidence(mathml: MathML, part: Judged) -> str:
     decision = part.decision
-    name = f"certificate {part.certificate[:12]}"
     if str(part.outcome) == "proved":
         terms = sum(len(component.numerator) for component in decision.components)
         used = sorted(
@@ -235,16 +298,15 @@ def _evidence(mathml: MathML, part: Judged) -> str:
                 if cofactor
             }
         )
-        how = (
+        return (
             f"{terms} terms cancel"
             + (f" by the relations of {', '.join(map(mathml.plain, used))}" if used else " without any relation")
             if terms
             else "both sides expand to the same polynomial"
         )
-        return f"{name}: {how}"
     if str(part.outcome) == "refuted":
-        return f"{name}: the sides differ at the point below"
-    return f"{name}: neither proved nor refuted"
+        return "the sides differ at the point below"
+    return "neither proved nor refuted"
 
 
 def _denominators(mathml: MathML, part: Judged) -> tuple[str, ...]:

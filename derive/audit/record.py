@@ -37,7 +37,7 @@ def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
     """Relative path -> text of everything under audit/. `generated` are the other files, sealed as well."""
     functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
     used = {path: table for path, table in functions.items() if table}
-    texts = store.record_files(record) | pages(record, chapters(), used, by_family(generated))
+    texts = store.record_files(record) | pages(record, chapters(), used, by_family(generated), generated)
     written = {f"audit/{name}": text for name, text in texts.items()}
     return {**written, "audit/artifacts.json": store.seal(record, {**generated, **written})}
 

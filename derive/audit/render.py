@@ -294,13 +294,92 @@ class MathML(Format):
         return f'<mrow class="mark">{text}</mrow>'
 
     def equation(self, left: Tree, right: Tree) -> str:
-        """A displayed equation."""
-        return f'<math display="block"><mrow>{self.write(left)}<mo>=</mo>{self.write(right)}</mrow></math>'
+        """A displayed equation, in pieces between which its line may break."""
+        return _line([*self.pieces(left), *_led(INFIX.format("="), self.pieces(right))])
+
+    def formula(self, tree: Tree) -> str:
+        """The same of an expression alone."""
+        return _line(self.pieces(tree))
+
+    def pieces(self, tree: Tree) -> list[str]:
+        """A long sum term by term, and so a long product with a sum in it; anything else in one piece."""
+        if not isinstance(tree, tuple) or _length(tree) < LONG:
+            return [self.write(tree)]
+        match tree:
+            case ("mark", inner):
+                return [self.mark(piece) for piece in self.pieces(inner)]
+            case ("+", first, *rest):
+                found = self.pieces(first)
+                for term in rest:
+                    marked = isinstance(term, tuple) and term[0] == "mark"
+                    found += self._term(term[1] if marked else term, self.mark if marked else str)
+                return found
+            case ("-", inner) if self._without_sign(inner) is None:
+                return _led(self.operator("−"), self._factor(inner, PRODUCT))
+            case ("/", above, below) if _length(tree) >= QUOTIENT:
+                first, second = self._factor(above, UNARY), self._factor(below, POWER)
+                return [*first[:-1], first[-1] + self.operator("/"), *second]
+            case ("vec", *parts):
+                found = []
+                for part in parts:
+                    first, *more = self.pieces(part)
+                    found += [first if found else BRACKET.format("(") + first, *more]
+                    found[-1] += self.comma()
+                return [*found[:-1], found[-1].removesuffix(self.comma()) + BRACKET.format(")")]
+            case ("*", *factors):
+                found = [""]
+                for k, factor in enumerate(factors):
+                    first, *more = self._factor(factor, UNARY)
+                    found[-1] += (self.times() if k else "") + first
+                    found += more
+                return found
+        return [self.write(tree)]
+
+    def _term(self, term: Tree, around: Callable[[str], str]) -> list[str]:
+        """A term of a sum with its sign."""
+        if isinstance(term, tuple) and term[0] == "-" and self._without_sign(term[1]) is None:
+            found = _led(INFIX.format("−"), self._factor(term[1], PRODUCT))
+        elif (signed := self._without_sign(term)) is not None:
+            found = [INFIX.format("±") + signed]
+        elif isinstance(term, tuple) and term[0] == "-":
+            found = [INFIX.format("∓") + (self._without_sign(term[1]) or "")]
+        else:
+            found = _led(INFIX.format("+"), self._factor(term, PRODUCT))
+        return [around(piece) for piece in found]
+
+    def _factor(self, tree: Tree, level: int) -> list[str]:
+        """The pieces of a part, in parentheses where it binds more loosely."""
+        if self._write(tree)[1] >= level:
+            return self.pieces(tree)
+        first, *more = self.pieces(tree)
+        if not more:
+            return [self.parens(first)]
+        return [BRACKET.format("(") + first, *more[:-1], more[-1] + BRACKET.format(")")]
 
     def figure(self, formula: Tree, value: str, aside: str) -> str:
         """A displayed number with the formula it comes from and a remark."""
         body = f'{self.write(formula)}<mo>=</mo><mn>{value}</mn><mspace width="1em"/><mtext>{escape(aside)}</mtext>'
         return f'<math display="block"><mrow>{body}</mrow></math>'
+
+
+#: Symbols and numbers of an expression, and of a quotient, that is written in pieces.
+LONG = 9
+QUOTIENT = 24
+INFIX = '<mo form="infix">{}</mo>'
+BRACKET = '<mo stretchy="false">{}</mo>'
+
+
+def _length(tree: Tree) -> int:
+    """Symbols and numbers of an expression."""
+    return sum(map(_length, tree[1:])) if isinstance(tree, tuple) else 1
+
+
+def _led(operator: str, pieces: list[str]) -> list[str]:
+    return [operator + pieces[0], *pieces[1:]]
+
+
+def _line(pieces: list[str]) -> str:
+    return '<div class="formula">' + " ".join(f"<math><mrow>{piece}</mrow></math>" for piece in pieces) + "</div>"
 
 
 class LaTeX(Format):

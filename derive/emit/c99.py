@@ -5,6 +5,7 @@ gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math
 MW_FUSED it fuses the products that :mod:`derive.passes.fuse` chooses into sums, and needs ``fma`` too.
 """
 
+import re
 from dataclasses import dataclass
 
 from derive.emit import approximation, embedded
@@ -59,14 +60,16 @@ class Printer:
     """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read.
 
     What is computed ``seldom``, for a design, a start, a solved contact or a point of a flank, calls sine and cosine
-    instead of having them written out in place, for the C compiler's sake.
+    instead of having them written out in place, for the C compiler's sake. ``names`` are words for nodes, written in a
+    comment where they are computed.
     """
 
-    def __init__(self, tape, prefix, leaves, suffix="", seldom=False):
+    def __init__(self, tape, prefix, leaves, suffix="", seldom=False, names=None):
         self.tape = tape
         self.prefix = prefix
         self.leaves = leaves
         self.suffix = suffix  # of local names
+        self.names = names or {}
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
     def body(self, outputs, known=None, later=()):
@@ -113,14 +116,16 @@ class Printer:
                 value = f"{self.prefix}_atan2({args[0]}, {args[1]})"
             case op:
                 value = f"{args[0]} {_INFIX[op]} {args[1]}"
-        return [f"const double t{serial} = {value};"]
+        words = f"  /* {self.names[i]} */" if i in self.names else ""
+        return [f"const double t{serial} = {value};{words}"]
 
     def _sincos(self, argument, operand, serial, operands):
         for op, letter in (("sin", "s"), ("cos", "c")):
             if (node := self.tape.find(op, argument)) is not None:
                 operands[node] = f"{letter}{serial}"
+        words = f"  /* of {self.names[argument]} */" if argument in self.names else ""
         return [
-            f"double s{serial}, c{serial};",
+            f"double s{serial}, c{serial};{words}",
             f"{self.sincos}({operand}, &s{serial}, &c{serial});",
         ]
 
@@ -164,16 +169,37 @@ class Leaves:
         )
 
 
+def words(plan: Schedule):
+    """Node → name and meaning, of definitions, residual rows, the wheel's angle and what is divided by."""
+    drive, tape, lower = plan.drive, plan.tape, plan.lower
+    meanings = {str(symbol): symbol.meaning for symbol, _ in drive.definitions.items()}
+    found = {node: (name, meanings.get(name, "")) for node, name in lower.names().items()}
+    found |= {node: (f"row {k} of the contact equations", "") for k, node in enumerate(plan.residual)}
+    found |= {lower(u): (u.name, "") for u in plan.unknowns}
+    found.setdefault(lower(drive.wheel_angle), ("wheel angle", ""))
+    for node, origin in tape.origins.items():
+        if origin is not None and origin.meaning and node not in found:
+            found[node] = (origin.statement, origin.meaning)
+    return {node: _comment(*told) for node, told in found.items()}
+
+
+def _comment(name, meaning):
+    """Words that cannot end a comment, nor be taken for operations."""
+    told = f"{name}: {meaning}" if meaning else name
+    return re.sub(r"[^A-Za-z0-9_ ,.:'()/-]|(?<![a-z])-|-(?![a-z])| / ", " ", told)
+
+
 def header(plan: Schedule, description: dict, runtime):
     """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
     ``runtime`` the folder of the C runtime.
     """
     drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
     leaves = Leaves.of(plan)
-    design = Printer(tape, prefix, leaves.design, seldom=True)
+    names = words(plan)
+    design = Printer(tape, prefix, leaves.design, seldom=True, names=names)
     instant = Printer(tape, prefix, leaves.instant)
-    iterate = Printer(tape, prefix, leaves.iterate)
-    solved = Printer(tape, prefix, leaves.iterate, seldom=True)
+    iterate = Printer(tape, prefix, leaves.iterate, names=names)
+    solved = Printer(tape, prefix, leaves.iterate, seldom=True, names=names)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)

@@ -46,17 +46,21 @@ class Code:
 
 def code(tape, outputs, leaves, leading=None):
     """The :class:`Code` that computes these nodes from ``leaves`` (node → place in the arguments)."""
-    steps = reciprocals(routine(tape, outputs, leaves.keys())).steps
     first = len(outputs) if leading is None else leading
-    return _Writer(tape, list(outputs), leaves, steps).code(first)
+    return _Writer(tape, list(outputs), leaves).code(first)
+
+
+def operations_of(tape, outputs, known):
+    """(operation, nodes that it computes, arguments) in an order of evaluation that leads to ``outputs``."""
+    return _operations(tape, reciprocals(routine(tape, outputs, known)).steps)
 
 
 class _Writer:
     """Assigns registers: each is free again after the last operation that reads it."""
 
-    def __init__(self, tape, outputs, leaves, steps):
+    def __init__(self, tape, outputs, leaves):
         self.tape, self.outputs = tape, outputs
-        self.steps = list(_operations(tape, steps))
+        self.steps = list(operations_of(tape, outputs, leaves.keys()))
         made = {i for step in self.steps for i in step[1]}
         read = dict.fromkeys([a for step in self.steps for a in step[2]] + outputs)
         self.inputs = [i for i in read if i not in made and tape.const_value(i) is None]
@@ -152,7 +156,14 @@ def header(plan, generator):
         instant=code(tape, slots[plan.design_slots :], before | {lower(drive.instant): count}),
         equations=code(tape, [*plan.residual, *jacobian], by_x, len(plan.residual)),
         observed=code(tape, _watched(plan), by_x),
+        along=code(tape, [*plan.along.first, *plan.along.second], before | _line(plan, count)),
     )
+
+
+def _line(plan, count):
+    """Places of the angle, the unknowns and a direction of both, after ``count`` numbers of the state."""
+    own = [plan.lower(plan.drive.instant), *(plan.lower(u) for u in plan.unknowns), *plan.along.direction]
+    return {node: count + k for k, node in enumerate(own)}
 
 
 def _exactly(factor):

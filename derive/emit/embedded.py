@@ -24,7 +24,30 @@ def solver(runtime):
     """The solver behind ``X_complete`` and ``X_solve``, in order, without its comments."""
     seen = set()
     texts = (text for name in ROOTS for text in _needed((runtime / "solver" / name).resolve(), seen))
-    return "".join(_EMPTY.sub("\n", _COMMENT.sub("", text)) for text in texts)
+    return "".join(map(_bare, texts))
+
+
+@cache
+def arithmetic(runtime):
+    """Numbers with error bounds, in order, without the comments."""
+    texts = [(runtime / name).read_text(encoding="utf-8") for name in ("circular.h", "mw_enclosures.h")]
+    texts += [_INCLUDE.sub("", _certify(runtime, name)) for name in ("ball.h", "wide.h", "lane.h")]
+    return "".join(map(_bare, texts))
+
+
+@cache
+def test(runtime):
+    """The test of existence and uniqueness at MW_LANES points, without its comments."""
+    return _bare(_INCLUDE.sub("", _certify(runtime, "point.h")))
+
+
+def _certify(runtime, name):
+    return (runtime / "certify" / name).read_text(encoding="utf-8")
+
+
+def _bare(text):
+    """A header's text without comments and empty lines."""
+    return _EMPTY.sub("\n", _COMMENT.sub("", text))
 
 
 def _needed(path, seen):

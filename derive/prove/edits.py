@@ -58,7 +58,7 @@ def _exchanged(tree: Tree, wrong: str, right: str) -> Tree:
 
 def _local(tree: Tree, confusable: Groups, signs: Sequence[str]) -> Iterator[Edit]:
     yield from _at_node(tree, confusable, signs)
-    if isinstance(tree, tuple) and tree[0] != "jet":
+    if isinstance(tree, tuple) and tree[0] not in ("jet", "sqrt"):  # the ring of a statement holds its own roots alone
         below = list(children(tree))
         for position, child in enumerate(below):
             for edit in _local(child, confusable, signs):

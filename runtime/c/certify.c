@@ -1,16 +1,21 @@
 /* Certified contact: see mw_certify.h.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
-#define MWC_POINTS
+#define MWC_BALLS
+#define MWC_WIDES
+#define MW_LANES 1
 #include "certify/krawczyk.h"
+#include "certify/point.h"
 #include "certify/tables.h"
 #include "kernels.h"
 #include "lanes.h"
 #include "mw_certify.h"
 #include "solver/complete.h"
 
-/* Boxes begin at this share of the natural sizes; steps that shape them; the share beyond which none is tried. */
-static const double FIRST_BOX = 5.9604644775390625e-8, WIDEST_BOX = 0.25;
-enum { SHAPING_STEPS = 30, REFINING_STEPS = 3, NARROWING_STEPS = 8 };
+enum { REFINING_STEPS = 3, NARROWING_STEPS = 8 };
+
+/* A solution that plain doubles single out is good enough where the residual in double-double bounds it to this share of the
+ * natural sizes; else it is refined. */
+static const double NARROW = 1e-24;
 
 static const mw_certified *tables_of(const mw_model *m)
 {
@@ -47,11 +52,12 @@ int mw_enclosed_slots(const mw_model *m)
     return tables_of(m) ? tables_of(m)->slots : 0;
 }
 
-/* One system of n equations. known[count]: what its code reads before the unknowns, also as balls. */
+/* One system of n equations: natural sizes of its unknowns, and what its code reads, the unknowns after `count` others,
+ * also as balls. */
 typedef struct problem {
     const mw_code *equations;
     int n, count;
-    const double *sizes;
+    double sizes[MW_MAX_UNKNOWNS];
     mw_wide arguments[MWC_ARGUMENTS];
     mw_ball balls[MWC_ARGUMENTS];
 } problem;
@@ -132,8 +138,8 @@ static int enclose(problem *p, solution *s)
     refine(p, C, s->x);
     residual_at(p, s->x, R);
     mwc_shift(n, C, R, z);
-    for (int i = 0; i < n; i++) d[i] = p->sizes[i] * FIRST_BOX;
-    for (int step = 0; step < SHAPING_STEPS; step++) {
+    for (int i = 0; i < n; i++) d[i] = p->sizes[i] * MWC_FIRST_BOX;
+    for (int step = 0; step < MWC_SHAPING_STEPS; step++) {
         linearised(p, s->x, d, NULL, J);
         mwc_defect(n, C, J, M);
         mwc_image(n, z, M, d, K);
@@ -143,8 +149,8 @@ static int enclose(problem *p, solution *s)
         }
         for (int i = 0; i < n; i++) {
             const double shift = mwc_abs(z[i].mid) + z[i].radius;
-            d[i] = 2.0 * shift + 1.1 * (K[i] - shift);
-            if (!(d[i] <= WIDEST_BOX * p->sizes[i])) return MW_REASON_FOLD;
+            d[i] = MWC_SHAPED(shift, K[i]);
+            if (!(d[i] <= MWC_WIDEST_BOX * p->sizes[i])) return MW_REASON_FOLD;
         }
     }
     return MW_REASON_WIDE;
@@ -183,7 +189,7 @@ static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
     const mw_system *system = &m->systems[k];
     const mw_certified_system *t = &tables_of(m)->systems[k];
     const int np = m->np, n = system->n;
-    double y[MW_MAX_UNKNOWNS] = { 0.0 }, sizes[MW_MAX_UNKNOWNS];
+    double y[MW_MAX_UNKNOWNS] = { 0.0 };
     mw_wide arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
     problem equations;
     solution found;
@@ -191,12 +197,11 @@ static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
     if (!fits(&t->equations, np + 1 + n) || !fits(&t->values, np + 1 + n)) return 0;
     for (int i = 0; i < np; i++) q[i] = p[i].hi;
     if (mwi_solve_system(m, system, q, y, &info) < 0) return 0;
-    system->scale(q, sizes);
+    system->scale(q, equations.sizes);
     memcpy(arguments, p, sizeof(mw_wide) * (size_t)np);
     arguments[np] = mwc_wide_of(1.0);
     equations.equations = &t->equations;
     equations.n = n;
-    equations.sizes = sizes;
     known(&equations, arguments, np + 1);
     for (int i = 0; i < n; i++) found.x[i] = mwc_wide_of(y[i]);
     if (enclose(&equations, &found) != MW_REASON_NONE) return 0;
@@ -240,21 +245,39 @@ void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s)
 
 /* -- contact ------------------------------------------------------------------------------------------------------- */
 
-static void set_instant(const mw_certified *t, mw_wide *s, mw_wide phi)
+/* A design's contact problem at no angle yet. Returns a reason. */
+static int posed(const mw_model *m, const mw_wide *s, problem *p)
 {
-    mw_wide arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
-    memcpy(arguments, s, sizeof(mw_wide) * (size_t)t->slots);
-    arguments[t->slots] = bounded(phi);
-    mwc_run_wide(&t->instant, t->instant.instructions, arguments, registers);
-    for (int i = t->design_slots; i < t->slots; i++) s[i] = registers[t->instant.output[i - t->design_slots]];
+    const mw_certified *t = tables_of(m);
+    if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
+    p->equations = &t->equations;
+    p->n = m->nx;
+    known(p, s, t->slots);
+    for (int i = 0; i < t->equations.inputs; i++) {
+        const int at = t->equations.input[i];
+        if (at < t->design_slots && !(p->balls[at].radius < HUGE_VAL && p->balls[at].mid == p->balls[at].mid)) return MW_REASON_DESIGN;
+    }
+    return MW_REASON_NONE;
 }
 
-/* Natural sizes of the unknowns, from the midpoints of the state. */
-static void sizes_of(const mw_model *m, const mw_wide *s, double *sizes)
+/* What follows from the angle, and the natural sizes of the unknowns, from the midpoints of the state. Returns a reason. */
+static int turned(const mw_model *m, mw_wide phi, problem *p)
 {
+    const mw_certified *t = tables_of(m);
+    mw_wide registers[MWC_REGISTERS];
     double state[MWC_ARGUMENTS];
-    for (int i = 0; i < MWC_ARGUMENTS; i++) state[i] = i < mw_enclosed_slots(m) ? s[i].hi : NAN;
-    m->scale(state, sizes);
+    int reason = MW_REASON_NONE;
+    p->arguments[t->slots] = bounded(phi);
+    mwc_run_wide(&t->instant, t->instant.instructions, p->arguments, registers);
+    for (int i = t->design_slots; i < t->slots; i++) {
+        p->arguments[i] = registers[t->instant.output[i - t->design_slots]];
+        p->balls[i] = mwc_of_wide(p->arguments[i]);
+        if (!(p->balls[i].radius < HUGE_VAL && p->balls[i].mid == p->balls[i].mid)) reason = MW_REASON_DESIGN;
+    }
+    for (int i = 0; i < t->slots; i++) state[i] = p->arguments[i].hi;
+    for (int i = t->slots; i < MWC_ARGUMENTS; i++) state[i] = NAN;
+    m->scale(state, p->sizes);
+    return reason;
 }
 
 /* Negative surely, or perhaps; a limit that the design does not set is neither. */
@@ -306,23 +329,6 @@ static void nothing(mw_certificate *c)
     c->wheel_angle = c->curvature[0] = c->curvature[1] = mwc_make(NAN, NAN);
 }
 
-static int posed(const mw_model *m, mw_wide *s, mw_wide phi, problem *p, double *sizes)
-{
-    const mw_certified *t = tables_of(m);
-    if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
-    set_instant(t, s, phi);
-    sizes_of(m, s, sizes);
-    p->equations = &t->equations;
-    p->n = m->nx;
-    p->sizes = sizes;
-    known(p, s, t->slots);
-    for (int i = 0; i < t->equations.inputs; i++) {
-        const int at = t->equations.input[i];
-        if (at < t->slots && !(p->balls[at].radius < HUGE_VAL && p->balls[at].mid == p->balls[at].mid)) return MW_REASON_DESIGN;
-    }
-    return MW_REASON_NONE;
-}
-
 /* The certificate of a solution that is the only one within box of x. */
 static int granted(const mw_model *m, problem *p, const solution *found, mw_certificate *c)
 {
@@ -336,39 +342,90 @@ static int granted(const mw_model *m, problem *p, const solution *found, mw_cert
     return ended(c, MW_UNIQUE, MW_REASON_NONE);
 }
 
-int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c)
+/* As enclose(), by printed code where that is enough: in doubles at x, about which it is the only one, then closer from the
+ * residual there in double-double. 0 where it is not enough. */
+static int enclose_quickly(const mw_model *m, problem *p, const double *x, solution *found)
 {
-    double sizes[MW_MAX_UNKNOWNS];
-    problem p;
+    const mw_certified *t = tables_of(m);
+    const double *s = &p->balls[0].mid, *own = &p->balls[t->design_slots].mid;
+    const mw_enclosing *by = &m->kernels->enclosing;
+    const int n = p->n;
+    double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], near[MW_MAX_UNKNOWNS];
+    double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
+    mw_ball R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], shift[MW_MAX_UNKNOWNS];
+    for (int i = 0; i < n; i++) found->box[i] = p->sizes[i] * MWC_FIRST_BOX;
+    by->linearise(s, own, x, found->box, &R[0].mid, &J[0].mid);
+    mwc_prove1(n, &R[0].mid, &J[0].mid, found->box, proved, z, K, e);
+    if (!(proved[0] > 0.0)) return 0;
+    for (int i = 0; i < n; i++) near[i] = e[i][0], found->x[i] = mwc_wide_of(x[i]);
+    by->linearise(s, own, x, near, &R[0].mid, &J[0].mid);
+    if (!mwc_inverse(n, J, C)) return 0;
+    residual_at(p, found->x, R);
+    mwc_shift(n, C, R, shift);
+    mwc_defect(n, C, J, M);
+    for (int i = 0; i < n; i++) {
+        double rest = shift[i].radius;
+        for (int j = 0; j < n; j++) rest += M[i * n + j] * near[j];
+        found->x[i].hi = mwc_two_sum(x[i], -shift[i].mid, &found->x[i].lo);
+        found->within[i] = rest * MWC_READ;
+        found->box[i] = (found->box[i] - mwc_abs(shift[i].mid)) * (1.0 - 4.0 * MWC_U);
+        if (!(found->within[i] < found->box[i] && found->within[i] < NARROW * p->sizes[i])) return 0;
+    }
+    return 1;
+}
+
+/* One certificate, p posed. */
+static int certify(const mw_model *m, problem *p, mw_wide phi, const double *x, int line, mw_certificate *c)
+{
     solution found;
-    nothing(c);
-    for (int i = 0; mw_encloses(m) && i < m->nx; i++)
-        if (x[i] != x[i]) return ended(c, MW_UNKNOWN, MW_REASON_CONTACT);
-    int reason = posed(m, s, phi, &p, sizes);
+    int reason = turned(m, phi, p);
     if (reason != MW_REASON_NONE) return ended(c, MW_UNKNOWN, reason);
-    for (int i = 0; i < m->nx; i++) found.x[i] = mwc_wide_of(x[i]);
-    reason = enclose(&p, &found);
-    if (reason == MW_REASON_NONE) return granted(m, &p, &found, c);
+    if (!enclose_quickly(m, p, x, &found)) {
+        for (int i = 0; i < m->nx; i++) found.x[i] = mwc_wide_of(x[i]);
+        reason = enclose(p, &found);
+    }
+    if (reason == MW_REASON_NONE) return granted(m, p, &found, c);
     return ended(c, MW_UNKNOWN, line ? MW_REASON_LINE : reason);
 }
 
-int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c)
+size_t mw_certify_points(const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
+                         mw_certificate *c)
+{
+    size_t unique = 0;
+    problem p;
+    const int reason = posed(m, s, &p);
+    for (size_t k = 0; k < n; k++) {
+        int known = 1;
+        nothing(c + k);
+        for (int i = 0; mw_encloses(m) && i < m->nx; i++) known = known && x[k * (size_t)m->nx + (size_t)i] == x[k * (size_t)m->nx + (size_t)i];
+        if (!known) ended(c + k, MW_UNKNOWN, MW_REASON_CONTACT);
+        else if (reason != MW_REASON_NONE) ended(c + k, MW_UNKNOWN, reason);
+        else unique += certify(m, &p, phi[k], x + k * (size_t)m->nx, line[k], c + k) == MW_UNIQUE;
+    }
+    return unique;
+}
+
+int mw_certify(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c)
+{
+    mw_certify_points(m, s, &phi, x, &line, 1, c);
+    return c->outcome;
+}
+
+/* A box about x, p posed. */
+static int certify_box(const mw_model *m, problem *p, mw_wide phi, const double *x, const double *d, mw_certificate *c)
 {
     const int n = m->nx;
     mw_ball J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS], z[MW_MAX_UNKNOWNS];
-    double sizes[MW_MAX_UNKNOWNS], C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
-    double K[MW_MAX_UNKNOWNS];
-    problem p;
+    double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], K[MW_MAX_UNKNOWNS];
     solution found;
-    nothing(c);
-    const int reason = posed(m, s, phi, &p, sizes);
+    const int reason = turned(m, phi, p);
     if (reason != MW_REASON_NONE) return ended(c, MW_UNKNOWN, reason);
     for (int i = 0; i < n; i++) found.x[i] = mwc_wide_of(x[i]), found.box[i] = d[i];
     if (!within_domain(m, found.x, d)) return ended(c, MW_UNKNOWN, MW_REASON_OUTSIDE);
-    linearised(&p, found.x, d, R, J);
+    linearised(p, found.x, d, R, J);
     for (int i = 0; i < n; i++)
         if (mwc_abs(R[i].mid) - mwc_reach(R[i]) > 0.0) return ended(c, MW_NONE, MW_REASON_NONE);
-    residual_at(&p, found.x, R);
+    residual_at(p, found.x, R);
     if (!mwc_inverse(n, J, C)) return ended(c, MW_UNKNOWN, MW_REASON_BOX);
     mwc_shift(n, C, R, z);
     mwc_defect(n, C, J, M);
@@ -376,64 +433,77 @@ int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, 
     mwc_image(n, z, M, d, K);
     if (!mwc_inside(n, K, d)) return ended(c, MW_UNKNOWN, MW_REASON_BOX);
     narrow(n, z, M, K, found.within);
-    return granted(m, &p, &found, c);
+    return granted(m, p, &found, c);
 }
 
-size_t mw_certify_points(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
-                         mw_certificate *c)
-{
-    size_t unique = 0;
-    for (size_t k = 0; k < n; k++) unique += mw_certify(m, s, phi[k], x + k * (size_t)m->nx, line[k], c + k) == MW_UNIQUE;
-    return unique;
-}
-
-size_t mw_certify_boxes(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
+size_t mw_certify_boxes(const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
                         mw_certificate *c)
 {
-    const size_t nx = (size_t)m->nx;
+    const size_t nx = mwi_usable(m) ? (size_t)m->nx : 0;
     size_t unique = 0;
-    for (size_t k = 0; k < n; k++) unique += mw_certify_box(m, s, phi[k], x + k * nx, d + k * nx, c + k) == MW_UNIQUE;
+    problem p;
+    const int reason = posed(m, s, &p);
+    for (size_t k = 0; k < n; k++) {
+        nothing(c + k);
+        if (reason != MW_REASON_NONE) ended(c + k, MW_UNKNOWN, reason);
+        else unique += certify_box(m, &p, phi[k], x + k * nx, d + k * nx, c + k) == MW_UNIQUE;
+    }
     return unique;
 }
 
-/* The design's numbers in every lane. */
-static void spread(const mw_lane_set *set, const mw_certified *t, const mw_wide *s, double *arguments)
+int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c)
 {
-    const int lanes = set->lanes;
-    for (int i = 0; i < t->design_slots; i++) {
-        const mw_ball b = mwc_of_wide(s[i]);
-        for (int l = 0; l < lanes; l++) {
-            arguments[2 * i * lanes + l] = b.mid;
-            arguments[(2 * i + 1) * lanes + l] = b.radius;
-        }
-    }
+    mw_certify_boxes(m, s, &phi, x, d, 1, c);
+    return c->outcome;
 }
 
-static void certify_alone(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, unsigned char *unique, mw_ball *error)
+/* One point by printed code alone. */
+static void certify_one(const mw_enclosing *by, int n, int error, const double *s, double *own, const mw_wide *phi, const double *x,
+                        const double *d, unsigned char *unique, mw_ball *errors)
+{
+    const mw_ball angle = mwc_of_wide(*phi);
+    double R[2 * MW_MAX_UNKNOWNS], J[2 * MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
+    double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
+    by->instant(s, &angle.mid, own);
+    by->linearise(s, own, x, d, R, J);
+    switch (n) { /* loops of a constant length are what compilers unroll */
+    case 5: mwc_prove1(5, R, J, d, proved, z, K, e); break;
+    case 6: mwc_prove1(6, R, J, d, proved, z, K, e); break;
+    default: mwc_prove1(n, R, J, d, proved, z, K, e);
+    }
+    *unique = proved[0] > 0.0;
+    *errors = mwc_make(x[error], *unique ? e[error][0] : HUGE_VAL);
+}
+
+/* What doubles do not show, shown with all means if it can be. */
+static void certify_alone(const mw_model *m, problem *p, mw_wide phi, const double *x, unsigned char *unique, mw_ball *error)
 {
     mw_certificate c;
-    *unique = mw_certify(m, s, phi, x, 0, &c) == MW_UNIQUE;
-    *error = *unique ? mwc_of_wide(c.x[m->error]) : mwc_make(mwi_usable(m) ? x[m->error] : NAN, HUGE_VAL);
+    nothing(&c);
+    if (certify(m, p, phi, x, 0, &c) != MW_UNIQUE) return;
+    *unique = 1;
+    *error = mwc_of_wide(c.x[m->error]);
 }
 
-size_t mw_certify_many(const mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, size_t n,
+size_t mw_certify_many(const mw_lane_set *set, const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, size_t n,
                        unsigned char *unique, mw_ball *errors)
 {
-    const size_t nx = (size_t)m->nx, lanes = set ? (size_t)set->lanes : 1;
-    const mw_certified *t = tables_of(m);
-    double arguments[2 * MWC_ARGUMENTS * MW_MAX_LANES], registers[2 * MWC_REGISTERS * MW_MAX_LANES], sizes[MW_MAX_UNKNOWNS], d[MW_MAX_UNKNOWNS];
+    const size_t nx = mwi_usable(m) ? (size_t)m->nx : 0, lanes = set ? (size_t)set->lanes : 1;
+    double own[2 * MWC_ARGUMENTS * MW_MAX_LANES], d[MW_MAX_UNKNOWNS];
     size_t k = 0, count = 0;
-    if (set && mw_encloses(m) && n > 0) {
-        set_instant(t, s, phi[0]);
-        sizes_of(m, s, sizes);
-        spread(set, t, s, arguments);
-        for (size_t i = 0; i < nx; i++) d[i] = sizes[i] * FIRST_BOX;
+    problem p;
+    int possible = posed(m, s, &p) == MW_REASON_NONE;
+    for (size_t i = 0; i < n; i++) unique[i] = 0, errors[i] = mwc_make(nx ? x[i * nx + (size_t)m->error] : NAN, HUGE_VAL);
+    if (!possible || n == 0 || turned(m, phi[0], &p) != MW_REASON_NONE) return 0;
+    const mw_lane_model *in_lanes = set ? m->kernels->lanes[set->set] : NULL;
+    for (size_t i = 0; i < nx; i++) d[i] = p.sizes[i] * MWC_FIRST_BOX;
+    if (in_lanes)
         for (; k + lanes <= n; k += lanes)
-            set->certify(t, m->nx, m->error, k == 0, (struct lane_ball *)(void *)arguments,
-                         (struct lane_ball *)(void *)registers, phi + k, x + k * nx, d, unique + k, errors + k);
-    }
+            set->certify(&in_lanes->enclosing, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
+    for (; k < n; k++)
+        certify_one(&m->kernels->enclosing, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (size_t i = 0; i < n; i++) {
-        if (i >= k || !unique[i]) certify_alone(m, s, phi[i], x + i * nx, unique + i, errors + i);
+        if (!unique[i]) certify_alone(m, &p, phi[i], x + i * nx, unique + i, errors + i);
         count += unique[i];
     }
     return count;

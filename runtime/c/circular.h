@@ -4,11 +4,18 @@
 #ifndef MW_CIRCULAR_H
 #define MW_CIRCULAR_H
 
+/* Written out where it is used, so that several numbers at once can be taken there. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define MWI_INLINE static inline __attribute__((always_inline))
+#else
+#define MWI_INLINE static inline
+#endif
+
 /* Beyond it the reduction of the argument is not exact. */
 #define MWI_CIRCULAR_FAR 1.6e6
 
 /* Sine and cosine for |a| < MWI_CIRCULAR_FAR, each within 2^-52: certify/ball.h has the bound's parts. */
-static inline void mwi_sine(double a, double *sine, double *cosine)
+MWI_INLINE void mwi_sine(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it is rounded to a whole number */
     const double k = (a * 0.6366197723675814 + magic) - magic;
@@ -30,7 +37,7 @@ static inline void mwi_sine(double a, double *sine, double *cosine)
 
 /* Angle of the point (x, y), -pi to pi, within 2^-50; 0 at the origin. A quotient between the bounds of an octant and the
  * minimax polynomial of its arc. */
-static inline double mwi_angle(double y, double x)
+MWI_INLINE double mwi_angle(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;

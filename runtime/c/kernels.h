@@ -41,11 +41,20 @@ typedef struct mw_bounded {
     const mw_expansion *expansions;
 } mw_bounded;
 
+/* A drive's equations of contact with error bounds at one point or as many as there are lanes: of s, balls of the design that
+ * all lanes share, t, their own balls of the angle, x[nx] and half-widths d[nx] of a box that all lanes share: R, residual at
+ * x, nx balls, and J, Jacobian over the box, nx * nx balls. instant: t from balls phi. See the generated headers of proofs. */
+typedef struct mw_enclosing {
+    void (*instant)(const double *s, const double *phi, double *t);
+    void (*linearise)(const double *s, const double *t, const double *x, const double *d, double *R, double *J);
+} mw_enclosing;
+
 /* A drive's kernels for one instruction set; number k of lane l is at [k * lanes + l]. See the generated lane headers. */
 typedef struct mw_lane_model {
     void (*setup)(const double *p, double *s, double *valid);
     void (*set_phi)(double *s, const double *phi);
     void (*step)(const double *s, double *x, double *size);
+    mw_enclosing enclosing;
 } mw_lane_model;
 
 /* The instruction sets for which lanes are compiled: that of the compiler's default target, and on x86-64 two wider. */
@@ -60,6 +69,7 @@ typedef struct mw_kernels {
     const mw_tangents *tangents;
     const mw_bounded *bounded;
     const mw_certified *certified;
+    mw_enclosing enclosing;
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;
 

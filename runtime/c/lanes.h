@@ -6,7 +6,6 @@
 #include "meshwright.h"
 
 enum { MW_MAX_LANES = 16 };
-struct lane_ball;
 
 /* Where the points of a lane go: x[count * nx]. */
 typedef struct mw_lane_row {
@@ -17,8 +16,7 @@ typedef struct mw_lane_row {
 /* Points that are kept in lanes before they go to the rows; so they stay in the nearest cache. */
 enum { MW_LANE_BLOCK = 32 };
 
-/* certify(): see lane_certify.h; arguments[MWC_ARGUMENTS] and registers[MWC_REGISTERS] have room for MW_MAX_LANES balls each, mid and radius lane by lane.
- * One instruction set: vectors of width numbers, lanes instances at once. follow() traces every lane along
+/* certify(): see lane_certify.h. One instruction set: vectors of width numbers, lanes instances at once. follow() traces every lane along
  * its own phi[n * lanes] from start[nx * lanes], the start values at phi[0], and writes the points to rows[lanes];
  * solved[l] counts the points of lane l before it failed; s is set up; points[(MW_HISTORY + MW_LANE_BLOCK) * nx * lanes]
  * is work. */
@@ -28,9 +26,8 @@ struct mw_lane_set {
     int width, lanes;
     void (*follow)(const mw_lane_model *k, const mw_model *m, double *s, const double *phi, size_t n, const double *start,
                    double *points, const mw_lane_row *rows, size_t *solved);
-    void (*certify)(const mw_certified *t, int n, int error, int first, struct lane_ball *arguments,
-                    struct lane_ball *registers, const mw_wide *phi, const double *x, const double *d,
-                    unsigned char *unique, mw_ball *errors);
+    void (*certify)(const mw_enclosing *k, int n, int error, const double *s, double *t, const mw_wide *phi, const double *x,
+                    const double *d, unsigned char *unique, mw_ball *errors);
 };
 
 #endif

@@ -39,13 +39,14 @@ typedef struct mw_certified_system {
 /* A drive. factors[np]: from the units of keys to inner units. rules and systems in the model's order, ended by an empty
  * one. setup: of p; instant: of (s, phi); equations, residual and Jacobian, and observed: of (s[slots], x). observed is:
  * point and normal of the pinion, then of the wheel, fixed frame; wheel angle; principal curvatures of the gap; of each
- * body, whether it is regular, and its margins. */
+ * body, whether it is regular, and its margins. along: of (s[slots], phi, x, v[nx + 1]), first and then second derivative of the
+ * residual along v, a direction of (x, phi). */
 typedef struct mw_certified {
     int slots, design_slots;
     const mw_wide *factors;
     const mw_certified_rule *rules;
     const mw_certified_system *systems;
-    mw_code setup, instant, equations, observed;
+    mw_code setup, instant, equations, observed, along;
 } mw_certified;
 
 #endif

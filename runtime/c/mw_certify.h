@@ -64,17 +64,30 @@ void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s);
 
 /* Certify the contact that x[nx], a solution in floating point at input angle phi, stands for: existence and uniqueness in
  * the widest box that a few steps find. line: whether the flanks are known to touch along a line. Returns the outcome. */
-int mw_certify(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c);
+int mw_certify(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c);
 
 /* The same of a given box x +- d, d[nx] > 0: one solution, none, or unknown. */
-int mw_certify_box(const mw_model *m, mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c);
+int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c);
 
-/* Certify n points of one design at once: phi[n], x[n*nx]; unique[n] is 1 where the equations have one solution within 2^-24
- * natural sizes of x, errors[n] then holds its transmission error, by plain doubles with radii. What a lane does not show is
- * left to mw_certify. set: as of mw_lanes, NULL: mw_certify alone. Returns how many are unique. */
+/* Certify n points of one design at once, by plain doubles with radii: phi[n], x[n*nx]; unique[n] is 1 where the equations have
+ * one solution within 2^-24 natural sizes of x, errors[n] then holds its transmission error. What doubles do not show is left
+ * to mw_certify. set: as of mw_lanes, or NULL for one point after the other. Returns how many are unique. */
 struct mw_lane_set;
-size_t mw_certify_many(const struct mw_lane_set *set, const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x,
+size_t mw_certify_many(const struct mw_lane_set *set, const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x,
                        size_t n, unsigned char *unique, mw_ball *errors);
+
+/* A fold (crossing = 0) or crossing of branches of contact. unique: the equations have exactly one singular point within box
+ * of the angle, rad, and likewise of the unknowns; it lies within angle and x. Of a crossing that is said of the equations
+ * changed by `unfolding`, in shares of their slopes: two branches cross, or pass each other as close as so small a change
+ * lets them. */
+typedef struct mw_branch_certificate {
+    int outcome, reason;
+    mw_ball angle, x[8], unfolding;
+    double box;
+} mw_branch_certificate;
+
+/* Certify what mw_branch_point found: angle and x[nx]. Returns the outcome. */
+int mw_certify_branch(const mw_model *m, const mw_wide *s, int crossing, double angle, const double *x, mw_branch_certificate *c);
 
 /* A piece of path: at every input angle centre + half t, -1 <= t <= 1, the equations have a solution within x[i].radius of the
  * polynomials x[nx], and no other within box[nx] of them: one branch, without turning point or crossing. margin: regular and
@@ -104,9 +117,9 @@ mw_ball mw_piece_at(const mw_piece *piece, const mw_polynomial *of, double angle
 void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from, double to, int depth, double *bounds);
 
 /* Both for n points: phi[n], x[n*nx], line[n], d[n*nx], c[n]. Return the number of those that are shown to be unique. */
-size_t mw_certify_points(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
+size_t mw_certify_points(const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
                          mw_certificate *c);
-size_t mw_certify_boxes(const mw_model *m, mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
+size_t mw_certify_boxes(const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, const double *d, size_t n,
                         mw_certificate *c);
 
 /* END INTERFACE */

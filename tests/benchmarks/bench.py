@@ -16,8 +16,8 @@ from derive import drives
 from derive.passes.schedule import schedule
 from derive.program.tape import Stage
 from meshwright import Drive
-from meshwright.base.library import ffi, library, record
-from tests.benchmarks import baselines, calls, latency, regeneration
+from meshwright.base.library import ffi, library
+from tests.benchmarks import baselines, calls, certified, latency, regeneration
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -97,19 +97,8 @@ def lane_points(case, width):
 
 
 def certified_points(case, width):
-    """Certified points a second in lanes: residual, Jacobian, its inverse and the test; None as above."""
-    lanes, lib, enclosed = library().mw_lanes(width), library(), case.drive.enclosed
-    if lanes == ffi.NULL:
-        return None
-    n, state = 4096, enclosed.state.copy()
-    phi = np.zeros(n, record("mw_wide"))
-    phi["hi"], x = case.angles[:n], np.ascontiguousarray(case.points[:n])
-    unique, errors = np.zeros(n, np.uint8), np.zeros(n, record("mw_ball"))
-    arguments = (lanes, enclosed.model, _pointer(state, "mw_wide[]"), _pointer(phi, "mw_wide[]"), _pointer(x), n)
-    outputs = (_pointer(unique, "unsigned char[]"), _pointer(errors, "mw_ball[]"))
-    seconds = best(lambda: lib.mw_certify_many(*arguments, *outputs), repeats=30)
-    assert unique.all()
-    return n / seconds
+    """Certified points a second; None as above."""
+    return certified.points(case.drive, case.angles, case.points, width)
 
 
 def _numbers(program, case, *arguments):
@@ -186,6 +175,7 @@ def measure(case, folder):
             "lanes2": lambda: lane_points(case, 2),
             "lanes4": lambda: lane_points(case, 4),
             "lanes8": lambda: lane_points(case, 8),
+            "certified1": lambda: certified_points(case, 1),
             "certified2": lambda: certified_points(case, 2),
             "certified4": lambda: certified_points(case, 4),
             "certified8": lambda: certified_points(case, 8),
@@ -233,6 +223,7 @@ def main():
     print("\ncost over the number of unknowns: drive, unknowns, operations a step, ns a point, ns an unknown")
     for name, unknowns, count, rate in growth:
         print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
+    certified.report()
     calls.report()
     latency.report()
     regeneration.report(growth[0][0])

@@ -44,9 +44,11 @@ def _calls(kind, prefix):
 
 
 def _text(name):
+    """A header without its guard and what it includes."""
     text = (C / "certify" / name).read_text(encoding="utf-8")
-    text = re.sub(r"^#include.*\n", "", text, flags=re.MULTILINE)
-    return re.sub(r"^#(ifndef|define|endif).*\n", "", text, flags=re.MULTILINE)
+    guard = re.search(r"^#ifndef (\w+)\n", text, flags=re.MULTILINE).group(1)
+    text = re.sub(rf"^#(include .*|(ifndef|define) {guard})\n", "", text, flags=re.MULTILINE)
+    return text[: text.rindex("#endif")]
 
 
 def compiled(folder, changes=None):

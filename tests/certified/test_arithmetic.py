@@ -100,44 +100,44 @@ def numbers(rng, kind, count=COUNT, radii=(-60, -1), least=-3, most=3):
 #: factors that only make good the rounding of radii.
 HALVED = {
     "sum": (
-        "(a.radius + b.radius) + MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_sub",
-        "(a.radius + b.radius) + 0.5 * MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_sub",
+        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
+        "MWC_FMA(0.5 * MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
     ),
     "radii of a sum": (
-        "(a.radius + b.radius) + MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_sub",
-        "0.5 * (a.radius + b.radius) + MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_sub",
+        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
+        "MWC_FMA(MWC_U, mwc_abs(m), 0.5 * (a.radius + b.radius)));\n}\n\nMWI_INLINE mw_ball mwc_sub",
     ),
     "difference": (
-        "(a.radius + b.radius) + MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_neg",
-        "(a.radius + b.radius) + 0.5 * MWC_U * mwc_abs(m));\n}\n\nstatic inline mw_ball mwc_neg",
+        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_neg",
+        "MWC_FMA(0.5 * MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_neg",
     ),
     "product": (
-        "spread + (MWC_U * mwc_abs(m) + MWC_TINY));\n}\n\nstatic inline mw_ball mwc_sqr",
-        "spread + (0.5 * MWC_U * mwc_abs(m) + MWC_TINY));\n}\n\nstatic inline mw_ball mwc_sqr",
+        "rounding = MWC_FMA(MWC_U, mwc_abs(m), MWC_TINY)",
+        "rounding = MWC_FMA(0.5 * MWC_U, mwc_abs(m), MWC_TINY)",
     ),
     "product, first": (
-        "mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b))",
-        "0.5 * mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b))",
+        "MWC_FMA(mwc_abs(a.mid), b.radius, MWC_FMA(",
+        "MWC_FMA(0.5 * mwc_abs(a.mid), b.radius, MWC_FMA(",
     ),
     "product, second": (
-        "mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b))",
-        "mwc_abs(a.mid) * b.radius + a.radius * (0.5 * mwc_abs(b.mid) + mwc_reach(b))",
+        "MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
+        "MWC_FMA(MWC_READ, b.radius, 0.5 * mwc_abs(b.mid)), rounding",
     ),
     "product of radii": (
-        "mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b))",
-        "mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + 0.5 * mwc_reach(b))",
+        "MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
+        "MWC_FMA(0.5 * MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
     ),
     "square": (
-        "(MWC_U * m + MWC_TINY)",
-        "(0.5 * MWC_U * m + MWC_TINY)",
+        "MWC_FMA(MWC_U, m, MWC_TINY)",
+        "MWC_FMA(0.5 * MWC_U, m, MWC_TINY)",
     ),
     "square, first": (
-        "(2.0 * mwc_abs(a.mid) + mwc_reach(a))",
-        "(mwc_abs(a.mid) + mwc_reach(a))",
+        "2.0 * mwc_abs(a.mid) + mwc_reach(a), ",
+        "mwc_abs(a.mid) + mwc_reach(a), ",
     ),
     "square, second": (
-        "(2.0 * mwc_abs(a.mid) + mwc_reach(a))",
-        "(2.0 * mwc_abs(a.mid) + 0.5 * mwc_reach(a))",
+        "2.0 * mwc_abs(a.mid) + mwc_reach(a), ",
+        "2.0 * mwc_abs(a.mid) + 0.5 * mwc_reach(a), ",
     ),
     "underflow": (
         "MWC_TINY = 9.881312916824931e-324",
@@ -172,20 +172,20 @@ HALVED = {
         "MWC_SINE = 1.1102230246251565e-16",
     ),
     "sine, slope": (
-        "*sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius",
-        "*sine = mwc_where(near, s, 0.5 * mwc_abs(c) * a.radius",
+        "turn.sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius",
+        "turn.sine = mwc_where(near, s, 0.5 * mwc_abs(c) * a.radius",
     ),
     "sine, bend": (
         "bend = 0.5 * a.radius * mwc_reach(a)",
         "bend = 0.25 * a.radius * mwc_reach(a)",
     ),
     "cosine, slope": (
-        "*cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius",
-        "*cosine = mwc_where(near, c, 0.5 * mwc_abs(s) * a.radius",
+        "turn.cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius",
+        "turn.cosine = mwc_where(near, c, 0.5 * mwc_abs(s) * a.radius",
     ),
     "arc, radius": (
-        "d.radius + (MWC_U * mwc_abs(m) + cube)",
-        "0.5 * d.radius + (MWC_U * mwc_abs(m) + cube)",
+        "d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube)",
+        "0.5 * d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube)",
     ),
     "wide sum": (
         "(a.radius + b.radius) + MWC_U * (mwc_abs(c) + mwc_abs(low))",
@@ -297,6 +297,20 @@ def operation_of(term):
              "quotient": "div", "root": "sqrt", "sine": "sincos", "cosine": "sincos", "arc": "atan2"}  # fmt: skip
     term = term.removeprefix("wide ").removeprefix("radii of a ")
     return next(op for word, op in words.items() if term.startswith(word))
+
+
+def test_terms_of_the_wide_series_are_inverse_factorials_within_their_radii():
+    text = (C / "certify" / "wide.h").read_text(encoding="utf-8")
+    for name, first in (("SINE", 1), ("COSINE", 0)):
+        rows = re.search(rf"MWC_OF_{name}\[\] = \{{\n(.*?)\n\}}", text, re.DOTALL).group(1)
+        more = re.search(rf"MWC_MORE_OF_{name}\[\] = \{{\n(.*?)\n\}}", text, re.DOTALL).group(1)
+        terms = [[Fraction(float(x)) for x in row.split(",")] for row in re.findall(r"\{ (.*) \}", rows)]
+        assert len(terms) == 11
+        for k, (high, low, radius) in enumerate(terms):
+            off = abs(Fraction(1, math.factorial(first + 2 * k)) - high - low)
+            assert off <= radius <= 2 * off
+        single = [float(x) for x in more.split(",")]
+        assert single == [1 / math.factorial(first + 22 + 2 * k) for k in range(6)]
 
 
 def test_the_constants_are_what_the_bounds_were_proved_for():

@@ -14,6 +14,7 @@ from meshwright.contact.certificate import certify, certify_boxes, certify_many
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.path import Path
 from meshwright.design.design import packaged_names
+from tests.certified import trials
 from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
 from tests.lanes import available
@@ -173,43 +174,20 @@ def test_two_contacts_about_to_meet_are_two_and_a_box_around_both_is_never_said_
         assert "unique" not in around.outcomes and "none" not in around.outcomes
 
 
-def random_boxes(drive, rng, count):
-    """(angles, centres, half-widths, whether the solution lies inside): it is just inside or outside of one side."""
-    angles = np.sort(rng.uniform(-0.5, 0.5, count) * drive.pitch())
-    traced = certify(drive, angles, drive.trace(angles)[0], np.zeros(count))
-    assert set(traced.outcomes) == {"unique"}
-    solutions = traced.records["x"]["hi"][:, : drive.model.nx]
-    half = 10.0 ** rng.uniform(-8, -4, (count, 1)) * np.ones(drive.model.nx)
-    side, inside = rng.integers(0, drive.model.nx, count), rng.random(count) < 0.5
-    shift = rng.uniform(-0.5, 0.5, half.shape)
-    gap = 10.0 ** rng.uniform(-5, -1, count)
-    shift[np.arange(count), side] = np.where(inside, 1.0 - gap, 1.0 + gap) * rng.choice([-1.0, 1.0], count)
-    return angles, solutions + shift * half, half, inside
-
-
-def no_wrong_claim(count, seed):
-    """Seeded boxes about the solutions of several drives: how many are shown to hold one, and to hold none."""
-    rng, shown = np.random.default_rng(seed), {"unique": 0, "none": 0}
-    for name in ("recess-action-full", "plain-zi", "helical-crowned", "spherical-table-2-2-convex-14-5"):
-        drive = Drive.load(name)
-        angles, centres, half, inside = random_boxes(drive, rng, count // 4)
-        outcomes = np.array(certify_boxes(drive, angles, centres, half).outcomes)
-        assert not np.any((outcomes == "unique") & ~inside)
-        assert not np.any((outcomes == "none") & inside)
-        for word in shown:
-            shown[word] += int(np.sum(outcomes == word))
-    return shown
-
-
-def test_a_box_with_the_solution_just_outside_is_never_said_to_hold_it_nor_one_with_it_just_inside_to_be_empty():
-    shown = no_wrong_claim(1200, 1)
-    assert shown["unique"] > 200 and shown["none"] > 200
+def test_of_boxes_beside_solutions_about_folds_and_lines_nothing_wrong_is_claimed():
+    shown = trials.run(2000, 1)
+    assert shown["beside"]["unique"] > 150 and shown["beside"]["none"] > 150
+    assert shown["turned"]["none"] > 200 and shown["turned"]["unique"] == 0
+    assert shown["lines"]["unique"] == shown["lines"]["none"] == 0
+    for kind in ("meeting", "crossing"):
+        assert min(shown[kind].values()) > 5
 
 
 @pytest.mark.validate
-def test_over_a_million_boxes_nothing_wrong_is_claimed():
-    shown = no_wrong_claim(1_000_000, 2)
-    assert shown["unique"] > 100_000 and shown["none"] > 100_000
+def test_of_many_more_boxes_nothing_wrong_is_claimed():
+    """A million: ``python -m tests.certified.trials 1000000``."""
+    shown = trials.run(100_000, 2)
+    assert sum(numbers["unique"] for numbers in shown.values()) > 10_000
 
 
 def test_a_contact_that_bodies_cannot_make_is_certain_as_a_solution_and_named():
@@ -249,7 +227,7 @@ def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
     angles = np.linspace(-0.4, 0.4, 50) * drive.pitch()
     solutions = drive.trace(angles)[0]
     narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
-    for width in available():
+    for width in (1, *available()):
         unique, bounds = certify_many(drive, angles, solutions, width)
         assert unique.all()
         assert np.all((bounds[:, 1] - bounds[:, 0]) / ARCSEC < 2e-7)

@@ -14,7 +14,7 @@ def test_one_drive_replaces_its_own_files_alone(tmp_path):
     assert command.main([DRIVE, "--output", str(tmp_path)]) == 0
     assert other.read_text() == "a year's work"
     assert {path.name for path in (tmp_path / "c").glob("*.h")} == {
-        f"{DRIVE}{part}.h" for part in ("", "_bounded", "_certified", "_lanes", "_sensitivity")
+        f"{DRIVE}{part}.h" for part in ("", "_bounded", "_certified", "_certify", "_lanes", "_sensitivity")
     }  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 """The examples do what they say, by themselves and against the library."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -32,6 +33,18 @@ def test_a_program_with_one_copied_header(tmp_path, error, standard):
     command = sorted(c.compilers().items())[-1][1][standard == "c++11"]
     c.run(*command, f"-std={standard}", "-O2", *c.STRICT, *c.EXACT, source, "-o", tmp_path / "contact", "-lm")
     assert error in c.run(tmp_path / "contact")
+
+
+@pytest.mark.parametrize("standard", ["c99", "c++11"])
+def test_a_proof_with_two_copied_headers(tmp_path, error, standard):
+    for name in ("cylindrical_worm_zn_zn.h", "cylindrical_worm_zn_zn_certify.h"):
+        shutil.copy(c.GENERATED / name, tmp_path)
+    source = tmp_path / ("certify.c" if standard == "c99" else "certify.cpp")
+    shutil.copy(EXAMPLES / "certify.c", source)
+    command = sorted(c.compilers().items())[-1][1][standard == "c++11"]
+    c.run(*command, f"-std={standard}", "-O1", *c.STRICT, *c.EXACT, source, "-o", tmp_path / "certify", "-lm")
+    said = re.search(r"error (\S+) arcsec within (\S+) arcsec, the only one within (\S+) ", c.run(tmp_path / "certify"))
+    assert said[1] == error and 0.0 < float(said[2]) < 1e-8 < float(said[3])
 
 
 def test_the_library_without_the_python_package(error):

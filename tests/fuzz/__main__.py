@@ -36,12 +36,15 @@ SIZES = {"short": Size(1500, 100, 6, 80_000, 40, 15), "full": Size(200_000, 10_0
 #: Packaged designs whose drives the short run compiles.
 FEW = ("spherical-table-2-3",)
 
+#: Share of the analysed designs of which path and limits are sought too.
+DEEP = 0.2
+
 #: Inputs of a process, of random bytes and of bytes led by coverage, in turn; seconds an input may take.
 PIECE, LED, LIMIT = 200, 400, 60
 
 
 def _designs(size, seed):
-    total, failures = designs.run(size.designs, size.analyse, seed)
+    total, failures = designs.run(size.designs, size.analyse, seed, DEEP)
     wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
     again = "; show one again with python -m tests.fuzz.designs --show SEED" if wrong else ""
     return f"{sum(total.values())} loaded, {total['analysed']} analysed, {total['refused']} refused{again}", wrong

@@ -576,7 +576,7 @@ static uint64_t run(const uint8_t *data, size_t size)
             case 7: trace(&r, &f, 1); break;
             case 8: follow(&r, &f); break;
             case 9: arc(&r, &f); break;
-            case 10: branch(&r, &f); break;
+            case 10: branch(&r, &f); branch_proof(&r, &f); break;
             case 11: in_lanes(&r, &f); break;
             case 12: tangents(&r, &f); break;
             case 13: words(&r, &f); break;

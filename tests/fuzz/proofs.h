@@ -238,6 +238,31 @@ static void certificates(reader *r, fuzzed *f)
     calls += 4;
 }
 
+/* A fold or crossing where the solver finds one, or anywhere: what is proved of it, Newton's method finds there too. */
+static void branch_proof(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    int all;
+    const mw_wide *s = enclosed_state(r, f, &all);
+    const int crossing = byte(r) & 1;
+    double angle = number(r, f->from->phi), *x = solved_start(r, f, angle), *scale = numbers((size_t)m->nx);
+    mw_branch_certificate *c = room(1, sizeof *c);
+    if (byte(r) < 224) mw_branch_point(m, f->s, crossing, &angle, x);
+    if (mw_certify_branch(m, s, crossing, angle, x, c) != c->outcome) fail("a singular point: two words for one outcome");
+    if ((c->outcome == MW_UNIQUE) != (c->reason == MW_REASON_NONE)) fail("a singular point without its reason");
+    note(r, &c->outcome, sizeof c->outcome);
+    calls += 2;
+    if (c->outcome != MW_UNIQUE) return;
+    if (!(c->angle.radius <= c->box) || !(fabs(c->angle.mid) < HUGE_VAL)) fail("a singular point beyond its box");
+    if (!f->completed || !all || mw_branch_point(m, f->s, crossing, &angle, x) < 0) return;
+    int inside = fabs(angle - c->angle.mid) < 0.5 * c->box;
+    m->set_phi(f->s, angle);
+    m->scale(f->s, scale);
+    for (int i = 0; i < m->nx; i++) inside = inside && fabs(x[i] - c->x[i].mid) < 0.5 * c->box * scale[i];
+    if (inside && !(fabs(angle - c->angle.mid) <= c->angle.radius + 1e-7)) fail("another singular point where one is said to be");
+    successes++;
+}
+
 /* A piece from its solutions, which a trace finds; its polynomials at an angle and over a part of it. */
 static mw_piece *piece_of(reader *r, fuzzed *f, const mw_wide *s, double from, double to, size_t *solved)
 {
@@ -307,6 +332,7 @@ static void without_proofs(reader *r, fuzzed *f, const mw_model *other)
     mw_wide *s = room(slots, sizeof *s), *p = room((size_t)f->m->np, sizeof *p), phi = as_wide(0.1, 0.0);
     double *x = start(r, f), *o = numbers((size_t)f->m->no), *nodes = numbers((MW_ORDER + 1) * nx);
     mw_certificate c;
+    mw_branch_certificate found;
     mw_piece *piece = room(1, sizeof *piece);
     mw_info info;
     mw_ball error;
@@ -329,7 +355,8 @@ static void without_proofs(reader *r, fuzzed *f, const mw_model *other)
     refused += mw_certify_many(mw_lanes(2), other, s, &phi, x, 1, &unique, &error) == 0 && !unique;
     refused += mw_certify_piece(other, s, 0.1, 0.2, nodes, piece) == MW_UNKNOWN && piece->reason == MW_REASON_ARITHMETIC;
     refused += mw_pieces_join(other, piece, piece, 0.2) == 0;
+    refused += mw_certify_branch(other, s, 0, 0.1, x, &found) == MW_UNKNOWN && found.reason == MW_REASON_ARITHMETIC;
     mw_enclose_setup(other, p, s);
-    if (refused != 14) fail("a table without proofs is not refused");
-    calls += 16;
+    if (refused != 15) fail("a table without proofs is not refused");
+    calls += 17;
 }

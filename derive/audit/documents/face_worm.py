@@ -4,6 +4,7 @@ Gear cut by a tilted head-cutter as its copy, worm enveloped by the same tool. A
 """
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
+from derive.audit.described import Described
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -28,28 +29,39 @@ DOCUMENT = Document(
     },
 )
 
+DRIVE = Described(
+    "face_worm",
+    {"N_1*psi_worm/N_2": "phi2", "N_1*psi_hob/N_2": "phi2", "psi_worm": "psi", "psi_hob": "psi", "E_m": "E0",
+     "a_pl": "apl"},
+)  # fmt: skip
+#: Any tool surface, carried by the motion in which it cuts the worm; the worm's frame turned back into the fixed one.
+CUTTING = DRIVE.generation("pinion")
+
 WORM = scope(
     "face-worm.worm",
     """
 tool = vec(x, y, z)
 frame = mat([0, 0, 1], [0, 1, 0], [-1, 0, 0])
-E_m = E0 + apl*psi**2
 moved = Rz(phi2)@tool
-r1 = Rz(-psi)@(T(frame)@(moved - vec(L, E_m, 0)))
 r1_psi = d(r1, (psi, 1), (phi2, m))
+E_m = E0 + apl*psi**2
 velocity = m*cross(vec(0, 0, 1), moved) - cross(vec(1, 0, 0), moved - vec(L, E_m, 0)) - vec(0, 2*apl*psi, 0)
 normal = cross(d(tool, u), d(tool, theta))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
+    described={"r1": DRIVE.carried(CUTTING, "tool")},
 )
 
 HOB = scope(
     "face-worm.hob",
     """
-r2 = Rz(-phi2)@(vec(L, E0, 0) + mat([0, 0, 1], [0, 1, 0], [-1, 0, 0])@(Rz(psi)@vec(x, y, z)))
 f = triple(d(r2, u), d(r2, theta), d(r2, (psi, 1), (phi2, m)))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
+    described={
+        "hob": ("vec", *(("jet", name, 0, 0) for name in "xyz")),
+        "r2": DRIVE.carried(DRIVE.generation("reference_wheel/flank"), "hob"),
+    },
 )
 
 IMPLICIT = scope(
@@ -124,8 +136,10 @@ CLAIMS = (
         "eq-8",
         "Eq (8)",
         "E_m(ψ1) = E0 + apl ψ1²",
-        "Definition of the plunge. The unit of apl is mm/rad²; Tables 1 and 2 print mm.",
-        kind="definition",
+        "The worm's axis passes the head-cutter at this distance, as the motion that cuts it says. The unit of apl is "
+        "mm/rad²; Tables 1 and 2 print mm.",
+        WORM,
+        "r1 = Rz(-psi)@(T(frame)@(moved - vec(L, E0 + apl*psi**2, 0)))",
     ),
     Claim(
         "eq-9",

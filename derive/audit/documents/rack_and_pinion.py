@@ -4,6 +4,7 @@ The worm as a sliding rack, limit points, meshing axes. All profiles generic (je
 """
 
 from derive.audit.claims import Claim, Document, scope
+from derive.audit.described import Described
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -46,6 +47,15 @@ DOCUMENT = Document(
     },
 )
 
+#: A drive at right angles, of any profile: its screw motion and its motions in mesh.
+DRIVE = Described(
+    "cylindrical_worm_zn_zn",
+    {
+        "tan(lambda_worm)": "p/r_worm", "psi_worm": "lam", "phi_worm": "phi1",
+        "transmission_error": "phi2 - T_1/T_2*phi1", "Sigma": "pi/2", "dA": "0", "dh": "0", "dv": "0", "da": "0",
+    },
+)  # fmt: skip
+
 WORM = scope(
     "rack-and-pinion",
     """
@@ -60,9 +70,7 @@ omega2 = I*k2
 psi = lam + phi1
 e = vec(cos(psi), sin(psi), 0)
 e1 = vec(-sin(psi), cos(psi), 0)
-R1 = xi*vec(cos(lam), sin(lam), 0) + eta*vec(-sin(lam), cos(lam), 0) + (zeta + p*lam)*k1
-r1 = xi*e + eta*e1 + (zeta + p*lam)*k1
-r2 = r1 - A*i1
+r2 = r1 - seat
 n = cross(d(r1, u), d(r1, lam))
 f = dot(cross(omega2, r2) - cross(omega1, r1), n)
 Z = zeta + p*lam
@@ -75,12 +83,19 @@ rj = R1j*i1 - Q*j1
 S0 = -dot(r1, k1)/dot(n, k1)
 Q0 = -dot(r1 + S0*n, j1)
 B2 = Ry(-phi2)
-R2 = T(B2)@(r1 - A*i1)
+R2 = Rx(-pi/2)@(T(mounted)@(r1 - seat))
 R2_u = d(R2, u)
 R2_lam = d(R2, lam)
 R2_phi1 = d(R2, (phi1, 1), (phi2, I))
 """,
     jets={"xi": ("u",), "eta": ("u",), "zeta": ("u",)},
+    described={
+        "P": ("vec", ("jet", "xi", 0), ("jet", "eta", 0), ("jet", "zeta", 0)),
+        "R1": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
+        "r1": DRIVE.carried(DRIVE.motion("pinion"), "R1"),
+        "mounted": DRIVE.matrix(DRIVE.motion("wheel")),
+        "seat": DRIVE.carried(DRIVE.motion("wheel"), ("vec", 0, 0, 0)),
+    },
 )
 
 RACK = scope(
@@ -129,19 +144,57 @@ omega_b = 1/cos(alpha)*(-cos(alpha)*k1 + sin(alpha)*j1)
 """,
 )
 
+#: The meshing function of one revolution before.
+EARLIER = scope(
+    "rack-and-pinion.earlier",
+    """
+a = xi*n_k - Z*n_e
+b = Z*n_1 - eta*n_k
+before = psi - 2*pi
+""",
+    extends=WORM,
+)
+
+PITCH_HELIX = scope(
+    "rack-and-pinion.pitch-helix",
+    """
+at_pitch = d(Rz(lam)@(R1j*i1) + p*lam*k1, lam)
+at_reference = d(Rz(lam)@(r_ref*i1) + p*lam*k1, lam)
+inclined = Rz(lam)@vec(0, cos(alpha), sin(alpha))
+""",
+    extends=AXES,
+)
+
+SECOND_AXIS = scope(
+    "rack-and-pinion.second-axis",
+    """
+p = A*I*tan(alpha)/(I + tan(alpha))
+along = -cos(alpha)*k1 + sin(alpha)*j1
+r_2f = R2f*i1 + v*along
+R2f = 0
+r1 = Rz(phi1)@(Rz(lam)@P + p*lam*k1)
+r2 = r1 - A*i1
+n = cross(d(r1, u), d(r1, lam))
+f = dot(cross(omega2, r2) - cross(omega1, r1), n)
+""",
+    extends=WORM,
+)
+
 ANY_SHAFT_ANGLE = scope(
     "rack-and-pinion.any-shaft-angle",
     """
-i1 = vec(1, 0, 0)
-k1 = vec(0, 0, 1)
 k2 = vec(0, sin(shaft), cos(shaft))
+f_any = dot(cross(-I*k2, r1 - A*i1) - cross(k1, r1), n)
 D = -I*k2 - k1 + tau*k1
 W = cross(-I*k2, -A*i1) + tau*p*k1
 middle = p + p*I*cos(shaft) + A*I*sin(shaft)
 quadratic = p*tau**2 - middle*tau + A*I*sin(shaft)
 discriminant = middle**2 - 4*p*A*I*sin(shaft)
 """,
+    extends=WORM,
 )
+
+RIGHT_ANGLE = scope("rack-and-pinion.right-angle", "shaft = pi/2", extends=ANY_SHAFT_ANGLE)
 
 CLAIMS = (
     Claim(
@@ -166,12 +219,29 @@ CLAIMS = (
         },
     ),
     Claim(
+        "worm-surface",
+        "§1",
+        "R(1) = ξ(u) e(λ) + η(u) e_1(λ) + (ζ(u) + pλ) k_1; e(λ) = cos λ i_1 + sin λ j_1, e_1(λ) = -sin λ i_1 + cos λ "
+        "j_1",
+        "The drive's own screw motion, of any profile.",
+        WORM,
+        "R1 = xi*vec(cos(lam), sin(lam), 0) + eta*vec(-sin(lam), cos(lam), 0) + (zeta + p*lam)*k1",
+    ),
+    Claim(
         "family",
         "§1",
         "r(1) = B_1(φ_1) R(1) = ξ e(λ+φ_1) + η e_1(λ+φ_1) + (ζ+pλ) k_1",
         "Turning the helicoid about its axis only adds φ1 to λ in the circular vectors.",
         WORM,
-        "Rz(phi1)@R1 = r1",
+        "r1 = xi*e + eta*e1 + (zeta + p*lam)*k1",
+    ),
+    Claim(
+        "wheel-family",
+        "§1",
+        "r(2) = B_2(φ_2) R(2)",
+        "With B2 = Ry(-φ2) this is the contact point seen from the wheel's centre, as the drive mounts its wheel.",
+        WORM,
+        "B2@R2 = r1 - A*i1",
     ),
     Claim(
         "inverse-rotation",
@@ -196,6 +266,17 @@ CLAIMS = (
         "A screw motion moves a helicoid along itself.",
         WORM,
         "dot(p*omega1 + cross(omega1, r1), n) = 0",
+    ),
+    Claim(
+        "both-terms",
+        "§1",
+        "f(u,λ,φ_1) = (ω(2)×r(2) - ω(1)×r(1) - pω(1) + pω(1))·n = 0",
+        "p ω(1) taken away and added; with the identity of the helicoid the two middle terms go together.",
+        WORM,
+        [
+            "f = dot(cross(omega2, r2) - cross(omega1, r1) - p*omega1 + p*omega1, n)",
+            "dot(-cross(omega1, r1) - p*omega1, n) = 0",
+        ],
     ),
     Claim(
         "rack-form",
@@ -303,6 +384,16 @@ CLAIMS = (
         ["dot(R1j*i1 + C*j1, j1) = C", "dot(A*i1 - C*k2, j1) = C", "A - R1j = R2j"],
     ),
     Claim(
+        "meshing-surface",
+        "§3",
+        "n_p = ∂r(2)/∂u × ∂r(2)/∂λ",
+        "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ, and "
+        "keep f = 0.",
+        LIMIT,
+        ["dot(n_p, D_u) = 0", "dot(n_p, D_lam) = 0"],
+        conditions=["∂f/∂φ1 ≠ 0"],
+    ),
+    Claim(
         "eq-3",
         "Eq (3)",
         "(r(2), n_p, k_2) = 0   (3)",
@@ -334,6 +425,14 @@ CLAIMS = (
         "dot(r2, k2) = dot(r1, j1)",
     ),
     Claim(
+        "ruled-surface",
+        "§4",
+        "r_h(λ,u,φ_1,s) = r(1) + s n",
+        "Its normal along s is square to the surface normal, so that it touches a line where that line is.",
+        WORM,
+        ["d(r1 + sigma*n, sigma) = n", "dot(cross(d(r1 + sigma*n, phi1), n), n) = 0"],
+    ),
+    Claim(
         "eq-5",
         "Eq (5)",
         "{ (∂r_h/∂φ_1, ∂r_h/∂s, j_1) = 0 ; s = S_0   (5)",
@@ -350,14 +449,14 @@ CLAIMS = (
         "twice",
         "§4",
         "the instantaneous axis (pitch line) intersects this ruled surface twice for |φ_1| < 2π",
-        "f is a cosine in φ1 of period 2π, so there are two contacts a revolution; |φ1| < 2π spans two revolutions "
-        "and holds up to four. "
-        "The text means a half-open interval of length 2π.",
-        WORM,
+        "f is a cos ψ + b sin ψ less a constant: two contacts a revolution where a² + b² exceeds its square. At φ1 - "
+        "2π f is what it is at φ1, so each of the two contacts between 0 and 2π has a third and a fourth between -2π "
+        "and 0: |φ1| < 2π holds four. The text means a half-open interval of length 2π.",
+        EARLIER,
         contradiction=[
+            "f/I = a*cos(psi) + b*sin(psi) - R1j*n_k",
+            "a*cos(before) + b*sin(before) - R1j*n_k = f/I",
             "n = n_e*e + n_1*e1 + n_k*k1",
-            "f/I = (xi*n_k - Z*n_e)*cos(psi) + (Z*n_1 - eta*n_k)*sin(psi) - R1j*n_k",
-            "2*(2*pi - (-2*pi))/(2*pi) = 4",
         ],
     ),
     Claim(
@@ -368,6 +467,16 @@ CLAIMS = (
         WORM,
         "I*dot(cross(r1 - R1j*i1, j1), n) = f",
         drops="I",
+    ),
+    Claim(
+        "second-line",
+        "§5",
+        "r_2f = R_2f i_1 + v(-cos α k_1 + sin α j_1)",
+        "With R2f = 0 and tan α = p/R1j every contact normal meets this line, whatever v: its moment about it is sin "
+        "α f/I.",
+        SECOND_AXIS,
+        "dot(cross(r1 - r_2f, along), n) = sin(alpha)*f/I",
+        conditions=["R1j ≠ 0"],
     ),
     Claim(
         "decomposition",
@@ -395,10 +504,13 @@ CLAIMS = (
         "lead-angle",
         "§5",
         "an angle α, which is exactly the lead angle of the worm at the pitch circle",
-        "tan α = p/R1j is the lead angle at the derived pitch radius R1j. At the nominal reference radius it is only "
-        "when A = r1 + p/I (no profile shift).",
-        WORM,
-        {"pitch circle of radius R1j": "p/(A - p/I) = p/R1j", "reference circle of radius r_ref": "p/r_ref = p/R1j"},
+        "A helix of the worm at the derived pitch radius R1j is inclined by the α of tan α = p/R1j. At the nominal "
+        "reference radius it is so only when A = r1 + p/I (no profile shift).",
+        PITCH_HELIX,
+        {
+            "pitch circle of radius R1j": "cross(at_pitch, inclined) = vec(0, 0, 0)",
+            "reference circle of radius r_ref": "cross(at_reference, inclined) = vec(0, 0, 0)",
+        },
     ),
     Claim(
         "worm-axis",
@@ -415,35 +527,39 @@ CLAIMS = (
         "§5",
         "It is known that in crossed-axis gear drives where one member has a helical surface (as in worm gear "
         "pairs), meshing axes exist.",
-        "A meshing axis at shaft angle Σ is a real root τ of p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ. For p = I "
-        "= A = 1 and cos Σ = -3/5 the "
-        "discriminant is -44/25: no meshing axis.",
+        "A line that every contact normal of every helicoid meets belongs to a twist -(relative motion) + τ times "
+        "the screw motion, which is a rotation where p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ = 0. 4p times "
+        "this is (2pτ - …)² less the discriminant, which is -44/25 for p = I = A = 1 and cos Σ = -3/5: no real τ, no "
+        "meshing axis.",
         ANY_SHAFT_ANGLE,
-        contradiction=["dot(D, W) = quadratic", "(1 + (-3/5) + 4/5)**2 - 4*(4/5) = -44/25"],
+        contradiction=[
+            "dot(n, cross(D, r1) + W) = f_any",
+            "4*p*dot(D, W) = (2*p*tau - middle)**2 - discriminant",
+            "(1 + (-3/5) + 4/5)**2 - 4*(4/5) = -44/25",
+        ],
     ),
     Claim(
         "right-angle-roots",
         "§5",
         "the worm gear pair possesses two distinct meshing axes",
         "At 90° the roots are τ = 1 (pitch line) and τ = AI/p (second axis); they are distinct unless R1j = 0.",
-        ANY_SHAFT_ANGLE,
-        [
-            "p*tau**2 - (p + p*I*cos(pi/2) + A*I*sin(pi/2))*tau + A*I*sin(pi/2) = p*(tau - 1)*(tau - A*I/p)",
-            "A*I/p - 1 = I/p*(A - p/I)",
-        ],
+        RIGHT_ANGLE,
+        ["dot(D, W) = p*(tau - 1)*(tau - A*I/p)", "A*I/p - 1 = I/p*R1j"],
         conditions=["R1j ≠ 0"],
     ),
     Claim(
         "uniqueness",
         "§5",
         "This property is unique to cylindrical worm gear drives",
-        "It is not tied to right-angle drives: p = 2, I = 1/2, A = 10 at cos Σ = 3/5 has the two real roots τ = 5/2 "
-        "and τ = 4/5.",
-        ANY_SHAFT_ANGLE,
+        "What is needed is one helicoid, of any profile, not a worm: the pinion of crossed helical gears is one as "
+        "well. Helix angles of 45° on both, twice as many teeth on the gear (Σ = 90°, p = 1, I = 1/2, A = 3) give "
+        "two distinct meshing axes, at τ = 1 and τ = 3/2.",
+        RIGHT_ANGLE,
         contradiction=[
-            "dot(D, W) = quadratic",
-            "2*(5/2)**2 - (2 + 2*(1/2)*(3/5) + 10*(1/2)*(4/5))*(5/2) + 10*(1/2)*(4/5) = 0",
-            "2*(4/5)**2 - (2 + 2*(1/2)*(3/5) + 10*(1/2)*(4/5))*(4/5) + 10*(1/2)*(4/5) = 0",
+            "dot(n, cross(D, r1) + W) = f_any",
+            "dot(D, W) = p*tau**2 - (p + A*I)*tau + A*I",
+            "1*1**2 - (1 + 3*(1/2))*1 + 3*(1/2) = 0",
+            "1*(3/2)**2 - (1 + 3*(1/2))*(3/2) + 3*(1/2) = 0",
         ],
     ),
     Claim(
@@ -465,9 +581,10 @@ CLAIMS = (
         "table-r1j",
         "§6 table",
         "Derived pitch radius of worm (rack): R_1j = A - p/I",
-        "A definition, consistent with R2j = p/I.",
+        "Wheel and sliding worm have one velocity at this distance from the worm's axis and at no other.",
         WORM,
-        "R1j = A - p/I",
+        "cross(omega2, (x - A)*i1) + p*omega1 = I*(x - (A - p/I))*k1",
+        conditions=["I ≠ 0"],
     ),
 )
 

@@ -5,6 +5,7 @@ plus-or-minus; where it matters both readings are judged.
 """
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
+from derive.audit.described import HALF_TURN, Described
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -62,80 +63,196 @@ DOCUMENT = Document(
     },
 )
 
+DRIVE = "cylindrical_worm_zn_zn"
+#: Letters of the cutting: the description's psi runs against theta1, its shaft angle is 180 degrees less gamma.
+CUTTING_LETTERS = {
+    "tan(lambda_hob)": "p1/r_hob", "T_hob*phi_hob/T_2": "phi2", "t_hob": "l1", "psi_hob": "-th1", "r_t_hob": "rt",
+    "alpha_hob": "a1", "lambda_hob": "lam1", "Sigma_gen": "pi - gamma1", "A_gen": "C1", "phi_hob": "phi1",
+    "r_hob": "r1",
+}  # fmt: skip
+CUTTING = Described(DRIVE, CUTTING_LETTERS)
+#: Letters of the mesh: errors in the sense of gamma.
+MESHING = Described(
+    DRIVE,
+    {
+        "transmission_error": "phi2p - T_1/T_2*phi_worm", "Sigma": "pi - gamma3", "dh": "-dgh", "dv": "-dgv",
+        "dA": "dC", "A": "C3", "da": "0", "phi_worm": "phi3p",
+    },
+)  # fmt: skip
+DIMENSIONS = Described(
+    DRIVE,
+    {
+        "alpha_hob": "a1", "alpha": "a1", "lambda_hob": "lam1", "lambda_worm": "lam3", "r_hob": "r1", "r_worm": "r3",
+        "T_hob": "T1", "T_1": "T3", "T_2": "T2", "m_n": "mn", "Sigma": "pi - gamma3", "A": "C3",
+    },
+)  # fmt: skip
+#: The groove's width as its own letter.
+GROOVE = Described(
+    DRIVE, {"dx": "(pi*m_n/2 - bx)/(2*tan(alpha))", "alpha_hob": "a1", "alpha": "a1", "lambda_hob": "lam1",
+            "r_hob": "r1"}
+)  # fmt: skip
+GENERATION = CUTTING.generation("wheel")
+HOB_SURFACE = CUTTING.carried(CUTTING.sweep("wheel"), CUTTING.edge("wheel"))
+
 BLADE = scope(
     "recess-action.hob",
     """
-R1 = Rz(-th1)@(Rx(lam1)@vec(rt + l1*cos(a1), 0, s*l1*sin(a1))) + vec(0, 0, -p1*th1)
 R1_l = d(R1, l1)
 R1_th = d(R1, th1)
 """,
     signs=["s"],
+    described={"R1": HOB_SURFACE},
 )
 
 WIDTH = scope(
     "recess-action.width",
-    """
-rt = sqrt(r1**2 - (bx/2*sin(lam1))**2) - bx/(2*tan(a1))
-""",
+    "",
+    described={
+        "rt": GROOVE.name("r_t_hob"),
+        "width": DIMENSIONS.size("groove_width_mm"),
+    },
 )
+
+#: The wheel's frame of the paper is the description's, turned half about x.
+CUT_DESCRIBED = {
+    "turn": HALF_TURN,
+    "machine": CUTTING.matrix(GENERATION),
+    "locus": CUTTING.carried(GENERATION, "hob"),
+    "seen": CUTTING.carried(GENERATION, ("vec", 0, 0, 0)),
+    "turned": CUTTING.turned(GENERATION[-1:], "hob"),
+}
 
 CUT = scope(
     "recess-action.cut",
     """
-L21 = Rz(-phi2)@Rx(-gamma1)@Rz(phi1)
 a11 = cos(phi1)*cos(phi2) + cos(gamma1)*sin(phi1)*sin(phi2)
 a12 = -sin(phi1)*cos(phi2) + cos(gamma1)*cos(phi1)*sin(phi2)
 a21 = -cos(phi1)*sin(phi2) + cos(gamma1)*sin(phi1)*cos(phi2)
 a22 = sin(phi1)*sin(phi2) + cos(gamma1)*cos(phi1)*cos(phi2)
-hob = vec(X1, Y1, Z1)
+L21 = turn@machine
 N1 = vec(Nx, Ny, Nz)
-R2 = Rz(-phi2)@(Rx(-gamma1)@(Rz(phi1)@hob - vec(C1, 0, 0)))
+R2 = turn@locus
 n2 = L21@vec(nx, ny, nz)
+V1 = w1*(Rz(-phi1)@d(turned, phi1))
 omega1 = w1*vec(0, 0, 1)
-omega2 = m21*w1*(Rz(-phi1)@(Rx(gamma1)@vec(0, 0, 1)))
-O1O2 = Rz(-phi1)@vec(C1, 0, 0)
+omega2 = m21*w1*(T(L21)@vec(0, 0, 1))
+O1O2 = -(T(machine)@seen)
 V12 = w1*(T(L21)@d(R2, (phi1, 1), (phi2, m21)))
 """,
+    described={"hob": ("vec", "X1", "Y1", "Z1"), **CUT_DESCRIBED},
 )
 
 ENVELOPE = scope(
     "recess-action.envelope",
     """
-hob = Rz(-th1)@(Rx(lam1)@vec(rt + l1*cos(a1), 0, s*l1*sin(a1))) + vec(0, 0, -p1*th1)
 N1 = cross(d(hob, l1), d(hob, th1))
-R2 = Rz(-phi2)@(Rx(-gamma1)@(Rz(phi1)@hob - vec(C1, 0, 0)))
+L21 = turn@machine
+R2 = turn@locus
 omega1 = w1*vec(0, 0, 1)
-omega2 = m21*w1*(Rz(-phi1)@(Rx(gamma1)@vec(0, 0, 1)))
-V12 = cross(omega1 - omega2, hob) - cross(Rz(-phi1)@vec(C1, 0, 0), omega2)
+omega2 = m21*w1*(T(L21)@vec(0, 0, 1))
+O1O2 = -(T(machine)@seen)
+V12 = cross(omega1 - omega2, hob) - cross(O1O2, omega2)
 """,
     signs=["s"],
+    described={"hob": HOB_SURFACE, **CUT_DESCRIBED},
 )
 
+#: What a design's table of misalignments holds, but for the shift along the wheel's axis, which the paper has not.
+ERRORS = [key["symbol"]["name"] for key in MESHING.data["keys"] if key["table"] == "misalignment"][:3]
 MESH = scope(
     "recess-action.mesh",
     """
-L_w3 = Rz(phi3p)
-L_w2 = Rx(gamma3 + dgh)@Ry(dgv)@Rz(phi2p)
+L_w2 = ours@turn
 b21 = sin(gamma3 + dgh)*sin(dgv)*cos(phi2p) + cos(gamma3 + dgh)*sin(phi2p)
 b22 = -sin(gamma3 + dgh)*sin(dgv)*sin(phi2p) + cos(gamma3 + dgh)*cos(phi2p)
 b31 = -cos(gamma3 + dgh)*sin(dgv)*cos(phi2p) + sin(gamma3 + dgh)*sin(phi2p)
 b32 = cos(gamma3 + dgh)*sin(dgv)*sin(phi2p) + sin(gamma3 + dgh)*cos(phi2p)
-R_w3 = L_w3@vec(X3, Y3, Z3)
-R_w2 = L_w2@vec(X2, Y2, Z2) + vec(C3 + dC, 0, 0)
 n_w3 = L_w3@vec(nx3, ny3, nz3)
 n_w2 = L_w2@vec(nx2, ny2, nz2)
-errors = vec(dC, dgh, dgv)
+e = vec(ex, ey, ez)
 """,
+    described={
+        "turn": HALF_TURN,
+        "point": ("vec", "X2", ("-", "Y2"), ("-", "Z2")),
+        "L_w3": MESHING.matrix(MESHING.motion("pinion")),
+        "ours": MESHING.matrix(MESHING.motion("wheel")),
+        "R_w3": MESHING.carried(MESHING.motion("pinion"), ("vec", "X3", "Y3", "Z3")),
+        "R_w2": MESHING.carried(MESHING.motion("wheel"), "point"),
+        "errors": ("vec", *(MESHING.tree(name if name == "dA" else ["*", -1, name]) for name in ERRORS)),
+    },
 )
 
+#: Sizes as the rules of the description complete a design: the normal pitch is lead times cosine over threads.
 SIZES = scope(
     "recess-action.sizes",
     """
-r1 = mn*T1/(2*sin(lam1))
-r2 = mn*T2/(2*cos(lam3))
-C3 = r2 + r3
-gamma1 = gamma3 + lam1 - lam3
+C3 = C3_rule
+r2 = C3 - r3
+gamma1 = pi - Sigma_gen
+pitch_1 = 2*pi*p_hob*cos(lam1)/T1
+pitch_3 = 2*pi*p_worm*cos(lam3)/T3
 """,
+    described={
+        "r3": DIMENSIONS.rule("r_worm"),
+        "C3_rule": DIMENSIONS.rule("A"),
+        "C1_rule": DIMENSIONS.rule("A_gen"),
+        "Sigma_gen": DIMENSIONS.rule("Sigma_gen"),
+        "p_hob": DIMENSIONS.size("screw_parameter_hob_mm_per_rad"),
+        "p_worm": DIMENSIONS.size("screw_parameter_worm_mm_per_rad"),
+    },
+)
+
+#: The pitch point in the cutting: both axes turned to 0, a hob point on the common perpendicular.
+ROLLING = scope(
+    "recess-action.rolling",
+    """
+C3 = C3_rule
+gamma1 = pi - Sigma_gen
+phi1 = 0
+phi2 = 0
+r1 = mn*T1/(2*sin(lam1))
+O1O2 = -(T(machine)@seen)
+omega2 = T1/T2*(T(turn@machine)@vec(0, 0, 1))
+V = cross(vec(0, 0, 1) - omega2, vec(r1, 0, 0)) - cross(O1O2, omega2)
+across = Rx(lam1)@vec(0, 0, 1)
+""",
+    described={
+        "r3": DIMENSIONS.rule("r_worm"),
+        "C3_rule": DIMENSIONS.rule("A"),
+        "C1_rule": DIMENSIONS.rule("A_gen"),
+        "Sigma_gen": DIMENSIONS.rule("Sigma_gen"),
+        "turn": HALF_TURN,
+        "machine": CUT_DESCRIBED["machine"],
+        "seen": CUT_DESCRIBED["seen"],
+    },
+)
+
+def _throat(shift: str):
+    """The drive's rule for the wheel's tip at 90 degrees, with the paper's limits and the pitch line shifted."""
+    letters = {"dx": shift, "limits": "1", "Sigma": "pi/2", "m_n": "mn", "T_2": "T2", "lambda_worm": "lam3"}
+    return Described(DRIVE, letters).rule("R_tip")
+
+
+THROAT = scope(
+    "recess-action.throat",
+    "",
+    described={"semi": _throat("m_n"), "full": _throat("2*m_n"), "standard": _throat("0")},
+)
+
+#: Eq (15) at one place of the locus: φ1 = 0 and Y1 = 0.
+COUNT = scope(
+    "recess-action.count",
+    """
+e = vec(ex, ey, ez)
+phi1 = 0
+Y1 = 0
+hob = vec(X1, Y1, Z1)
+machine_seen = turn@machine
+omega2 = m21*w1*(T(machine_seen)@vec(0, 0, 1))
+V_somewhere = cross(w1*vec(0, 0, 1) - omega2, hob) + cross(T(machine)@seen, omega2)
+""",
+    described={"machine": CUT_DESCRIBED["machine"], "seen": CUT_DESCRIBED["seen"]},
+    extends=MESH,
 )
 
 ANGLES = (("phi2p", "phi3p"), ("dgh", "dgv"))
@@ -179,15 +296,19 @@ CLAIMS = (
         "rt = √( r1² � (bx/2 sin λ1)² ) � bx / (2 tan α1)",
         "With this rt the edge crosses the pitch cylinder exactly where the groove is bx wide.",
         WIDTH,
-        "(rt + bx/(2*sin(a1))*cos(a1))**2 + (bx/2*sin(lam1))**2 = r1**2",
+        [
+            "rt = sqrt(r1**2 - (bx/2*sin(lam1))**2) - bx/(2*tan(a1))",
+            "(rt + bx/(2*sin(a1))*cos(a1))**2 + (bx/2*sin(lam1))**2 = r1**2",
+        ],
         conditions=["r1 ≥ bx sin λ1 / 2", "0 < α1 < 90°"],
     ),
     Claim(
         "eq-3",
         "Eq (3)",
         "bx = bn � 2 dx tan α1, bn = π mn/2",
-        "Groove width at the shifted pitch line: a definition.",
-        kind="definition",
+        "Groove width at the shifted pitch line, as the drive's own sizes give it.",
+        WIDTH,
+        "width = pi*mn/2 - 2*dx*tan(a1)",
     ),
     Claim("eq-4", "Eq (4)", "N1 = ∂R1/∂l1 × ∂R1/∂θ1, n1 = N1/|N1|", "Definition of the normal.", kind="definition"),
     Claim(
@@ -292,7 +413,14 @@ CLAIMS = (
         CUT,
         "V12 = cross(omega1 - omega2, hob) - cross(O1O2, omega2)",
     ),
-    Claim("eq-12", "Eq (12)", "ω1 = ω1 [0 0 1]ᵀ", "The hob turns about its own axis.", CUT, "omega1 = w1*vec(0, 0, 1)"),
+    Claim(
+        "eq-12",
+        "Eq (12)",
+        "ω1 = ω1 [0 0 1]ᵀ",
+        "The velocity of any hob point by the hob's own turn in the machine, in S1, is this vector × R1.",
+        CUT,
+        "V1 = cross(w1*vec(0, 0, 1), hob)",
+    ),
     Claim(
         "eq-13",
         "Eq (13)",
@@ -308,7 +436,7 @@ CLAIMS = (
         "O1O2 = [ cos φ1 C1 ; � sin φ1 C1 ; 0 ]",
         "The wheel's centre seen from the hob.",
         CUT,
-        "O1O2 = vec(cos(phi1)*C1, -sin(phi1)*C1, 0)",
+        ["O1O2 = vec(cos(phi1)*C1, -sin(phi1)*C1, 0)"],
     ),
     Claim(
         "eq-15",
@@ -445,10 +573,18 @@ CLAIMS = (
         "§8.1",
         "Since |n_w(3)| = 1 and |n_w(2)| = 1, Eqs. (16)–(18) yield a system of six independent nonlinear equations "
         "with seven independent parameters",
-        "One of the three normal equations follows from the others: the difference of two unit vectors is "
-        "perpendicular to their sum. 1 + 3 + 2 = 6.",
-        MESH,
-        ["dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)", "1 + 3 + (3 - 1) = 6"],
+        "One of the three equations (18) follows from the other two: the difference of two unit vectors is "
+        "perpendicular to their sum. No other one does: a small turn w moves a normal by w × n, which can be any "
+        "change e - n(n·e) at right angles to it, and a shift moves the three coordinates of (17) as it likes while "
+        "the normals stay. Nor does (16): (17) and (18) hold wherever a worm is laid against the locus of the hob, "
+        "and there f/ω1 may be m21 sin γ1 Z1 (φ1 = 0, N1 along X1, Y1 = 0).",
+        COUNT,
+        [
+            "dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)",
+            "cross(cross(n_w3, e), n_w3) = dot(n_w3, n_w3)*e - dot(n_w3, e)*n_w3",
+            "d(R_w2 + t*e, t) = e",
+            "dot(vec(1, 0, 0), V_somewhere) = w1*m21*sin(gamma1)*Z1",
+        ],
         conditions=["near parallel normals (n_w3 + n_w2 ≠ 0)"],
     ),
     Claim(
@@ -519,20 +655,28 @@ CLAIMS = (
         "eq-36",
         "Eq (36)",
         "λ1 = sin⁻¹( mn cos λ3 / (2 r1) )",
-        "For a normal module the lead angle obeys sin λ1 = mn T1/(2 r1): lead 2π r1 tan λ1 = π T1 mn/cos λ1. The "
-        "printed form holds for one thread if mn "
-        "were the worm's axial module.",
+        "Hob and worm cut and fill the same wheel, so their normal pitches, lead times cosine over threads, are equal. "
+        "Their difference is 2π r1/T1 times sin λ1 - mn T1/(2 r1): equal pitch is this equation and no other. The "
+        "printed form holds for one thread if mn were the worm's axial module.",
         SIZES,
-        "sin(lam1) = mn*cos(lam3)/(2*r1)",
-        corrected="sin(lam1) = mn*T1/(2*r1)",
+        "sin(lam1) - mn*cos(lam3)/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
+        corrected="sin(lam1) - mn*T1/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
+        conditions=["r1 ≠ 0"],
     ),
     Claim(
         "eq-37",
         "Eq (37)",
         "C1 = C3 + r1 � r3",
-        "The hob's larger radius moves its axis away.",
-        SIZES,
-        "r1 + r2 = C3 + r1 - r3",
+        "The hob rolls on the wheel's pitch cylinder where the relative velocity at the pitch point lies along its "
+        "thread. Across the thread that velocity is a factor times C1 - (C3 + r1 - r3): it vanishes, and the wheel "
+        "gets the hob's normal pitch, for this centre distance alone. The factor is not 0 for crossed axes.",
+        ROLLING,
+        [
+            "dot(V, across) = T1/T2*sin(gamma1 - lam1)*(C1 - (C3 + r1 - r3))",
+            "dot(V, vec(1, 0, 0)) = 0",
+            "C1_rule = C3 + r1 - r3",
+        ],
+        conditions=["γ1 ≠ λ1"],
     ),
     Claim(
         "eq-38",
@@ -540,31 +684,38 @@ CLAIMS = (
         "γ1 = γ3 + λ1 � λ3",
         "With this angle hob and worm have the same groove direction at the pitch point.",
         SIZES,
-        "Rx(-gamma1)@vec(0, cos(lam1), sin(lam1)) = Rx(-gamma3)@vec(0, cos(lam3), sin(lam3))",
+        [
+            "Rx(-gamma1)@vec(0, cos(lam1), sin(lam1)) = Rx(-gamma3)@vec(0, cos(lam3), sin(lam3))",
+            "gamma1 = gamma3 + lam1 - lam3",
+        ],
     ),
     FigureClaim(
         "table-1",
         "Table 1",
-        "Lead angle 2.86 deg; pitch radius 19.11, 277.38 mm; 4.7% oversize; cutting center distance 297.38 mm; "
-        "cutting crossing angle 89.86 deg; meshing center distance 296.49 mm",
-        "All sizes follow, the hob's lead angle from Eq (36) as printed (the corrected equation gives 2.87 deg and "
-        "89.87 deg).",
+        "pitch radius 19.11, 277.38 mm; meshing center distance 296.49 mm",
+        "The sizes of worm and wheel follow from mn = 2 mm, 1 and 277 teeth and λ3 = 3 deg.",
         [
-            Figure("degrees(asin(2*cos(radians(3))/(2*20)))", "2.86", "deg"),
             Figure("2*1/(2*sin(radians(3)))", "19.11", "mm"),
             Figure("2*277/(2*cos(radians(3)))", "277.38", "mm"),
-            Figure("100*(20*sin(radians(3)) - 1)", "4.7", "%"),
-            Figure("296.49 + 20 - 19.11", "297.38", "mm"),
-            Figure("90 + degrees(asin(2*cos(radians(3))/(2*20))) - 3", "89.86", "deg"),
             Figure("2*1/(2*sin(radians(3))) + 2*277/(2*cos(radians(3)))", "296.49", "mm"),
         ],
     ),
-    FigureClaim(
-        "lead-angle-corrected",
+    Claim(
+        "hob-radius",
+        "Table 1",
+        "pitch radius 20.00 mm; 4.7% oversize; cutting center distance 297.38 mm",
+        "4.7% and 297.38 = 296.49 + 20 - 19.11 agree with r1 = 20 mm. Table 2 does not: its rows come out to the "
+        "last digit with r1 = 20.0638 mm (5.0%, 297.45 mm), and with 20 mm the kinematic error is 6% too small and "
+        "θ1 0.4 deg off. Which radius was meant cannot be told from the text.",
+        missing="the pitch radius of the hob with which Table 2 was computed",
+    ),
+    Claim(
+        "lead-angle",
         "Table 1, §9",
-        "λ1 = 2.86 deg",
-        "With sin λ1 = mn T1/(2 r1) the lead angle of the hob of radius 20 mm is 2.87 deg.",
-        [Figure("degrees(asin(2*1/(2*20)))", "2.86", "deg")],
+        "lead angle 2.86 deg; cutting crossing angle 89.86 deg",
+        "2.86 deg follows from Eq (36) as printed with r1 = 20 mm, and from the corrected equation with the r1 = "
+        "20.0638 mm of Table 2; the corrected equation with 20 mm gives 2.87 deg, and 89.87 deg for γ1.",
+        missing="the pitch radius of the hob with which it was computed",
     ),
     FigureClaim(
         "thickness",
@@ -586,12 +737,12 @@ CLAIMS = (
         "With a normal module the wheel's pitch radius is mn T2/(2 cos λ3); the throat lies 2 mn - dx above it. The "
         "printed radii lack 1/cos λ3 (0.38 mm in "
         "the example), and the limits of the tables only come out with it.",
-        SIZES,
-        ["r2 + (2*mn - mn) = (T2 + 2)*mn/2", "r2 + (2*mn - 2*mn) = T2*mn/2", "r2 + (2*mn - 0) = (T2 + 4)*mn/2"],
+        THROAT,
+        ["semi = (T2 + 2)*mn/2", "full = T2*mn/2", "standard = (T2 + 4)*mn/2"],
         corrected=[
-            "r2 + (2*mn - mn) = (T2/cos(lam3) + 2)*mn/2",
-            "r2 + (2*mn - 2*mn) = T2/cos(lam3)*mn/2",
-            "r2 + (2*mn - 0) = (T2/cos(lam3) + 4)*mn/2",
+            "semi = (T2/cos(lam3) + 2)*mn/2",
+            "full = T2/cos(lam3)*mn/2",
+            "standard = (T2/cos(lam3) + 4)*mn/2",
         ],
     ),
     FigureClaim(
@@ -604,6 +755,14 @@ CLAIMS = (
         "The heading φ3′ appears twice. At φ3′ = 400 the fifth column holds 1.4441, which is φ2′.",
         [Figure("400", "1.4441", "deg")],
         corrected=[Figure("400/277 + 0.0589/3600", "1.4441", "deg")],
+    ),
+    FigureClaim(
+        "table-2-hob-angle",
+        "Table 2, column 7",
+        "Full 400.0 6.0490 398.9639 1.4441 6.0494 400.0083 0.0585 7.58",
+        "Standard, semi and full differ by equal steps of dx, and θ1 with them: 401.0173, 401.0128, 401.0083 deg at "
+        "400 deg as 801.7385, 801.7315, 801.7246 deg at 800 deg. One digit is wrong.",
+        [Figure("2*401.0128 - 401.0173", "400.0083", "deg")],
     ),
     FigureClaim(
         "table-2-wheel-angle",

@@ -4,6 +4,7 @@ Barrel-shaped and waisted gears cut by a rack that sweeps an arc.
 """
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
+from derive.audit.described import Described
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -33,31 +34,55 @@ DOCUMENT = Document(
     },
 )
 
-EDGE = scope(
-    "spherical.edge",
-    """
-X = l*cos(alpha) - a
-edge = vec(X, s*(b - X*tan(alpha)), 0)
-convex = Ry(-theta)@(edge - vec(-R, 0, 0)) + vec(-R, 0, 0)
-concave = Ry(theta)@(edge - vec(R, 0, 0)) + vec(R, 0, 0)
-M_ca = Ry(-theta)
-""",
-    signs=["s"],
+CONVEX = Described(
+    "spherical_convex_concave",
+    {"l_pinion": "l", "theta_pinion": "theta", "a_pinion": "a", "b_pinion": "b", "R_pinion": "R",
+     "T_1": "2*r/m", "phi_gen_pinion": "phi"},
+)  # fmt: skip
+CONCAVE = Described(
+    "spherical_convex_concave",
+    {"l_wheel": "l", "theta_wheel": "theta", "a_wheel": "a", "b_wheel": "b", "R_wheel": "R"},
+)
+#: The wheel in mesh turns by an angle of its own, phi2.
+MESH = Described(
+    "spherical_convex_concave",
+    {"transmission_error": "pi - phi2 - T_1/T_2*phi_pinion - 2*s*b_wheel/(m*T_2)", "dC": "C - m*T_1/2 - m*T_2/2"},
 )
 
+EDGE = scope(
+    "spherical.edge",
+    "",
+    signs=["s"],
+    described={
+        "edge": CONVEX.edge("pinion"),
+        "convex": CONVEX.carried(CONVEX.sweep("pinion"), "edge"),
+        "concave": CONCAVE.carried(CONCAVE.sweep("wheel"), "edge"),
+        "M_ca": CONVEX.matrix(CONVEX.sweep("pinion")),
+        "middle": CONVEX.carried(CONVEX.sweep("pinion"), ("vec", 0, 0, 0)),
+    },
+)
+
+#: The middle section.
+MIDDLE = scope("spherical.middle", "theta = 0", extends=EDGE)
+
+#: The rack in the fixed frame is what the generating motion carries before the gear's own turn. What a gear's observer
+#: sees of the rack, turned back, is its velocity relative to the gear.
 RACK = scope(
     "spherical.rack",
     """
-rack = vec(Xc, Yc - r*phi, Zc)
 N = vec(Nx, Ny, Nz)
-V_rack = omega*d(rack, phi)
-V_gear = cross(vec(0, 0, -omega), rack - vec(-r, 0, 0))
-V = V_rack - V_gear
-R_g = Rz(phi)@(rack + vec(r, 0, 0))
-N_g = Rz(phi)@N
+V = omega*(T(turn)@d(R_g, phi))
+V_rack = omega*d(shifted, phi)
+V_gear = V_rack - V
+N_g = turn@N
 """,
+    described={
+        "shifted": CONVEX.carried(CONVEX.generation("pinion")[1:], ("vec", "Xc", "Yc", "Zc")),
+        "turn": CONVEX.matrix(CONVEX.generation("pinion")[:1]),
+        "R_g": CONVEX.carried(CONVEX.generation("pinion"), ("vec", "Xc", "Yc", "Zc")),
+        "placed": MESH.carried(MESH.motion("wheel"), ("vec", "Xg", "Yg", "Zg")),
+    },
 )
-
 
 def reserve(teeth: int, degrees: str, width: int) -> str:
     """Left side of the undercut condition at the end of the edge (l = 0) and of the face, R = r = mT/2, m = a = 4,
@@ -141,7 +166,7 @@ CLAIMS = (
         "The shift at height Z lies on the circle (R - shift)² + Z² = R²: a quadratic equation, close to the "
         "parabola Z²/2R but not equal to it.",
         EDGE,
-        "(R - R*(1 - cos(theta)))**2 + (R*sin(theta))**2 = R**2",
+        ["(R + middle.x)**2 + middle.z**2 = R**2", "middle.y = 0"],
     ),
     Claim(
         "eq-2.10",
@@ -222,6 +247,14 @@ CLAIMS = (
         "At Z = 0 the condition is r sin² αn ≥ a: it fails for 31 teeth and holds for 32.",
         [Figure("62*sin(radians(14.5))**2 - 4", "<0"), Figure("64*sin(radians(14.5))**2 - 4", ">0")],
     ),
+    Claim(
+        "middle-section",
+        "§2.6",
+        "球形齒輪在中央截面處(Z=0 mm)的過切情形 \n與正齒輪相同，此乃由於在中央截面處之轉位量為零。",
+        "At the middle section the edge of the convex and of the concave rack is that of a spur gear's, not shifted.",
+        MIDDLE,
+        ["convex = edge", "concave = edge", "middle = vec(0, 0, 0)"],
+    ),
     FigureClaim(
         "free-24",
         "§2.6",
@@ -233,8 +266,8 @@ CLAIMS = (
         "free-36",
         "§2.6",
         "凸狀 14.5°, face width 20 mm: no undercut at the ends from 36 teeth on",
-        "With R = mT/2 36 teeth are undercut at the ends of the face; with R = 150 mm 36 and 24 teeth are free of "
-        "undercut. The text can be meant either way.",
+        "With R = mT/2 36 teeth are undercut at the ends of the face; with R = 150 mm they are free of undercut, as "
+        "the 24 teeth at 20° are then. The text can be meant either way.",
         missing="the spherical radius R that was used",
     ),
     Claim(
@@ -248,10 +281,11 @@ CLAIMS = (
         "linear",
         "§3.2",
         "由五個獨立之線性方程式求得五個未知的齒面參數 (five independent linear equations)",
-        "The sentence before says nonlinear, and so they are: the second derivative of a coordinate by the angle is "
-        "not 0 but minus the coordinate.",
+        "One of the five unknowns is the wheel's angle φ2. Of a wheel point in mesh, as the drive mounts it, the first "
+        "coordinate less the centre distance is its own second derivative by φ2 but for the sign: in a linear equation "
+        "that derivative would be 0. The sentence before says nonlinear.",
         RACK,
-        contradiction="d(d(Xc*cos(phi) - Yc*sin(phi), phi), phi) = -(Xc*cos(phi) - Yc*sin(phi))",
+        contradiction=["d(d(placed.x, phi2), phi2) = C - placed.x", "d(d(placed.y, phi2), phi2) = -placed.y"],
     ),
     Claim(
         "eq-3.7",

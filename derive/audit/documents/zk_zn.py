@@ -4,7 +4,10 @@ Nearly every operator and Greek letter of its equations is lost in the extractio
 way to put the signs back is true, and which index or number cannot be right whatever the signs.
 """
 
+from itertools import product
+
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
+from derive.audit.described import HALF_TURN, Described
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -33,6 +36,41 @@ DOCUMENT = Document(
     },
 )
 
+DRIVE = "cylindrical_worm_zk_zn"
+#: The worm: the paper measures u1 from the grinding wheel's axis and its half width there, the description from the
+#: pitch circle.
+WORM = Described(
+    DRIVE,
+    {
+        "tan(lambda_worm)": "p1/r_worm", "dx": "(pi*m_n/4 - b1 + rc*tan(alpha))/tan(alpha)",
+        "u_worm": "u1 - rc/cos(alpha)", "t_worm": "theta", "psi_worm": "phi1", "r_c_worm": "rc", "r_worm": "r1",
+        "alpha": "alpha1", "lambda_worm": "lam",
+    },
+)  # fmt: skip
+HOB = Described(
+    DRIVE,
+    {
+        "tan(lambda_hob)": "p2/r_hob", "T_hob*phi_hob/T_2": "phi2", "t_hob": "l", "psi_hob": "-theta2",
+        "r_t_hob": "rt", "alpha_hob": "alpha2", "lambda_hob": "lam", "Sigma_gen": "pi - gamma", "A_gen": "A2",
+        "phi_hob": "phih", "r_hob": "rh",
+    },
+)  # fmt: skip
+GROOVE = Described(
+    DRIVE,
+    {"dx": "(pi*m_n/2 - Sn)/(2*tan(alpha))", "alpha_hob": "alpha2", "alpha": "alpha2", "lambda_hob": "lam",
+     "r_hob": "rh"},
+)  # fmt: skip
+#: Sizes of a design without a shift, from the axial module.
+SIZE = Described(
+    DRIVE,
+    {
+        "dx": "0", "m_n": "m_a*cos(lambda_worm)", "lambda_worm": "lam", "r_worm": "r1", "r_hob": "rh",
+        "Sigma": "pi - gamma", "T_2": "T2", "alpha": "alpha1", "u_worm": "0",
+    },
+)  # fmt: skip
+DISC = WORM.sweep("pinion")
+SCREW = WORM.generation("pinion")
+
 GRINDING = scope(
     "zk-zn.grinding",
     """
@@ -40,32 +78,22 @@ A1 = rc + r1
 Xc = u1*cos(alpha1)*cos(theta)
 Yc = u1*cos(alpha1)*sin(theta)
 Zc = s*(b1 - u1*sin(alpha1))
-tau = vec(0, cos(lam), sin(lam))
-k_w = vec(0, -sin(lam), cos(lam))
-P = vec(A1 - Xc, 0, 0) + Yc*tau + Zc*k_w
-R1 = Rz(phi1)@P + vec(0, 0, p1*phi1)
 nxc = sin(alpha1)*cos(theta)
 nyc = sin(alpha1)*sin(theta)
 nzc = s*cos(alpha1)
 n_c = vec(nxc, nyc, nzc)
-n1 = Rz(phi1)@(vec(-nxc, 0, 0) + nyc*tau + nzc*k_w)
+U1 = u_solved + rc/cos(alpha1)
+b_at_centre = s*half_width.z + rc*tan(alpha1)
 """,
     signs=["s"],
-)
-
-MESHING = scope(
-    "zk-zn.meshing",
-    """
-u_minus = b1*sin(alpha1) + cos(alpha1)/cos(theta)*(r1 + rc - p1*cos(lam)/sin(lam))
- - s*((rc + r1)*cos(lam)/sin(lam) + p1)*sin(alpha1)*tan(theta)
-u_plus = b1*sin(alpha1) + cos(alpha1)/cos(theta)*(r1 + rc + p1*cos(lam)/sin(lam))
- + s*((rc + r1)*cos(lam)/sin(lam) + p1)*sin(alpha1)*tan(theta)
-meshing_minus = dot(n1, cross(vec(0, 0, 1), Rz(phi1)@(vec(A1 - u_minus*cos(alpha1)*cos(theta), 0, 0)
- + u_minus*cos(alpha1)*sin(theta)*tau + s*(b1 - u_minus*sin(alpha1))*k_w)) + vec(0, 0, p1))
-meshing_plus = dot(n1, cross(vec(0, 0, 1), Rz(phi1)@(vec(A1 - u_plus*cos(alpha1)*cos(theta), 0, 0)
- + u_plus*cos(alpha1)*sin(theta)*tau + s*(b1 - u_plus*sin(alpha1))*k_w)) + vec(0, 0, p1))
-""",
-    extends=GRINDING,
+    described={
+        "R1": WORM.carried(SCREW, WORM.carried(DISC, WORM.edge("pinion"))),
+        "n1": WORM.turned(SCREW, WORM.turned(DISC, WORM.edge_normal("pinion"))),
+        "u_solved": WORM.solved("pinion"),
+        "wheel": WORM.carried(DISC[1:], WORM.edge("pinion")),
+        "wheel_normal": WORM.turned(DISC[1:], WORM.edge_normal("pinion")),
+        "half_width": SIZE.edge("pinion"),
+    },
 )
 
 HOBBING = scope(
@@ -75,9 +103,47 @@ a11 = sin(phi2)*cos(gamma)*sin(phih) + cos(phi2)*cos(phih)
 a12 = sin(phi2)*cos(gamma)*cos(phih) - cos(phi2)*sin(phih)
 a21 = cos(phi2)*cos(gamma)*sin(phih) - sin(phi2)*cos(phih)
 a22 = cos(phi2)*cos(gamma)*cos(phih) + sin(phi2)*sin(phih)
-R2 = Rz(-phi2)@(Rx(-gamma)@(Rz(phih)@vec(Xh, Yh, Zh) - vec(A2, 0, 0)))
-rt = sqrt(rh**2 - Sn**2*sin(lam)**2/4) - Sn/(2*tan(alpha2))
+R2 = turn@locus
+L2h = turn@machine
 """,
+    described={
+        "turn": HALF_TURN,
+        "locus": HOB.carried(HOB.generation("wheel"), ("vec", "Xh", "Yh", "Zh")),
+        "machine": HOB.matrix(HOB.generation("wheel")),
+    },
+)
+
+HOB_SURFACE = scope(
+    "zk-zn.hob",
+    "",
+    signs=["s"],
+    described={"R_h": HOB.carried(HOB.sweep("wheel"), HOB.edge("wheel"))},
+)
+
+BLADE = scope("zk-zn.blade", "", described={"rt": GROOVE.name("r_t_hob")})
+
+#: The hob's distance in the machine: A2 as the rules complete a design.
+DISTANCE = scope(
+    "zk-zn.distance",
+    "r2 = A - r1",
+    described={"A": SIZE.rule("A"), "A2": SIZE.rule("A_gen"), "pitch_radius": SIZE.size("wheel_pitch_radius_mm")},
+)
+
+MESH = Described(
+    DRIVE,
+    {"transmission_error": "phi2p - T_1/T_2*phi_worm", "Sigma": "pi - gamma", "dh": "-dgh", "dv": "0", "da": "0"},
+)
+
+#: The wheel's axis in the fixed frame; and any two normals.
+ASSEMBLY = scope(
+    "zk-zn.assembly",
+    """
+axis = mounted@(turn@vec(0, 0, 1))
+n1 = vec(ax, ay, az)
+n2 = vec(bx, by, bz)
+e = vec(ex, ey, ez)
+""",
+    described={"turn": HALF_TURN, "mounted": MESH.matrix(MESH.motion("wheel"))},
 )
 
 LOST = "the signs are lost in the extraction"
@@ -125,15 +191,62 @@ CLAIMS = (
         },
         damage=LOST,
     ),
+    Claim(
+        "where-disc",
+        "where, at Eq (2)",
+        "Xc = u1 cos α1 cos θ; Yc = u1 cos α1 sin θ; Zc = ±(b1 � u1 sin α1)",
+        "The cone of the grinding wheel: with minus in the bracket it is the disc of the description, seen from the "
+        "wheel's own centre.",
+        GRINDING,
+        {
+            "every lost sign +": "wheel = vec(A1 - Xc, Yc, s*(b1 + u1*sin(alpha1)))",
+            "- in the bracket": "wheel = vec(A1 - Xc, Yc, s*(b1 - u1*sin(alpha1)))",
+        },
+        damage=LOST,
+    ),
+    Claim(
+        "where-distance",
+        "where, at Eq (2)",
+        "A1 = rc � r1",
+        "The distance of the two axes while grinding.",
+        GRINDING,
+        {"-": "wheel.x + Xc = rc - r1", "+": "wheel.x + Xc = rc + r1"},
+        damage=LOST,
+    ),
+    Claim(
+        "where-normal",
+        "where, at Eq (2)",
+        "nxc = sin α1 cos θ; nyc = sin α1 sin θ; nzc = ±cos α1",
+        "The cone's unit normal, as the description gives it in the disc's frame.",
+        GRINDING,
+        "wheel_normal = vec(-sin(alpha1)*cos(theta), sin(alpha1)*sin(theta), s*cos(alpha1))",
+    ),
+    Claim(
+        "where-width",
+        "where, at Eq (2)",
+        "b1 = ma cos λ π/4 � rc tan α1",
+        "Half the groove's width on the pitch circle, and what the cone's slope adds down to its centre.",
+        GRINDING,
+        {
+            "-": "b_at_centre = m_a*cos(lam)*pi/4 - rc*tan(alpha1)",
+            "+": "b_at_centre = m_a*cos(lam)*pi/4 + rc*tan(alpha1)",
+        },
+        damage=LOST,
+    ),
     Claim("eq-3", "Eq (3)", "n1 · V1(1c) = 0", "Definition of the equation of meshing.", kind="definition"),
     Claim(
         "eq-4",
         "Eq (4)",
         "u1 = b1 sin α1 � (r1 � rc � p1 cot λ) cos α1/cos θ � ((rc � r1) cot λ � p1) sin α1 tan θ",
-        "With minus before p1 cot λ and minus-or-plus before the last bracket, the grinding wheel's normal is a "
-        "normal of the worm's helicoid.",
-        MESHING,
-        {"every lost sign +": "meshing_plus = 0", "- before p1 cot λ, ∓ before the last bracket": "meshing_minus = 0"},
+        "With minus before p1 cot λ and minus-or-plus before the last bracket this is the u1 by which the drive's own "
+        "equation of meshing between disc and worm is solved.",
+        GRINDING,
+        {
+            "every lost sign +": "U1 = b1*sin(alpha1) + (r1 + rc + p1*cos(lam)/sin(lam))*cos(alpha1)/cos(theta)"
+            " + ((rc + r1)*cos(lam)/sin(lam) + p1)*sin(alpha1)*tan(theta)",
+            "- before p1 cot λ, ∓ before the last bracket": "U1 = b1*sin(alpha1) + (r1 + rc - p1*cos(lam)/sin(lam))"
+            "*cos(alpha1)/cos(theta) - s*((rc + r1)*cos(lam)/sin(lam) + p1)*sin(alpha1)*tan(theta)",
+        },
         damage=LOST,
         conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
     ),
@@ -154,9 +267,13 @@ CLAIMS = (
         "Eq (5), row 2",
         "a21 Xh � a11 Yh � sin γ cos φ2 Zh � A2 sin φ2",
         "The index of the second coefficient is printed 11; it must be 22, which the paper defines and uses nowhere "
-        "else. No choice of the lost signs makes 11 true.",
+        "else. With 11 all 16 choices of the four signs are refuted.",
         HOBBING,
-        "R2.y = a21*Xh + a11*Yh + sin(gamma)*cos(phi2)*Zh + A2*sin(phi2)",
+        {
+            "signs " + " ".join(signs): f"R2.y = {signs[0].strip('+')}a21*Xh {signs[1]} a11*Yh {signs[2]}"
+            f" sin(gamma)*cos(phi2)*Zh {signs[3]} A2*sin(phi2)"
+            for signs in product("+-", repeat=4)
+        },
         confusable=[("a11", "a12", "a21", "a22")],
     ),
     Claim(
@@ -172,12 +289,68 @@ CLAIMS = (
         damage=LOST,
     ),
     Claim(
+        "where-hob",
+        "where, at Eq (5)",
+        "Xh = (rt � l cos α2) cos θ2 � l sin α2 sin λ sin θ2; Yh = �(rt � l cos α2) sin θ2 � l sin α2 sin λ cos θ2; "
+        "Zh = �l sin α2 cos λ � p2 θ2",
+        "The hob's surface, as in Eq (1) of the recess-action paper: the terms with l sin α2 follow the flank.",
+        HOB_SURFACE,
+        {
+            "every lost sign +": [
+                "R_h.x = (rt + l*cos(alpha2))*cos(theta2) + l*sin(alpha2)*sin(lam)*sin(theta2)",
+                "R_h.y = (rt + l*cos(alpha2))*sin(theta2) + l*sin(alpha2)*sin(lam)*cos(theta2)",
+                "R_h.z = l*sin(alpha2)*cos(lam) + p2*theta2",
+            ],
+            "+ ∓; - + ∓; ± -": [
+                "R_h.x = (rt + l*cos(alpha2))*cos(theta2) - s*l*sin(alpha2)*sin(lam)*sin(theta2)",
+                "R_h.y = -(rt + l*cos(alpha2))*sin(theta2) - s*l*sin(alpha2)*sin(lam)*cos(theta2)",
+                "R_h.z = s*l*sin(alpha2)*cos(lam) - p2*theta2",
+            ],
+        },
+        damage=LOST,
+    ),
+    Claim(
+        "where-hob-distance",
+        "where, at Eq (5)",
+        "A2 = rh � r2",
+        "The drive's rule for the cutting distance: the hob's radius and the wheel's.",
+        DISTANCE,
+        {"-": "A2 = rh - r2", "+": ["A2 = rh + r2", "r2 = pitch_radius"]},
+        damage=LOST,
+    ),
+    Claim(
+        "where-coefficients",
+        "where, at Eq (5)",
+        "a11 = sin φ2 cos γ sin φh � cos φ2 cos φh; a12 = sin φ2 cos γ cos φh � cos φ2 sin φh; a21 = cos φ2 cos γ "
+        "sin φh � sin φ2 cos φh; a22 = cos φ2 cos γ cos φh � sin φ2 sin φh",
+        "Entries of the rotation from hob to wheel: true with + - - +.",
+        HOBBING,
+        {
+            "every lost sign +": [
+                "entry(L2h, 1, 1) = a11",
+                "entry(L2h, 1, 2) = sin(phi2)*cos(gamma)*cos(phih) + cos(phi2)*sin(phih)",
+                "entry(L2h, 2, 1) = cos(phi2)*cos(gamma)*sin(phih) + sin(phi2)*cos(phih)",
+                "entry(L2h, 2, 2) = a22",
+            ],
+            "+ - - +": [
+                "entry(L2h, 1, 1) = a11",
+                "entry(L2h, 1, 2) = a12",
+                "entry(L2h, 2, 1) = a21",
+                "entry(L2h, 2, 2) = a22",
+            ],
+        },
+        damage=LOST,
+    ),
+    Claim(
         "eq-6",
         "Eq (6)",
         "rt = √( rh² � Sn² sin² λ/4 ) � Sn/(2 tan α2)",
         "The edge crosses the pitch cylinder where the groove is Sn wide.",
-        HOBBING,
-        "(rt + Sn/(2*sin(alpha2))*cos(alpha2))**2 + (Sn/2*sin(lam))**2 = rh**2",
+        BLADE,
+        [
+            "rt = sqrt(rh**2 - Sn**2*sin(lam)**2/4) - Sn/(2*tan(alpha2))",
+            "(rt + Sn/(2*sin(alpha2))*cos(alpha2))**2 + (Sn/2*sin(lam))**2 = rh**2",
+        ],
         damage=LOST,
         conditions=["rh ≥ Sn sin λ / 2"],
     ),
@@ -187,6 +360,31 @@ CLAIMS = (
         "f = N · V(h2) = 0; R_f(1) = M_f1 R_1; R_f(2) = M M M R_2; R_f(1) = R_f(2); n_f(1) - n_f(2) = 0",
         "Definitions and conditions to be solved.",
         kind="definition",
+    ),
+    Claim(
+        "assembly-angle",
+        "§4",
+        "axes Z_fw and Z_f form an angle of γ � Δγh during the meshing",
+        "The cosine of the angle between the two axes, as the drive mounts its wheel, without the vertical error: γ "
+        "+ Δγh in the sense in which γ is counted.",
+        ASSEMBLY,
+        {"+": "axis.z = cos(gamma + dgh)", "-": "axis.z = cos(gamma - dgh)"},
+        damage=LOST,
+    ),
+    Claim(
+        "count",
+        "§5",
+        "three independent equations; two independent equations; two additional independent equations of meshing; "
+        "totally seven independent equations with eight unknowns",
+        "Three coordinates; of the three equations between unit normals one follows from the other two and no more, "
+        "since any change of a normal at right angles to it can come about; Eqs (4) and (7) hold u1 and φ2, which "
+        "the others leave open.",
+        ASSEMBLY,
+        [
+            "dot(n1 - n2, n1 + n2) = dot(n1, n1) - dot(n2, n2)",
+            "cross(cross(n1, e), n1) = dot(n1, n1)*e - dot(n1, e)*n1",
+        ],
+        conditions=["near parallel normals (n1 + n2 ≠ 0)"],
     ),
     Claim(
         "eq-14",
@@ -240,6 +438,42 @@ CLAIMS = (
             )
         ],
         final=True,
+    ),
+    FigureClaim(
+        "hand",
+        "Table 1",
+        "Right/Left handed of teeth RH LH",
+        "At γ = 45° the wheel's helix angle 90° - γ - λ is 15°, positive: of the hand opposite to the worm's. So it "
+        "is at 30°.",
+        [Figure("90 - 45 - 30", ">0"), Figure("90 - 30 - 30", ">0")],
+    ),
+    FigureClaim(
+        "hand-of-the-others",
+        "§7",
+        "the right-handed ZK-type worm and left-handed ZN-type worm wheel",
+        "At γ = 60° the wheel's helix angle 90° - γ - λ is 0, a spur wheel; at 90° it is -30°, right-handed like the "
+        "worm.",
+        [Figure("90 - 90 - 30", ">0")],
+        final=True,
+    ),
+    Claim(
+        "no-error",
+        "Table 2, §§7, 8",
+        "KE = 0.0 arc-second at γ = 30.0°, 45.0°, 60.0° and 90.0°",
+        "Worm and hob have one screw motion and touch along a helix, on which contact stays: at 30°, 45° and 60° the "
+        "error of Eq (14) is constant, the axial gap between the two profiles turned into an angle, and 0 only "
+        "relative to its value at one position. At 90° it is so up to a pitchfork of the path of contact and not "
+        "beyond.",
+        missing="the grinding wheel's radius, the blanks and the origin of φ1′; Eq (14) gives a constant that is not 0",
+    ),
+    Claim(
+        "regression",
+        "§2",
+        "the mathematical model of the ZK-type worm surface can be obtained by considering Eqs. (1) and (4)",
+        "Nothing is said of where that surface ends. Below an edge of regression there is none; with a large grinding "
+        "wheel it lies at r1 sin λ/√(sin²λ + tan²α) = 9.70 mm, above the root of a worm of usual depth (12 - 1.2·4 = "
+        "7.2 mm).",
+        missing="the grinding wheel's radius and the worm's root radius",
     ),
     Claim(
         "low-error",

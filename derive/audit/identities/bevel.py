@@ -1,6 +1,7 @@
 """Bevel and hypoid gears: blade, machine frames, meshing as a screw, conjugate settings, assembly."""
 
-from derive.audit.claims import Document, scope
+from derive.audit.claims import Document, scope, with_sign
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity, proper
 from derive.audit.ledger import Chapter
 
@@ -155,7 +156,42 @@ r1 = vec(x, y, z)
 """,
 )
 
+
+
+def _machine(member: str) -> dict:
+    """A tool's point in the body of what it cuts, as the drive's page says; the work's turn, a polynomial of the
+    cradle's, is one angle.
+    """
+    rolled = {f"c_{k}_{member}": "0" for k in range(2, 7)}
+    letters = rolled | {
+        f"R_{member}": f"work/phi_cradle_{member}", f"phi_cradle_{member}": "phi", f"theta_{member}": "theta",
+        f"gamma_m_{member}": "gamma", f"E_m_{member}": "Em", f"X_B_{member}": "XB", f"X_D_{member}": "XD",
+        f"H_{member}": "H", f"q_{member}": "q", f"S_r_{member}": "Sr", f"swivel_{member}": "j", f"tilt_{member}": "i",
+    }  # fmt: skip
+    drive, place = Described("bevel_generated", letters), "wheel" if member == "gear" else member
+    return {
+        "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
+        "normal_on_head": ("vec", ("jet", "nx", 0), 0, ("jet", "nz", 0)),
+        "cut": drive.carried(drive.generation(place), drive.carried(drive.sweep(place), "on_head")),
+        "cut_normal": drive.turned(drive.generation(place), drive.turned(drive.sweep(place), "normal_on_head")),
+    }
+
+
+GEAR = with_sign(MACHINE, "bevel.gear", "h", 1, _machine("gear"))
+PINION = with_sign(MACHINE, "bevel.pinion", "h", -1, _machine("pinion"))
+
 CLAIMS = (
+    *(
+        identity(
+            f"machine-{member}",
+            "description",
+            f"The machine that cuts the {member}, of hand h = {hand}, is the motion of the drive's description, "
+            f"whatever edge stands on the head.",
+            ["r_body = cut", "n_body = cut_normal"],
+            context,
+        )
+        for member, hand, context in (("gear", "+1", GEAR), ("pinion", "-1", PINION))
+    ),
     identity(
         "meshing",
         "equation of meshing",

@@ -1,6 +1,7 @@
 """Cylindrical gears: generation by a modified rack, the involute helicoid, undercut, pairs on crossed axes."""
 
 from derive.audit.claims import Document, scope
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
 
@@ -64,6 +65,31 @@ rack = vec(X, Y, Z)
     + ROLLED,
     jets={"E": ("l", "Z"), "delta": ("Z",), "eps": ("Z",)},
     signs=["s"],
+)
+
+#: A gear's own modifications, plunge and feed as the letters of their functions.
+DRIVE = Described(
+    "cylindrical_gears",
+    {
+        "z_1": "2*r*cos(beta_pinion)/m", "E_pinion": "E_here", "shift_pinion": "xm/m", "l_pinion": "l",
+        "C_beta_pinion": "delta_here*b_pinion**2*sin(alpha)/(4*z_pinion**2)",
+        "C_Hbeta_pinion": "eps_here*b_pinion*cos(alpha)*cos(beta_pinion)/z_pinion", "z_pinion": "Z",
+        "beta_pinion": "beta", "phi_gen_pinion": "phi", "m": "4*h/pi",
+    },
+)  # fmt: skip
+
+DESCRIBED = scope(
+    "cylindrical_gears.described",
+    "",
+    described={
+        "E_here": ("jet", "E", 0, 0),
+        "delta_here": ("jet", "delta", 0),
+        "eps_here": ("jet", "eps", 0),
+        "edge": DRIVE.edge("pinion"),
+        "traced": DRIVE.carried(DRIVE.sweep("pinion"), "edge"),
+        "cut": DRIVE.carried(DRIVE.generation("pinion"), "traced"),
+    },
+    extends=MODIFIED,
 )
 
 INVOLUTE = scope(
@@ -193,6 +219,15 @@ K = mat([kappa1 + kappa2*cos(chi)**2, kappa2*cos(chi)*sin(chi)], [kappa2*cos(chi
 REGULAR = ["∂Y/∂l ≠ 0: sin α + E′ cos α ≠ 0", "r ≠ 0", "cos β ≠ 0"]
 
 CLAIMS = (
+    identity(
+        "described",
+        "description",
+        "The rack's edge, with any modification, plunge and feed, and its rolling on the reference circle are those "
+        "of the drive's description.",
+        ["traced = rack", "cut = free"],
+        DESCRIBED,
+        conditions=["cos β ≠ 0"],
+    ),
     identity(
         "meshing",
         "equation of meshing",

@@ -4,6 +4,7 @@ Explicit wheel, contact, limit points and meshing axes at any shaft angle, for e
 """
 
 from derive.audit.claims import Document, scope
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
 
@@ -33,19 +34,28 @@ DOCUMENT = Document(
     },
 )
 
+#: Of any drive: its screw motions, the cutting of its wheel, its worm in mesh. Profiles stay unspecified functions.
+DRIVE = Described(
+    "cylindrical_worm_zn_zn",
+    {
+        "tan(lambda_hob)": "p/r_hob", "tan(lambda_worm)": "p/r_worm", "T_hob*phi_hob/T_2": "phi2", "A_gen": "A",
+        "Sigma_gen": "Sigma", "phi_hob": "phi", "psi_hob": "psi", "psi_worm": "psi", "phi_worm": "phi1",
+    },
+)  # fmt: skip
+CUTTING = DRIVE.generation("wheel")
+PROFILE = ("vec", ("jet", "Px", 0), ("jet", "Py", 0), ("jet", "Pz", 0))
+
+#: The fixed cutting frame is the hob's turned by its own rotation, the last factor of the motion.
 HOBBING = scope(
     "cylindrical_worm",
     """
 i = vec(1, 0, 0)
 k = vec(0, 0, 1)
 k2 = vec(0, sin(Sigma), cos(Sigma))
-P = vec(Px, Py, Pz)
-hob = Rz(psi)@P + vec(0, 0, p*psi)
 n_hob = cross(d(hob, t), d(hob, psi))
-r = Rz(phi)@hob
-n = Rz(phi)@n_hob
-wheel = Rz(phi2)@(Rx(Sigma)@(r - A*i))
-n_wheel = Rz(phi2)@(Rx(Sigma)@n)
+r = turn@hob
+n = turn@n_hob
+n_wheel = machine@n_hob
 f = dot(n, cross(k, r) + m*cross(k2, r - A*i))
 D = -m*k2 - k + tau*k
 W = cross(-m*k2, -A*i) + tau*p*k
@@ -53,18 +63,28 @@ section = cross(d(P, t), vec(-Py, Px, p))
 height = ((p*n.z/m - n.y*cos(Sigma)*(r.x - A) + n.z*sin(Sigma)*(r.x - A))/n.x + cos(Sigma)*r.y)/sin(Sigma)
 """,
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
+    described={
+        "P": PROFILE,
+        "hob": DRIVE.carried(DRIVE.sweep("wheel"), "P"),
+        "turn": DRIVE.matrix(CUTTING[-1:]),
+        "machine": DRIVE.matrix(CUTTING),
+        "wheel": DRIVE.carried(CUTTING, "hob"),
+    },
 )
 
 WORM = scope(
     "cylindrical_worm.columns",
     """
 k = vec(0, 0, 1)
-P = vec(Px, Py, Pz)
-flank = Rz(psi)@P + vec(0, 0, p*psi)
-placed = Rz(phi1)@flank
-n = Rz(phi1)@cross(d(flank, t), d(flank, psi))
+n = mounted@cross(d(flank, t), d(flank, psi))
 """,
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
+    described={
+        "P": PROFILE,
+        "flank": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
+        "mounted": DRIVE.matrix(DRIVE.motion("pinion")),
+        "placed": DRIVE.carried(DRIVE.motion("pinion"), "flank"),
+    },
 )
 
 EXPLICIT = scope(

@@ -22,9 +22,12 @@ DOCUMENT = Document(
         "u": ("u", "-", "surface parameter"),
         "v": ("v", "-", "surface parameter"),
         "k": ("k", "-", "share of the normal"),
-        "f0": ("f₀", "-", "equation of meshing where the parameter is 0"),
-        "slope": ("f′", "-", "its slope in the parameter"),
         "s": ("s", "-", "a sign"),
+        "phi": ("φ", "-", "parameter of the motion"),
+        "c0": ("c0", "-", "equation of meshing where the parameter is 0"),
+        "c1": ("c1", "-", "its slope in the parameter"),
+        "r": ("r", "mm", "point"),
+        "n": ("n", "-", "normal"),
     },
 )
 
@@ -55,7 +58,6 @@ length = sqrt(dot(N, N))
 meridian = vec(Mx, 0, Mz)
 turned = Rz(v)@meridian
 tangent = vec(wx, wy, wz)
-in_plane = a*R_u + b*R_v
 omega = vec(ox, oy, oz)
 """,
     jets={
@@ -67,7 +69,6 @@ omega = vec(ox, oy, oz)
 SOLUTION = scope(
     "derivation.solution",
     """
-root = -f0/slope
 w = sqrt(a**2 + b**2)
 cos_x = s*b/w
 sin_x = -s*a/w
@@ -79,20 +80,108 @@ removed = total - kept
     signs=["s"],
 )
 
+#: A surface S(u, v) that moves in the frame of a blank: any rotation (three angles), any shift, each at a rate of its
+#: own; and any family of surfaces r(u, v, φ) at all.
+FAMILY = scope(
+    "derivation.family",
+    """
+S = vec(X, Y, Z)
+frame = Rz(e)@(Rx(f)@Rz(g))
+shift = vec(tx, ty, tz)
+carried = frame@S + shift
+own_normal = frame@cross(d(S, u), d(S, v))
+velocity = d(carried, (e, e_rate), (f, f_rate), (g, g_rate), (tx, tx_rate), (ty, ty_rate), (tz, tz_rate))
+r = vec(x, y, z)
+n = cross(d(r, u), d(r, v))
+meshing = dot(n, d(r, phi))
+T_1 = d(r, (u, u_1), (v, v_1), (phi, phi_1))
+T_2 = d(r, (u, u_2), (v, v_2), (phi, phi_2))
+""",
+    jets={
+        "X": ("u", "v"), "Y": ("u", "v"), "Z": ("u", "v"),
+        "x": ("u", "v", "phi"), "y": ("u", "v", "phi"), "z": ("u", "v", "phi"),
+    },
+)  # fmt: skip
+
+#: c0 + c1 x, of coefficients that are functions of the other parameters.
+AFFINE = scope(
+    "derivation.affine",
+    """
+F = c0 + c1*x
+root = -c0/c1
+stepped = x - F/d(F, x)
+solved = c0 + c1*root
+""",
+    jets={"c0": ("u",), "c1": ("u",)},
+)
+
+#: The largest Newton step of a packaged drive has six unknowns; further variables are eliminated first.
+UNKNOWNS = 6
+
+
+def _stage(n: int) -> tuple[str, str]:
+    """One step of elimination in n unknowns: the pivot's row, and any other row."""
+
+    def row(k: int, begin: int) -> str:
+        return " + ".join(f"a{k}{j}*x{j}" for j in range(begin, n + 1))
+
+    first = f"(b1 - ({row(1, 2)}))/a11"
+    reduced = " + ".join(f"(a2{j} - a21/a11*a1{j})*x{j}" for j in range(2, n + 1))
+    return (
+        f"a11*({first}) + {row(1, 2)} = b1",
+        f"a21*({first}) + {row(2, 2)} - b2 = {reduced} - (b2 - a21/a11*b1)",
+    )
+
+
 LINEAR = scope(
     "derivation.linear",
     """
-p2 = a22 - a21*a12/a11
-p2c = a23 - a21*a13/a11
-p2r = b2 - a21*b1/a11
-p3 = a32 - a31*a12/a11
-p3c = a33 - a31*a13/a11
-p3r = b3 - a31*b1/a11
-det = p2*p3c - p2c*p3
-x3 = (p2*p3r - p2r*p3)/det
-x2 = (p2r*p3c - p2c*p3r)/det
-x1 = (b1 - a12*x2 - a13*x3)/a11
-turning = A_x*dx
+det = a11*a22 - a12*a21
+y1 = (b1*a22 - a12*b2)/det
+y2 = (a11*b2 - b1*a21)/det
+""",
+)
+
+#: Two residuals that two unknowns change directly and by way of an angle, which has a rate along each.
+TURNING = scope(
+    "derivation.turning",
+    """
+J11 = d(g, (p, 1), (a, A_1))
+J12 = d(g, (q, 1), (a, A_2))
+J21 = d(h, (p, 1), (a, A_1))
+J22 = d(h, (q, 1), (a, A_2))
+det = J11*J22 - J12*J21
+dp = (b1*J22 - J12*b2)/det
+dq = (J11*b2 - b1*J21)/det
+da = A_1*dp + A_2*dq
+""",
+    jets={"g": ("p", "q", "a"), "h": ("p", "q", "a")},
+)
+
+SIZED = scope(
+    "derivation.sized",
+    """
+J = mat([a11, a12, a13], [a21, a22, a23], [a31, a32, a33])
+sized = mat([a11*s1, a12*s2, a13*s3], [a21*s1, a22*s2, a23*s3], [a31*s1, a32*s2, a33*s3])
+change = vec(x1, x2, x3)
+measured = vec(x1/s1, x2/s2, x3/s3)
+j1 = vec(a11, a21, a31)
+j2 = vec(a12, a22, a32)
+j3 = vec(a13, a23, a33)
+""",
+)
+
+SCALED = scope(
+    "derivation.scaled",
+    """
+n = vec(nx, ny, nz)
+g = triple(A, B, n)
+g0 = triple(A0, B0, n0)
+A = vec(ax, ay, az)
+B = vec(bx, by, bz)
+A0 = vec(ex, ey, ez)
+B0 = vec(fx, fy, fz)
+n0 = vec(mx, my, mz)
 """,
 )
 
@@ -205,10 +294,17 @@ CLAIMS = (
     identity(
         "envelope",
         "envelope: normal",
-        "Where the equation of meshing holds the velocity lies in the tangent plane, and the generating surface's "
-        "normal is perpendicular to every tangent of the envelope.",
-        ["dot(n, R_u + a*in_plane) = 0", "dot(n, R_v + b*in_plane) = 0"],
-        SURFACE,
+        "Any tangent of the envelope moves u, v and φ at rates of its own. The generating surface's normal against "
+        "it is the rate of φ times the equation of meshing n·∂r/∂φ: where that holds the normal is square to every "
+        "tangent, and the vector product of two tangents is a multiple of it. For a rigid motion, of any axis and "
+        "pitch, the equation is the turned normal of the tool against the velocity.",
+        [
+            "dot(n, T_1) = phi_1*meshing",
+            "cross(cross(T_1, T_2), n) = meshing*(phi_1*T_2 - phi_2*T_1)",
+            "triple(d(r, u), d(r, v), d(r, phi)) = meshing",
+            "triple(d(carried, u), d(carried, v), velocity) = dot(own_normal, velocity)",
+        ],
+        FAMILY,
     ),
     identity(
         "merge-sum",
@@ -220,9 +316,10 @@ CLAIMS = (
     identity(
         "explicit",
         "reduction: linear parameter",
-        "An equation that is linear in a parameter is solved by minus its value at 0 over its slope.",
-        "f0 + slope*root = 0",
-        SOLUTION,
+        "An equation that is linear in a parameter is solved by minus its value at 0 over its slope, from wherever one "
+        "starts, by nothing else, and along the surface that this gives it stays solved.",
+        ["c0 + c1*stepped = 0", "F = d(F, x)*(x - root)", "d(solved, u) = 0", "stepped = root"],
+        AFFINE,
         conditions=["slope ≠ 0"],
     ),
     identity(
@@ -245,11 +342,13 @@ CLAIMS = (
         "elimination",
         "Newton step: pivots",
         "Elimination in a fixed order of pivots down to two equations, Cramer's rule for these, then substitution "
-        "backwards solves the linear system.",
+        "backwards solves the linear system: with the pivot's unknown from its own row, any other row holds exactly "
+        "where the reduced row does. Shown with every entry free for 6, 5, 4 and 3 unknowns, the sizes that the "
+        "packaged drives pass through, and for the last two.",
         [
-            "a11*x1 + a12*x2 + a13*x3 = b1",
-            "a21*x1 + a22*x2 + a23*x3 = b2",
-            "a31*x1 + a32*x2 + a33*x3 = b3",
+            *(text for n in range(UNKNOWNS, 2, -1) for text in _stage(n)),
+            "a11*y1 + a12*y2 = b1",
+            "a21*y1 + a22*y2 = b2",
         ],
         LINEAR,
         conditions=["each pivot ≠ 0", "the determinant of the last two equations ≠ 0"],
@@ -257,26 +356,42 @@ CLAIMS = (
     identity(
         "angles",
         "Newton step: angles as variables",
-        "An angle on which several unknowns act may be a variable of the linear system: eliminating it gives the "
-        "Jacobian.",
-        "R_x*dx + R_a*turning = (R_x + R_a*A_x)*dx",
-        LINEAR,
+        "An angle on which several unknowns act may be a variable of the linear system. The Jacobian is the chain "
+        "rule's, and the changes that it gives, with the angle's own beside them, solve the equations in which the "
+        "angle is a variable.",
+        [
+            "J11 = g[1, 0, 0] + g[0, 0, 1]*A_1",
+            "g[1, 0, 0]*dp + g[0, 1, 0]*dq + g[0, 0, 1]*da = b1",
+            "h[1, 0, 0]*dp + h[0, 1, 0]*dq + h[0, 0, 1]*da = b2",
+        ],
+        TURNING,
+        conditions=["the determinant of the Jacobian ≠ 0"],
     ),
     identity(
         "step-size",
         "Newton step: size",
-        "Steps are measured in natural sizes: times its size each gives the step.",
-        "b*(a/b) = a",
-        CALCULUS,
+        "Steps are measured in natural sizes. With each column times its size and each unknown over it the system is "
+        "the same, and its determinant that of the Jacobian times the sizes: which steps solve it does not depend on "
+        "them.",
+        [
+            "sized@measured = J@change",
+            "triple(s1*j1, s2*j2, s3*j3) = s1*s2*s3*triple(j1, j2, j3)",
+        ],
+        SIZED,
         conditions=["size ≠ 0"],
     ),
     identity(
         "relative",
         "limits of validity",
-        "A function whose sign has no meaning of its own is divided by its value at a regular point: it is 1 there.",
-        ["b/b = 1", "b*(a/b) = a"],
-        CALCULUS,
-        conditions=["the function does not vanish at the reference point"],
+        "A function whose sign has no meaning of its own, such as the singular function of a surface, is divided by "
+        "its value at a regular point. The quotient does not change with the length or the side of the normals it "
+        "was made with, and has the sign of the product of both values: positive where there is no zero between.",
+        [
+            "triple(A, B, k*n)/triple(A0, B0, k*n0) = g/g0",
+            "g/g0*g0**2 = g*g0",
+        ],
+        SCALED,
+        conditions=["the function does not vanish at the reference point", "k ≠ 0"],
     ),
     identity(
         "quotient",

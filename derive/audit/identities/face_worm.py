@@ -1,6 +1,7 @@
 """Face worm drives: hob-cut reference, tool cone with its fillet, worm enveloped with a plunge."""
 
 from derive.audit.claims import Document, scope
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
 
@@ -27,16 +28,32 @@ DOCUMENT = Document(
     },
 )
 
+DRIVE = Described(
+    "face_worm",
+    {
+        "N_1*psi_hob/N_2": "phi2", "psi_hob": "psi", "R_g": "Rg", "alpha_g": "alpha", "u_gear": "u", "u_worm": "u",
+        "theta_gear": "theta", "theta_worm": "theta", "lambda_gear": "lam", "rho_f": "rf", "h_d": "hd", "a_c": "ac",
+        "s": "side",
+    },
+)  # fmt: skip
+HOBBING = DRIVE.generation("reference_wheel/flank")
+
+#: Any hob surface in the motion that cuts the reference wheel; the fixed frame is that before the wheel's own turn.
 HOB = scope(
     "face_worm",
     """
-frame = mat([0, 0, 1], [0, 1, 0], [-1, 0, 0])
 hob = Rz(theta)@vec(x, y, z)
 n = cross(d(hob, u), d(hob, theta))
-at = vec(L, E_m, 0) + frame@(Rz(psi)@hob)
-f = dot(frame@(Rz(psi)@n), cross(vec(1, 0, 0), at - vec(L, E_m, 0)) - m*cross(vec(0, 0, 1), at))
+seat = vec(L, E_m, 0)
+f = dot(turned@n, cross(vec(1, 0, 0), at - seat) - m*cross(vec(0, 0, 1), at))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
+    described={
+        "at": DRIVE.carried(HOBBING[1:], "hob"),
+        "turned": DRIVE.matrix(HOBBING[1:]),
+        "wheel": DRIVE.carried(HOBBING, "hob"),
+        "n_wheel": DRIVE.turned(HOBBING, "n"),
+    },
 )
 
 TOOL = scope(
@@ -53,11 +70,42 @@ X = Rg + u*sin(alpha) + side*ac*u**2*cos(alpha)
 Z = u*cos(alpha) - side*ac*u**2*sin(alpha)
 blade = vec(X*cos(theta), X*sin(theta), Z)
 n_blade = side*vec(d(Z, u)*cos(theta), d(Z, u)*sin(theta), -d(X, u))
+torus = Rz(theta)@vec(torus_x, 0, torus_z)
 """,
     signs=["side"],
+    described={
+        "gear_tool": DRIVE.carried(DRIVE.sweep("wheel"), DRIVE.edge("wheel")),
+        "gear_normal": DRIVE.turned(DRIVE.sweep("wheel"), DRIVE.normal("wheel")),
+        "fillet_tool": DRIVE.carried(DRIVE.sweep("wheel/fillet"), DRIVE.edge("wheel/fillet")),
+        "worm_tool": DRIVE.carried(DRIVE.sweep("pinion"), DRIVE.edge("pinion")),
+        "worm_normal": DRIVE.turned(DRIVE.sweep("pinion"), DRIVE.normal("pinion")),
+    },
 )
 
 CLAIMS = (
+    identity(
+        "tools",
+        "description",
+        "Cone, torus and parabolic blade are the swept edges of the drive's description, seen from the tool's axis, "
+        "and their normals its outward normals.",
+        [
+            "gear_tool = cone",
+            "gear_normal = n_cone",
+            "fillet_tool = torus",
+            "worm_tool = blade",
+            "worm_normal = -n_blade",
+        ],
+        TOOL,
+        conditions=["cos αg ≠ 0"],
+    ),
+    identity(
+        "hobbing",
+        "description",
+        "The equation of meshing in the fixed frame is the normal against the velocity in the motion of the "
+        "description that cuts the reference wheel.",
+        "f = dot(n_wheel, d(wheel, (psi, 1), (phi2, m)))",
+        HOB,
+    ),
     identity(
         "harmonic",
         "hob-cut reference",

@@ -1,6 +1,7 @@
 """Helicoids: one identity for every profile, then the flank forms of ISO 10828 as they are generated."""
 
 from derive.audit.claims import Document, scope
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
 
@@ -43,70 +44,123 @@ section = cross(d(P, t), vec(-Py, Px, p))
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
 )
 
+#: Letters of every tool: S the groove's width.
+LETTERS = {
+    "dx": "(pi*m_n/2 - S)/(2*tan(alpha))", "psi_worm": "psi", "t_worm": "t", "r_worm": "r", "r_c_worm": "rc",
+    "lambda_worm": "lam",
+}  # fmt: skip
+
+
+def tool(form: str, first: dict[str, str], own: dict[str, str] | None = None) -> Described:
+    """The worm of a drive whose worm and hob have this flank form; ``first`` stands for whole expressions."""
+    return Described(f"cylindrical_worm_{form}_{form}", {**first, **LETTERS, **(own or {})})
+
+
+ZN = tool("zn", {"tan(lambda_worm)": "p/r_worm"}, {"r_t_worm": "rt"})
+ZA = tool("za", {"tan(lambda_worm)": "p/r_worm"}, {"t_worm": "rho"})
+#: ρ = r_b/cos a_t, so that the roll angle a_t is the profile's parameter; its slope along ρ is that of this equation.
+ZI = tool(
+    "zi",
+    {"tan(lambda_worm)": "p/r_worm", "a_t_worm_t_worm": "cos(a_t_worm)**2/(r_b_worm*sin(a_t_worm))"},
+    {"r_b_worm": "rb", "a_t_worm": "at", "a_t_pitch_worm": "ap", "t_worm": "rb/cos(at)"},
+)
+ZK = tool("zk", {}, {"t_worm": "theta"})
+#: The cone before the equation of meshing is solved for the place u on its generatrix.
+CONE_OF_ZK = tool("zk", {}, {"t_worm": "theta", "u_worm": "u"})
+ZC = tool("zc", {}, {"t_worm": "theta", "xi_worm": "xi", "rho_c_worm": "rho_c"})
+CONE, DISC = ZK.sweep("pinion"), ZC.sweep("pinion")
+
 STRAIGHT = scope(
     "helicoids.straight-blade",
     """
 k = vec(0, 0, 1)
-rt = sqrt(r**2 - (S*sin(lam)/2)**2) - S/(2*tan(alpha))
-P = vec(rt + t*cos(alpha), -s*t*sin(alpha)*sin(lam), s*t*sin(alpha)*cos(lam))
-pitch = S/(2*sin(alpha))
 in_section = Rx(-lam)@P
-n = cross(d(P, t), vec(-P.y, P.x, p))
+n = outward
 """,
     signs=["s"],
+    described={
+        "P": ZN.edge("pinion"),
+        "outward": ZN.normal("pinion"),
+        "swept": ZN.carried(ZN.sweep("pinion"), "P"),
+    },
+)
+
+#: The edge where it lies half the groove's width from the middle.
+PITCH_POINT = scope(
+    "helicoids.pitch-point",
+    "t = S/(2*sin(alpha))",
+    signs=["s"],
+    described={"P": tool("zn", {}).edge("pinion")},
 )
 
 AXIAL = scope(
     "helicoids.axial-blade",
-    """
-P = vec(rho, 0, s*(S/(2*cos(lam)) + (rho - r)*tan(alpha)/cos(lam)))
-slope = s*tan(alpha)/cos(lam)
-n = vec(-slope*rho, -p, rho)
-""",
+    "n = outward",
     signs=["s"],
+    described={
+        "P": ZA.edge("pinion"),
+        "outward": ZA.normal("pinion"),
+        "swept": ZA.carried(ZA.sweep("pinion"), "P"),
+    },
 )
 
 INVOLUTE = scope(
     "helicoids.involute",
-    """
-rho = rb/cos(at)
-P = vec(rho, 0, z0 + s*p*(tan(at) - at))
-n = vec(-s*p*tan(at), -p, rho)
-""",
+    "n = outward",
     signs=["s"],
+    described={
+        "rho": ZI.name("t_worm"),
+        "P": ZI.edge("pinion"),
+        "outward": ZI.normal("pinion"),
+        "swept": ZI.carried(ZI.sweep("pinion"), "P"),
+    },
 )
 
+#: Disc and arc in the worm's frame, before the screw motion.
 GROUND = scope(
     "helicoids.grinding-wheel",
     """
 k = vec(0, 0, 1)
 p = r*tan(lam)
-E = r + rc
-b1 = rc*tan(alpha) + S/2
-u = b1*sin(alpha) + cos(alpha)*(E - p*cos(lam)/sin(lam))/cos(theta) - s*sin(alpha)*tan(theta)*(p + E*cos(lam)/sin(lam))
-tau = vec(0, cos(lam), sin(lam))
-k_w = vec(0, -sin(lam), cos(lam))
-radius = u*cos(alpha)
-width = b1 - u*sin(alpha)
-P = vec(E - radius*cos(theta), 0, 0) + radius*sin(theta)*tau + s*width*k_w
-n = vec(sin(alpha)*cos(theta), 0, 0) - sin(alpha)*sin(theta)*tau - s*cos(alpha)*k_w
 """,
     signs=["s"],
+    described={
+        "P": ZK.carried(CONE, ZK.edge("pinion")),
+        "n": ZK.turned(CONE, ZK.edge_normal("pinion")),
+    },
 )
 
 ARC = scope(
     "helicoids.arc",
     """
 k = vec(0, 0, 1)
-E = r + rc
-tau = vec(0, cos(lam), sin(lam))
-k_w = vec(0, -sin(lam), cos(lam))
-radius = rc + rho_c*(sin(xi) - sin(alpha))
-width = S/2 + rho_c*(cos(xi) - cos(alpha))
-P = vec(E - radius*cos(theta), 0, 0) + radius*sin(theta)*tau + s*width*k_w
-n = vec(sin(xi)*cos(theta), 0, 0) - sin(xi)*sin(theta)*tau - s*cos(xi)*k_w
 """,
     signs=["s"],
+    described={
+        "P": ZC.carried(DISC, ZC.edge("pinion")),
+        "n": ZC.turned(DISC, ZC.edge_normal("pinion")),
+    },
+)
+
+#: The arc where it touches the cone, whose generatrix passes through the same point of the pitch circle.
+ARC_END = scope(
+    "helicoids.arc-end",
+    """
+xi = 0
+u = 0
+""",
+    signs=["s"],
+    described={
+        "arc": ZC.carried(DISC, ZC.edge("pinion")),
+        "cone": CONE_OF_ZK.carried(CONE, CONE_OF_ZK.edge("pinion")),
+        "arc_normal": ZC.turned(DISC, ZC.edge_normal("pinion")),
+        "cone_normal": CONE_OF_ZK.turned(CONE, CONE_OF_ZK.edge_normal("pinion")),
+    },
+)
+
+#: The ground profile at θ = 0.
+MIDDLE = scope(
+    "helicoids.grinding-wheel-middle", "theta = 0", signs=["s"], described={"P": ZK.carried(CONE, ZK.edge("pinion"))}
 )
 
 ROUNDING = scope(
@@ -168,8 +222,8 @@ CLAIMS = (
         "zn-width",
         "ZN",
         "The straight edge crosses the reference cylinder where the groove is S wide.",
-        "(rt + pitch*cos(alpha))**2 + (pitch*sin(alpha)*sin(lam))**2 = r**2",
-        STRAIGHT,
+        ["P.x**2 + P.y**2 = r**2"],
+        PITCH_POINT,
         conditions=["r ≥ S sin λ / 2"],
     ),
     identity(
@@ -182,15 +236,26 @@ CLAIMS = (
     identity(
         "za-normal",
         "ZA",
-        "(-z′ρ, -p, ρ) with z′ = s tan α / cos λ is normal to the helicoid of the straight axial edge.",
-        ["dot(n, d(P, rho)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0"],
+        "The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to "
+        "the helicoid of the straight axial edge.",
+        [
+            "dot(n, d(P, rho)) = 0",
+            "dot(n, vec(-P.y, P.x, p)) = 0",
+            "dot(Rz(psi)@n, d(swept, psi)) = 0",
+            "d(P.z, rho)*cos(lam) = s*tan(alpha)",
+        ],
         AXIAL,
     ),
     identity(
         "zi-normal",
         "ZI",
         "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
-        ["dot(n, d(P, at)) = 0", "dot(n, vec(-P.y, P.x, p)) = 0", "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)"],
+        [
+            "dot(n, d(P, at)) = 0",
+            "dot(n, vec(-P.y, P.x, p)) = 0",
+            "dot(Rz(psi)@n, d(swept, psi)) = 0",
+            "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)",
+        ],
         INVOLUTE,
         conditions=["ρ ≥ r_b"],
     ),
@@ -207,16 +272,19 @@ CLAIMS = (
         "zk-radius",
         "ZK",
         "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
-        "(E - (b1*sin(alpha) + cos(alpha)*rc)*cos(alpha))**2 + ((b1 - (b1*sin(alpha) + "
-        "cos(alpha)*rc)*sin(alpha))*sin(lam))**2"
-        " = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2",
-        GROUND,
+        "P.x**2 + P.y**2 = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2",
+        MIDDLE,
     ),
     identity(
         "zc-normal",
         "ZC",
-        "The arc's unit normal is perpendicular to the grinding wheel in both directions.",
-        ["dot(n, d(P, theta)) = 0", "dot(n, d(P, xi)) = 0", "dot(n, n) = 1"],
+        "The arc's unit normal is perpendicular to the grinding wheel in both directions; the arc has the radius ρc.",
+        [
+            "dot(n, d(P, theta)) = 0",
+            "dot(n, d(P, xi)) = 0",
+            "dot(n, n) = 1",
+            "dot(d(P, xi), d(P, xi)) = rho_c**2",
+        ],
         ARC,
     ),
     identity(
@@ -232,15 +300,20 @@ CLAIMS = (
         "zn-normal",
         "ZN",
         "The straight edge's normal is perpendicular to the edge and to the screw motion.",
-        ["dot(n, d(P, t)) = 0", "dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0"],
+        [
+            "dot(n, d(P, t)) = 0",
+            "dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0",
+            "dot(Rz(psi)@n, d(swept, psi)) = 0",
+        ],
         STRAIGHT,
     ),
     identity(
         "zc-limit",
         "ZC",
-        "At ξ = α arc and cone agree in radius, width and normal.",
-        ["rc + rho_c*(sin(alpha) - sin(alpha)) = rc", "S/2 + rho_c*(cos(alpha) - cos(alpha)) = S/2"],
-        ARC,
+        "On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of "
+        "form K, at every θ: the arc touches the cone's generatrix there.",
+        ["arc = cone", "arc_normal = cone_normal"],
+        ARC_END,
     ),
 )
 

@@ -1,6 +1,7 @@
 """Spherical gears: normal, explicit generation, the moment law and the closed form of undercut."""
 
-from derive.audit.claims import Document, scope
+from derive.audit.claims import Document, scope, with_sign
+from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
 
@@ -48,7 +49,47 @@ undercut = r*sin(alpha)**2 + Xc*(1 + cos(alpha)**2*R/radius*tan(theta)**2/cos(th
     signs=["s", "form"],
 )
 
+
+
+def _described(member: str, teeth: str) -> dict:
+    """Rack, its normal, the gear being cut and the solved turn, as the drive's page says."""
+    drive = Described(
+        "spherical_convex_concave",
+        {
+            f"{teeth}": "2*r/m", f"l_{member}": "l", f"theta_{member}": "theta", f"a_{member}": "a", f"b_{member}": "b",
+            f"R_{member}": "R",
+        },
+    )  # fmt: skip
+    turning = Described(drive.drive, {**drive.letters, f"phi_gen_{member}": "phi"})
+    return {
+        "described": drive.carried(drive.sweep(member), drive.edge(member)),
+        "normal": drive.turned(drive.sweep(member), drive.normal(member)),
+        "cut": turning.carried(turning.generation(member), "rack"),
+        "solved": drive.solved(member),
+    }
+
+
+CONVEX = with_sign(SWEPT, "spherical_gears.convex", "form", 1, _described("pinion", "T_1"))
+CONCAVE = with_sign(SWEPT, "spherical_gears.concave", "form", -1, _described("wheel", "T_2"))
+AS_DESCRIBED = ["rack = described", "n = normal", "free = cut", "turn = solved"]
+
 CLAIMS = (
+    identity(
+        "convex",
+        "description",
+        "Rack, normal, generation and the solved turn of a convex gear are those of the drive's description.",
+        AS_DESCRIBED,
+        CONVEX,
+        conditions=["sin α ≠ 0", "cos θ ≠ 0"],
+    ),
+    identity(
+        "concave",
+        "description",
+        "The same of a concave gear.",
+        AS_DESCRIBED,
+        CONCAVE,
+        conditions=["sin α ≠ 0", "cos θ ≠ 0"],
+    ),
     identity(
         "half-angle",
         "sweep",

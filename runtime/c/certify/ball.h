@@ -13,6 +13,13 @@
 #include "../circular.h"
 #include "../mw_enclosures.h"
 
+/* a b + c, rounded once where MW_FUSED is defined: the bounds hold for either. */
+#ifdef MW_FUSED
+#define MWC_FMA(a, b, c) fma(a, b, c)
+#else
+#define MWC_FMA(a, b, c) ((a) * (b) + (c))
+#endif
+
 /* 2^-53; 2^-1073: what underflow loses in one operation, three halves of the least double at most; 1 + 2^-40. */
 static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931e-324, MWC_READ = 1.0000000000009095;
 
@@ -26,18 +33,22 @@ static const double MWC_U = 1.1102230246251565e-16, MWC_TINY = 9.881312916824931
  * sine's error is as small a share of the sine itself: 1 for the last sum and 0.6 for the terms before it. */
 static const double MWC_SINE = 2.220446049250313e-16, MWC_FAR = MWI_CIRCULAR_FAR;
 
-static inline double mwc_abs(double a)
+MWI_INLINE double mwc_abs(double a)
 {
+#ifdef __GNUC__
+    return __builtin_fabs(a);
+#else
     return fabs(a);
+#endif
 }
 
 /* The radius, with what its rounding lost. */
-static inline double mwc_reach(mw_ball a)
+MWI_INLINE double mwc_reach(mw_ball a)
 {
     return MWC_READ * a.radius;
 }
 
-static inline mw_ball mwc_make(double mid, double radius)
+MWI_INLINE mw_ball mwc_make(double mid, double radius)
 {
     mw_ball b;
     b.mid = mid;
@@ -46,43 +57,43 @@ static inline mw_ball mwc_make(double mid, double radius)
 }
 
 /* Whatever the operation was, it is not defined everywhere here. */
-static inline mw_ball mwc_where(int defined, double mid, double radius)
+MWI_INLINE mw_ball mwc_where(int defined, double mid, double radius)
 {
     return mwc_make(mid, defined ? radius : HUGE_VAL);
 }
 
-static inline mw_ball mwc_add(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_add(mw_ball a, mw_ball b)
 {
     const double m = a.mid + b.mid;
-    return mwc_make(m, (a.radius + b.radius) + MWC_U * mwc_abs(m));
+    return mwc_make(m, MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));
 }
 
-static inline mw_ball mwc_sub(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_sub(mw_ball a, mw_ball b)
 {
     const double m = a.mid - b.mid;
-    return mwc_make(m, (a.radius + b.radius) + MWC_U * mwc_abs(m));
+    return mwc_make(m, MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));
 }
 
-static inline mw_ball mwc_neg(mw_ball a)
+MWI_INLINE mw_ball mwc_neg(mw_ball a)
 {
     return mwc_make(-a.mid, a.radius);
 }
 
-static inline mw_ball mwc_mul(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_mul(mw_ball a, mw_ball b)
 {
     const double m = a.mid * b.mid;
-    const double spread = mwc_abs(a.mid) * b.radius + a.radius * (mwc_abs(b.mid) + mwc_reach(b));
-    return mwc_make(m, spread + (MWC_U * mwc_abs(m) + MWC_TINY));
+    const double most = MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding = MWC_FMA(MWC_U, mwc_abs(m), MWC_TINY);
+    return mwc_make(m, MWC_FMA(mwc_abs(a.mid), b.radius, MWC_FMA(a.radius, most, rounding)));
 }
 
-static inline mw_ball mwc_sqr(mw_ball a)
+MWI_INLINE mw_ball mwc_sqr(mw_ball a)
 {
     const double m = a.mid * a.mid;
-    return mwc_make(m, a.radius * (2.0 * mwc_abs(a.mid) + mwc_reach(a)) + (MWC_U * m + MWC_TINY));
+    return mwc_make(m, MWC_FMA(a.radius, 2.0 * mwc_abs(a.mid) + mwc_reach(a), MWC_FMA(MWC_U, m, MWC_TINY)));
 }
 
 /* a/b - ma/mb = ((a - ma) - (ma/mb)(b - mb))/b; the factors next to 1 round outwards. */
-static inline mw_ball mwc_div(mw_ball a, mw_ball b)
+MWI_INLINE mw_ball mwc_div(mw_ball a, mw_ball b)
 {
     const double q = a.mid / b.mid, least = mwc_abs(b.mid) - mwc_reach(b);
     const double spread = (mwc_abs(q) * (1.0 + 4.0 * MWC_U) * b.radius + a.radius) / (least * (1.0 - 8.0 * MWC_U));
@@ -90,47 +101,61 @@ static inline mw_ball mwc_div(mw_ball a, mw_ball b)
 }
 
 /* |sqrt(a) - sqrt(m)| = |a - m|/(sqrt(a) + sqrt(m)) <= r/sqrt(m) */
-static inline mw_ball mwc_sqrt(mw_ball a)
+MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
 {
     const double root = sqrt(a.mid);
-    if (a.mid == 0.0 && a.radius == 0.0) return a;
-    return mwc_where(a.mid - mwc_reach(a) > 0.0, root, a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root);
+    const int zero = a.mid == 0.0 && a.radius == 0.0;
+    const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
+    return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
 
+/* By value: a compiler that takes several points at once does not do so with places in memory. */
+typedef struct mwc_turn {
+    mw_ball sine, cosine;
+} mwc_turn;
+
 /* |sin(m + d) - sin m| <= |cos m| |d| + d^2/2 */
-static inline void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
+MWI_INLINE mwc_turn mwc_turned(mw_ball a)
 {
     double s, c;
+    mwc_turn turn;
     const int near = mwc_abs(a.mid) < MWC_FAR;
     mwi_sine(near ? a.mid : 0.0, &s, &c);
     const double bend = 0.5 * a.radius * mwc_reach(a), size = mwc_abs(a.mid) < 0.78 ? mwc_abs(s) : 1.0;
-    *sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend + (MWC_SINE * size + MWC_TINY));
-    *cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend + MWC_SINE);
+    turn.sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius + bend + (MWC_SINE * size + MWC_TINY));
+    turn.cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius + bend + MWC_SINE);
+    return turn;
+}
+
+MWI_INLINE void mwc_sincos(mw_ball a, mw_ball *sine, mw_ball *cosine)
+{
+    const mwc_turn turn = mwc_turned(a);
+    *sine = turn.sine;
+    *cosine = turn.cosine;
 }
 
 /* Angle of the point (x, y): about any angle t near it, t + atan((y cos t - x sin t)/(x cos t + y sin t)), whose arc is
- * within |d|^3/3 of its tangent d. Nothing is asked of t but that it lies on the right side of the axis. */
-static inline mw_ball mwc_atan2(mw_ball y, mw_ball x)
+ * within |d|^3/3 of its tangent d. Nothing is asked of t but that it lies on the right side of the cut. */
+MWI_INLINE mw_ball mwc_atan2(mw_ball y, mw_ball x)
 {
     const double t = mwi_angle(y.mid, x.mid);
     const int uncut = x.mid - mwc_reach(x) > 0.0 || mwc_abs(y.mid) - mwc_reach(y) > 0.0;
-    mw_ball s, c;
-    mwc_sincos(mwc_make(t, 0.0), &s, &c);
-    const mw_ball along = mwc_add(mwc_mul(x, c), mwc_mul(y, s));
+    const mwc_turn turn = mwc_turned(mwc_make(t, 0.0));
+    const mw_ball s = turn.sine, c = turn.cosine, along = mwc_add(mwc_mul(x, c), mwc_mul(y, s));
     const mw_ball d = mwc_div(mwc_sub(mwc_mul(y, c), mwc_mul(x, s)), along);
     const double m = t + d.mid, cube = mwc_abs(d.mid) * d.mid * d.mid;
-    const int right = along.mid > 0.0 && mwc_abs(t) < 3.15 && (t < 0.0) == (y.mid < 0.0);
-    return mwc_where(uncut && right, m, d.radius + (MWC_U * mwc_abs(m) + cube));
+    const int side = x.mid > 0.0 || (t < 0.0) == (y.mid < 0.0), right = along.mid > 0.0 && mwc_abs(t) < 3.15 && side;
+    return mwc_where(uncut && right, m, d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube));
 }
 
 /* -1 below 0, else 1: known only where the radius leaves no choice. */
-static inline mw_ball mwc_sign(mw_ball a)
+MWI_INLINE mw_ball mwc_sign(mw_ball a)
 {
     const double reach = mwc_reach(a);
     return mwc_where(a.mid - reach >= 0.0 || a.mid + reach < 0.0, a.mid < 0.0 ? -1.0 : 1.0, 0.0);
 }
 
-static inline mw_ball mwc_of_wide(mw_wide a)
+MWI_INLINE mw_ball mwc_of_wide(mw_wide a)
 {
     return mwc_make(a.hi, (mwc_abs(a.lo) + a.radius) * MWC_READ);
 }

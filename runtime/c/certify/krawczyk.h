@@ -12,10 +12,15 @@
 #include "../mw_status.h"
 #include "wide.h"
 
+/* Most unknowns of a system. */
+#ifndef MWC_LARGEST
+#define MWC_LARGEST MW_MAX_UNKNOWNS
+#endif
+
 /* C = inverse of the n x n midpoints of J, row by row; 0 where they are singular in double. J is not changed. */
 static inline int mwc_inverse(int n, const mw_ball *J, double *C)
 {
-    double a[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
+    double a[MWC_LARGEST * MWC_LARGEST];
     for (int i = 0; i < n * n; i++) a[i] = J[i].mid, C[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
     for (int k = 0; k < n; k++) {
         int pivot = k;

@@ -1,4 +1,4 @@
-/* Functions of a drive in the arithmetics of points (MWC_POINTS) or of paths (MWC_PATHS).  SPDX-License-Identifier: MIT-0 */
+/* Functions of a drive in doubles (MWC_BALLS), in double-double (MWC_WIDES) or along paths (MWC_PATHS).  SPDX-License-Identifier: MIT-0 */
 #ifndef MWC_TABLES_H
 #define MWC_TABLES_H
 
@@ -8,13 +8,15 @@
 /* Most registers of a function and most numbers that it reads. */
 enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 
-#ifdef MWC_POINTS
+#ifdef MWC_BALLS
 #define MWC_RUN mwc_run_ball
 #define MWC_NUMBER mw_ball
 #define MWC_DO(operation) mwc_##operation
 #define MWC_CONSTANT(c) mwc_of_wide(c)
 #include "run.h"
+#endif
 
+#ifdef MWC_WIDES
 #define MWC_RUN mwc_run_wide
 #define MWC_NUMBER mw_wide
 #define MWC_DO(operation) mwc_wide_##operation

@@ -123,13 +123,48 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
 }
 
-/* 1 - z/(n(n+1)) (1 - z/((n+2)(n+3)) (...)): from n = 2 the sine's series over its argument, from n = 1 the cosine's. */
-static inline mw_wide mwc_wide_series(mw_wide z, int n)
+/* 1/n! for n = 1, 3, ... and for n = 0, 2, ..., and the doubles nearest to those that follow. */
+enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
+static const mw_wide MWC_OF_SINE[] = {
+    { 1.0, 0.0, 0.0 },
+    { 0.16666666666666666, 9.25185853854297e-18, 5.19e-34 },
+    { 0.008333333333333333, 1.1564823173178714e-19, 1.62e-36 },
+    { 0.0001984126984126984, 1.7209558293420705e-22, 1.51e-40 },
+    { 2.7557319223985893e-06, -1.858393274046472e-22, 8.58e-39 },
+    { 2.505210838544172e-08, -1.448814070935912e-24, 2.06e-41 },
+    { 1.6059043836821613e-10, 1.2585294588752098e-26, 5.37e-43 },
+    { 7.647163731819816e-13, 7.03872877733453e-30, 7.91e-48 },
+    { 2.8114572543455206e-15, 1.6508842730861433e-31, 2.91e-50 },
+    { 8.22063524662433e-18, 2.2141894119604265e-34, 1.52e-50 },
+    { 1.9572941063391263e-20, -1.3643503830087908e-36, 1.35e-53 }
+}, MWC_OF_COSINE[] = {
+    { 1.0, 0.0, 0.0 },
+    { 0.5, 0.0, 0.0 },
+    { 0.041666666666666664, 2.3129646346357427e-18, 1.30e-34 },
+    { 0.001388888888888889, -5.300543954373577e-20, 1.76e-36 },
+    { 2.48015873015873e-05, 2.1511947866775882e-23, 1.88e-41 },
+    { 2.755731922398589e-07, 2.3767714622250297e-23, 3.30e-40 },
+    { 2.08767569878681e-09, -1.20734505911326e-25, 1.72e-42 },
+    { 1.1470745597729725e-11, 2.0655512752830745e-28, 6.96e-45 },
+    { 4.779477332387385e-14, 4.399205485834081e-31, 4.94e-49 },
+    { 1.5619206968586225e-16, 1.1910679660273754e-32, 4.62e-49 },
+    { 4.110317623312165e-19, 1.4412973378659527e-36, 5.34e-53 }
+};
+static const double MWC_MORE_OF_SINE[] = {
+    3.868170170630684e-23, 6.446950284384474e-26, 9.183689863795546e-29, 1.1309962886447716e-31, 1.216125041553518e-34, 1.151633562077195e-37
+}, MWC_MORE_OF_COSINE[] = {
+    8.896791392450574e-22, 1.6117375710961184e-24, 2.4795962632247976e-27, 3.279889237069838e-30, 3.7699876288159054e-33, 3.8003907548547434e-36
+};
+
+/* Sum of (-z)^k times these, to k = 16: the later ones do not need two doubles. */
+static inline mw_wide mwc_wide_series(mw_wide z, const mw_wide *terms, const double *more)
 {
-    mw_wide sum = mwc_wide_of(1.0);
-    for (int k = n + 30; k >= n; k -= 2)
-        sum = mwc_wide_sub(mwc_wide_of(1.0), mwc_wide_mul(mwc_wide_div(z, mwc_wide_of((double)(k * (k + 1)))), sum));
-    sum.radius += 1e-39; /* the first omitted term, 0.8^32/32! at most */
+    const mw_ball near = mwc_of_wide(z);
+    mw_ball rest = mwc_make(0.0, 1e-38); /* the first that is left out, 1/34!, and what follows */
+    for (int k = MWC_MORE_TERMS - 1; k >= 0; k--)
+        rest = mwc_sub(mwc_make(more[k], MWC_U * more[k]), mwc_mul(near, rest));
+    mw_wide sum = mwc_wide(rest.mid, 0.0, mwc_reach(rest));
+    for (int k = MWC_WIDE_TERMS - 1; k >= 0; k--) sum = mwc_wide_sub(terms[k], mwc_wide_mul(z, sum));
     return sum;
 }
 
@@ -140,7 +175,8 @@ static inline void mwc_wide_sincos(mw_wide a, mw_wide *sine, mw_wide *cosine)
     const double d = a.radius;
     const mw_wide middle = mwc_wide(near ? a.hi : 0.0, a.lo, 0.0);
     const mw_wide r = mwc_wide_sub(middle, mwc_wide_mul(mwc_wide_of(k), MWC_HALF_PI)), z = mwc_wide_sqr(r);
-    const mw_wide s = mwc_wide_mul(r, mwc_wide_series(z, 2)), c = mwc_wide_series(z, 1);
+    const mw_wide s = mwc_wide_mul(r, mwc_wide_series(z, MWC_OF_SINE, MWC_MORE_OF_SINE));
+    const mw_wide c = mwc_wide_series(z, MWC_OF_COSINE, MWC_MORE_OF_COSINE);
     const int quadrant = (int)k, odd = quadrant & 1;
     const mw_wide first = odd ? c : s, second = odd ? s : c;
     *sine = (quadrant & 2) ? mwc_wide_neg(first) : first;

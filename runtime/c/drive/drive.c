@@ -13,6 +13,7 @@ static const mw_kernels kernels;
 #include MW_GENERATED(_sensitivity)
 #include MW_GENERATED(_bounded)
 #include MW_GENERATED(_certified)
+#include MW_GENERATED(_certify)
 
 #define MW_SYSTEM_TANGENTS(system) { system##_tangent, system##_fill_tangent },
 static const mw_system_tangents system_tangents[] = { MW_OF(_SYSTEMS)(MW_SYSTEM_TANGENTS) { NULL, NULL } };
@@ -28,7 +29,7 @@ extern const mw_lane_model MW_OF(_lanes_avx2), MW_OF(_lanes_avx512);
 #define MW_WIDE(name) NULL
 #endif
 static const mw_kernels kernels = {
-    &tangents, &MW_OF(_bounded), &MW_OF(_certified),
+    &tangents, &MW_OF(_bounded), &MW_OF(_certified), { MW_OF(_enclose_instant1), MW_OF(_enclose1) },
     { &MW_OF(_lanes_native), MW_WIDE(_lanes_avx2), MW_WIDE(_lanes_avx512) }
 };
 

@@ -46,7 +46,7 @@ PUBLIC_HEADERS = (
 )  # fmt: skip
 
 #: Generated headers of a drive.
-GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certified.h")
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certified.h", "{}_certify.h")
 
 FLAGS = (
     "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",

@@ -59,7 +59,20 @@ def _on_flanks(entries):
 
 
 def _line(entry):
-    return "  ".join(f"{key} {_cell(value)}" for key, value in entry.items() if value not in ([], {}, None))
+    said = (_proved(value) if key == "certificate" else f"{key} {_cell(value)}" for key, value in _filled(entry))
+    return "  ".join(said)
+
+
+def _filled(entry):
+    return ((key, value) for key, value in entry.items() if value not in ([], {}, None))
+
+
+def _proved(certificate):
+    """What is proved of a branch point."""
+    if certificate["outcome"] != "unique":
+        return f"(not certified: {certificate['reason']})"
+    low, high = certificate["pinion_angle_deg"]
+    return f"(certified to {high - low:.0e} deg)"
 
 
 def _cell(value):

@@ -38,12 +38,13 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    with progress(3 if options.certify else 2) as step:
+    certify = options.certify or not options.json
+    with progress(3 if certify else 2) as step:
         step("window, transmission error and backlash")
         found = drive.contact_ratio()
         step("teeth in contact and efficiency")
         contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
-        if options.certify:
+        if certify:
             step("proof of the branch")
             contents["certificate"] = _certificate(drive, found)
     if options.json:

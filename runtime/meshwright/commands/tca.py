@@ -73,9 +73,7 @@ def run(options):
     if options.all_contacts:
         _add_other_contacts(points, drive, result)
     if options.certify:
-        from meshwright.contact.certificate import degrees_of
-
-        certificates = drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
+        certificates = _certificates(options, drive, result)
         for point, certificate in zip(points, certificates.to_plain(), strict=True):
             point["certificate"] = certificate
     if options.json:
@@ -84,8 +82,15 @@ def run(options):
     if options.csv:
         write_csv(options.csv, *_columns(points))
     if not options.json and not options.csv:
-        write_text("-", _table(drive, points))
+        write_text("-", f"{_table(drive, points)}{_certificates(options, drive, result).said()}\n")
     return 0 if result.complete else 1
+
+
+def _certificates(options, drive, result):
+    """Proofs of the contacts, at the decimals of the angles where they were given."""
+    from meshwright.contact.certificate import degrees_of
+
+    return drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
 
 
 def _say_unresolved(first):

@@ -5,7 +5,8 @@ What is proved is of the equations, for the decimals of the design: see :class:`
 """
 
 import re
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -115,6 +116,19 @@ class Certificates:
         """Names of the flags by which bodies surely cannot make the contact at point k."""
         return [name for name, word in self.flags(k).items() if word == "yes" and impossible(name)]
 
+    def said(self):
+        """In a sentence, how many contacts are certain, and why others are not."""
+        outcomes, errors = self.outcomes, self.error_arcsec()
+        shown, total = outcomes.count("unique"), len(outcomes)
+        others = Counter(reason.replace("_", " ") for reason in self.reasons if reason)
+        why = ", ".join(f"{count} {reason}" for reason, count in others.items())
+        if not shown:
+            return f"not certified: {why}"
+        width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
+        number = "every contact" if shown == total else f"{shown} of {total} contacts"
+        rest = f"; not: {why}" if why else ""
+        return f"certified: {number} the only one nearby, transmission error within {width:.0e} arcsec{rest}"
+
     def to_plain(self):
         """A certificate each, as plain data of the ``meshwright.tca/1`` schema."""
         errors = self.error_arcsec()
@@ -171,11 +185,12 @@ def certify_many(drive, angles, solutions, width=0):
     """Uniqueness (N,) and bounds of the transmission error (N, 2), rad, of many contacts of one design, in lanes.
 
     ``angles`` (N,) rad and ``solutions`` (N, nx) of the right-hand drive; ``width``: numbers in a vector, 0 for the
-    widest that this processor has. The bounds are those of doubles, about 1e-7 arcseconds apart.
+    widest that this processor has, 1 for one contact after the other. The bounds are those of doubles, about 1e-8
+    arcseconds apart.
     """
-    lanes = library().mw_lanes(width)
-    if lanes == ffi.NULL:
-        raise UsageError(f"width = {width}: this processor has no vectors of that width; use 2, or 0 for its widest")
+    lanes = ffi.NULL if width == 1 else library().mw_lanes(width)
+    if lanes == ffi.NULL and width != 1:
+        raise UsageError(f"width = {width}: this processor has no such vectors; use 1, 2, or 0 for its widest")
     phi, x = exact.wides([(Fraction(float(a)),) * 2 for a in angles]), np.ascontiguousarray(solutions, dtype=float)
     unique, errors = np.zeros(len(phi), np.uint8), np.zeros(len(phi), record("mw_ball"))
     library().mw_certify_many(
@@ -185,6 +200,55 @@ def certify_many(drive, angles, solutions, width=0):
     radius = errors["radius"] * (1.0 + 1e-12)
     low, high = np.nextafter(errors["mid"] - radius, -np.inf), np.nextafter(errors["mid"] + radius, np.inf)
     return unique.astype(bool), np.stack([low, high], axis=1)
+
+
+@dataclass(frozen=True)
+class BranchCertificate:
+    """What is shown of a fold or crossing of branches.
+
+    ``unique``: the equations have exactly one singular point nearby, at an input angle between ``angle`` (low, high),
+    rad; of a crossing, the equations changed by a number between ``unfolding`` (low, high), in shares of their slopes.
+    ``unknown``: that is not shown, for the ``reason``.
+    """
+
+    outcome: str
+    reason: str
+    angle: tuple[float, float] | None = None
+    unfolding: tuple[float, float] | None = None
+
+    def seen_in(self, mirror):
+        """The same of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
+        if self.angle is None or mirror.sign > 0.0:
+            return self
+        return replace(self, angle=(-self.angle[1], -self.angle[0]))
+
+    def plain(self):
+        """As plain data, the angle in degrees, rounded outwards."""
+        degrees = None
+        if self.angle is not None:
+            degrees = [float(np.degrees(a)) for a in self.angle]
+            degrees = [end - side * 4e-16 * abs(end) for end, side in zip(degrees, (1, -1), strict=True)]
+        return {
+            "outcome": self.outcome, "reason": self.reason or None, "pinion_angle_deg": degrees,
+            "unfolding": self.unfolding and list(self.unfolding),
+        }  # fmt: skip
+
+
+def certify_branch(drive, angle, unknowns, crossing):
+    """The :class:`BranchCertificate` of a fold or ``crossing`` that floating point found, of the right-hand drive."""
+    found, x = ffi.new("mw_branch_certificate *"), np.ascontiguousarray(unknowns, dtype=float)
+    state = pointer(drive.enclosed.state, "mw_wide[]")
+    library().mw_certify_branch(drive.enclosed.model, state, int(crossing), float(angle), pointer(x), found)
+    outcome, reason = OUTCOMES[found.outcome], text(library().mw_reason_word(found.reason))
+    if outcome != "unique":
+        return BranchCertificate(outcome, reason)
+    return BranchCertificate(outcome, reason, *(_ends(ball) for ball in (found.angle, found.unfolding)))
+
+
+def _ends(ball):
+    """Doubles around a ball."""
+    middle, radius = Fraction(ball.mid), Fraction(ball.radius) * (1 + Fraction(1, 2**40))
+    return exact.downwards(middle - radius), exact.upwards(middle + radius)
 
 
 def _all(drive, phi, each, first, second):

@@ -20,8 +20,8 @@ SHORTEST = 2.0**-14
 #: Widest half-width of the tube of transmission error about its polynomial, rad: 5e-8 arcseconds.
 TUBE = 5e-8 * ARCSEC
 
-#: Halvings of a piece for bounds of a polynomial over it, and of an angle's bracket.
-DEPTH, BRACKET = 9, 40
+#: Halvings of a path for bounds of its error, of a piece at least, and of an angle's bracket.
+DEPTH, LEAST_DEPTH, BRACKET = 10, 3, 40
 
 
 @dataclass(frozen=True)
@@ -77,11 +77,18 @@ class CertifiedPath:
 
     def error(self, angle):
         """Bounds of the transmission error at an angle of the path, rad."""
-        piece = self._piece(angle)
+        return self._error(self._piece(angle), angle)
+
+    def _error(self, piece, angle):
         ball = library().mw_piece_at(piece, ffi.addressof(piece.x[self.drive.design.description["error"]]), angle)
         return math.nextafter(ball.mid - ball.radius, -math.inf), math.nextafter(ball.mid + ball.radius, math.inf)
 
-    def _range(self, piece, polynomial, low, high, depth=DEPTH):
+    @property
+    def _depth(self):
+        """Halvings of each piece, by which the whole path is halved DEPTH times."""
+        return max(LEAST_DEPTH, DEPTH - int(math.log2(max(1, len(self.pieces)))))
+
+    def _range(self, piece, polynomial, low, high, depth):
         bounds = np.empty(2)
         library().mw_piece_range(piece, ffi.addressof(polynomial), low, high, depth, pointer(bounds))
         return tuple(bounds.tolist())
@@ -91,7 +98,8 @@ class CertifiedPath:
         """Bounds between which the transmission error stays along the whole path, rad."""
         index = self.drive.design.description["error"]
         ranges = [
-            self._range(piece, piece.x[index], *ends) for piece, ends in zip(self.pieces, self.ends, strict=True)
+            self._range(piece, piece.x[index], *ends, self._depth)
+            for piece, ends in zip(self.pieces, self.ends, strict=True)
         ]
         return min(r[0] for r in ranges), max(r[1] for r in ranges)
 
@@ -99,8 +107,11 @@ class CertifiedPath:
     def peak_to_peak(self):
         """Bounds of the peak-to-peak transmission error over the path, rad."""
         low, high = self.error_range
-        angles = [a for ends in self.ends for a in np.linspace(*ends, 2**DEPTH + 1).tolist()]
-        found = [self.error(angle) for angle in angles]
+        found = [
+            self._error(piece, angle)
+            for piece, ends in zip(self.pieces, self.ends, strict=True)
+            for angle in np.linspace(*ends, 2**self._depth + 1).tolist()
+        ]
         least = max(f[0] for f in found) - min(f[1] for f in found)
         return max(0.0, math.nextafter(least, -math.inf)), math.nextafter(high - low, math.inf)
 

@@ -23,7 +23,10 @@ from meshwright.flank.sides import PLACES_ALONG, Floats, RegionSide
 JUNCTION = "junction"
 
 #: An interpolant is refined until it is within so many mm midway between its sections, of which it has at most so many.
-EXACT, FEWEST, MOST = 1e-8, 16, 256
+EXACT, FEWEST, MOST = 1e-7, 16, 256
+
+#: Where undercut begins within the face the first section with a crossing is so far on, in parts of their distance.
+BEFORE_END = 1e-8
 
 #: It goes on beyond the faces of the tooth by this part of their distance.
 ROOM = 1e-6
@@ -78,7 +81,10 @@ class Crossing:
         crossed = side.crossed(at)
         ends = [reach[0], *changes(at, side.crossed, crossed), reach[1]]
         first = np.concatenate([[crossed[0]], crossed[1:][crossed[1:] != crossed[:-1]]])
-        spans = zip(ends[:-1], ends[1:], first, strict=True)
+        inside = BEFORE_END * (reach[1] - reach[0])
+        starts = [low if low == reach[0] else low + inside for low in ends[:-1]]
+        stops = [high if high == reach[1] else high - inside for high in ends[1:]]
+        spans = zip(starts, stops, first, strict=True)
         pieces = [Piece.of(side, low, high) for low, high, cut in spans if cut]
         if not pieces:
             return None

@@ -4,6 +4,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.branch import STEP, crossing_point, follow, turning_point
+from meshwright.contact.certificate import certify_branch
 from meshwright.limits.results import BranchPoint
 
 #: A branch is followed this many pitches from where it starts.
@@ -62,4 +63,4 @@ def _located(drive, branch, k):
         return None
     angle, x = place
     o, _ = _observed(drive, float(angle), x)
-    return BranchPoint(float(angle), kind, o[0:3].copy())
+    return BranchPoint(float(angle), kind, o[0:3].copy(), certify_branch(drive, angle, x, kind != "fold"))

@@ -126,21 +126,26 @@ class Axis:
 
 @dataclass(frozen=True)
 class BranchPoint:
-    """A point where a branch of contact turns back (``fold``) or two branches cross (``pitchfork``)."""
+    """A point where a branch of contact turns back (``fold``) or two branches cross (``pitchfork``), and what is proved
+    of it (a :class:`~meshwright.contact.certificate.BranchCertificate`).
+    """
 
     angle: float
     kind: str
     point: np.ndarray
+    certificate: object
 
     def seen_in(self, mirror):
         """The same branch point of the drive of a :class:`~meshwright.design.mirror.Mirror`."""
-        return BranchPoint(mirror.sign * self.angle, self.kind, self.point * mirror.flip)
+        angle, certificate = mirror.sign * self.angle, self.certificate.seen_in(mirror)
+        return BranchPoint(angle, self.kind, self.point * mirror.flip, certificate)
 
     def plain(self):
         return {
             "pinion_angle_deg": float(np.degrees(self.angle)),
             "kind": self.kind,
             "point_mm": self.point.tolist(),
+            "certificate": self.certificate.plain(),
         }
 
 

@@ -103,7 +103,12 @@ def findings(analysis):
     said += _error(analysis) + _loaded(analysis)
     if not any(f.kind == "warn" for f in said):
         said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
+    said.append(Finding("note", _sentence(analysis.drive.certify(analysis.tca.angles, analysis.tca).said())))
     return said
+
+
+def _sentence(words):
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def _loaded(analysis):
@@ -124,7 +129,7 @@ def _window(analysis):
         for name, end in (("begins", window.begin), ("ends", window.end))
         if end.exists
     ]
-    return said + ([Finding("note", f"{why[0].upper()}{why[1:]}.")] if why else [])
+    return said + ([Finding("note", _sentence(why))] if why else [])
 
 
 def _deg(angle, decimals):

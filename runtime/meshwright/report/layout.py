@@ -73,9 +73,9 @@ def _height(label):
 
 
 def _above(axes):
-    """What stands above a panel, points: its title, a legend, notes at points."""
+    """What stands above a panel, points: its title, a legend, notes at points, half of a number at its very top."""
     notes = any(isinstance(text, Annotation) for text in axes.texts)
-    line = LINE * axes.yaxis.label.get_fontsize() if notes else 0.0
+    line = LINE * axes.yaxis.label.get_fontsize() * (1.0 if notes else 0.5)
     return max(_height(axes.title), _height(axes._left_title), _legend(axes), line)
 
 

@@ -16,7 +16,7 @@ from meshwright.report.projection import Projection
 LONG, MOST_ROWS = 16.0, 8
 
 #: Width and least height of a figure, inches; room around a flank, as a share of its extent.
-WIDTH, LEAST_HEIGHT, ROOM = 6.4, 1.9, 0.04
+WIDTH, LEAST_HEIGHT, ROOM = 6.4, 2.2, 0.04
 
 #: Width of the line of contact whose pressure is highest, points.
 WIDEST = 2.4
@@ -60,7 +60,7 @@ class Sheet:
             begin = low[0] + k * size[0] / rows - ROOM * size[0] / rows
             axes.set(xlim=(begin, begin + shown[0]), ylim=(low[1] - ROOM * size[1], high[1] + ROOM * size[1]))
             axes.set_aspect("equal")
-            axes.locator_params(axis="y", nbins=max(1, min(8, round(18 * shown[1] / shown[0]))))
+            axes.locator_params(axis="y", nbins=max(1, min(8, round(12 * shown[1] / shown[0]))), min_n_ticks=1)
         panels[-1].set_xlabel(self.labels[0])
         figure.supylabel(self.labels[1], fontsize=9.0) if rows > 1 else panels[0].set_ylabel(self.labels[1])
         return figure, panels

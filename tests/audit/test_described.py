@@ -1,0 +1,180 @@
+"""The derived side of a statement is the drive's own description: an edit of the description makes it false.
+
+And a statement says something: no derivative along what is not there, no two sides that are one text.
+"""
+
+import copy
+import importlib
+
+import pytest
+
+from derive.audit import described, ledger, record
+from derive.audit.documents import face_worm, recess_action, spherical, zk_zn
+from derive.audit.identities import cylindrical_gears, cylindrical_worm, helicoids
+from derive.prove.tree import symbols, walk
+
+ZN, ZK = "cylindrical_worm_zn_zn", "cylindrical_worm_zk_zn"
+
+
+def steps(data, member):
+    return next(body for body in data["bodies"] if body["name"] == member)["surface"]["made"]
+
+
+def made(data, member, word):
+    return next(step for step in steps(data, member) if step["step"] == word)
+
+
+def negated_angle(motion, place):
+    motion[place][2] = ["*", -1, motion[place][2]]
+
+
+def rule(data, target, value):
+    data["rules"] = [[name, value if name == target else own] for name, own in data["rules"]]
+
+
+def definition(data, name, value):
+    next(entry for entry in data["definitions"] if entry["name"] == name)["value"] = value
+
+
+#: What is edited, in which drive, and the entries that then no longer hold.
+EDITS = {
+    "A_gen = A - r_h + r_1": (
+        ZN, lambda d: rule(d, "A_gen", ["+", "A", ["*", -1, "r_hob"], "r_worm"]), recess_action, ["eq-37"],
+    ),
+    "Sigma_gen = Sigma - lambda + lambda_h": (
+        ZN,
+        lambda d: rule(d, "Sigma_gen", ["+", "Sigma", "lambda_hob", ["*", -1, "lambda_worm"]]),
+        recess_action,
+        ["eq-38", "eq-37"],
+    ),
+    "blade turned by -lambda": (
+        ZN, lambda d: definition(d, "P_hob_y", ["*", "s", "t_hob", ["sin", "alpha_hob"], ["sin", "lambda_hob"]]),
+        recess_action, ["eq-1", "eq-5"],
+    ),
+    "groove + for -": (
+        ZN,
+        lambda d: definition(d, "r_t_hob", ["+", ["sqrt", ["^", "r_hob", 2]], ["*", ["tan", "alpha_hob"], "dx"]]),
+        recess_action,
+        ["eq-2"],
+    ),
+    "wheel turned the other way in cutting": (
+        ZN, lambda d: negated_angle(made(d, "wheel", "envelope")["motion"], 0), recess_action, ["eq-8", "eq-9"],
+    ),
+    "wheel turned by +phi2 in mesh": (
+        ZN, lambda d: negated_angle(d["bodies"][1]["motion"], -1), recess_action, ["eq-23", "eq-25"],
+    ),
+    "shaft angle the other way": (
+        ZN, lambda d: negated_angle(made(d, "wheel", "envelope")["motion"], 2), cylindrical_worm, ["meshing"],
+    ),
+    "disc set at -lambda": (
+        ZK, lambda d: negated_angle(steps(d, "pinion")[0]["motion"], 0), zk_zn, ["eq-1", "eq-2"],
+    ),
+    "rolling the other way": (
+        "spherical_convex_concave",
+        lambda d: negated_angle(made(d, "pinion", "envelope")["motion"], 0),
+        spherical,
+        ["eq-2.11", "eq-2.13"],
+    ),
+    "plunge of the other sign": (
+        "face_worm",
+        lambda d: made(d, "pinion", "envelope")["motion"][2].__setitem__(
+            1, [0, ["*", ["^", "psi_worm", 2], "a_pl"], 0]
+        ),
+        face_worm,
+        ["eq-8", "eq-10"],
+    ),
+    "normal turned inward": (
+        "cylindrical_worm_za_za",
+        lambda d: d["bodies"][0]["surface"].__setitem__("normal", [1, *d["bodies"][0]["surface"]["normal"][1:]]),
+        helicoids,
+        ["za-normal"],
+    ),
+    "rack of another helix": (
+        "cylindrical_gears",
+        lambda d: steps(d, "pinion")[0]["motion"].__setitem__(0, ["translation", [0, "z_pinion", "z_pinion"]]),
+        cylindrical_gears,
+        ["described"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_an_edit_of_the_description_makes_statements_false(edit, monkeypatch):
+    drive, change, module, keys = EDITS[edit]
+    honest = described._description
+
+    def edited(name):
+        data = honest(name)
+        if name == drive:
+            data = copy.deepcopy(data)
+            change(data)
+        return data
+
+    with monkeypatch.context() as patch:
+        patch.setattr(described, "_description", edited)
+        chapter = importlib.reload(module).CHAPTER
+    importlib.reload(module)
+    claims = [claim for claim in chapter.claims if claim.key in keys]
+    assert len(claims) == len(keys)
+    found = ledger.build([ledger.Chapter(chapter.document, claims)]).verdicts[chapter.document.key]
+    for verdict in found:
+        assert all(str(reading.outcome) != "proved" for reading in verdict.readings), verdict.id
+
+
+def statements():
+    for chapter in record.chapters():
+        for claim in chapter.claims:
+            texts = [text for part in getattr(claim, "read", dict)().values() for text in part]
+            texts += [claim.contradiction] if isinstance(getattr(claim, "contradiction", ()), str) else []
+            for text in filter(None, texts):
+                yield f"{chapter.document.key}/{claim.key}", text, claim.scope.statement("", text)
+
+
+def names_within(tree, statement):
+    """Every symbol that a tree depends on, through definitions and unspecified functions."""
+    found, pending = set(), [tree]
+    while pending:
+        part = pending.pop()
+        for node in walk(part):
+            if isinstance(node, tuple) and node[0] == "jet":
+                found |= set(statement.jets[node[1]])
+        for name in symbols(part) - found:
+            found.add(name)
+            if name in statement.definitions:
+                pending.append(statement.definitions[name])
+    return found
+
+
+#: That this derivative is 0 is the statement: the cone's normal does not change along its blade.
+CONSTANT = {"bevel/cone-normal"}
+
+
+def test_derivatives_are_along_what_is_there():
+    vacuous = [
+        (name, text)
+        for name, text, statement in statements()
+        if name not in CONSTANT
+        for tree in statement.trees()
+        for node in walk(tree)
+        if isinstance(node, tuple) and node[0] == "d"
+        if not {symbol for symbol, _ in node[2:]} <= names_within(node[1], statement)
+    ]
+    assert not vacuous
+
+
+#: Print and description say it in the same words.
+IN_THE_SAME_WORDS = {"recess-action/eq-3", "recess-action/eq-37", "zk-zn/eq-6"}
+
+
+def test_no_two_sides_are_one_text():
+    def inlined(tree, definitions):
+        if isinstance(tree, tuple):
+            return (tree[0], *(inlined(part, definitions) for part in tree[1:]))
+        return inlined(definitions[tree], definitions) if tree in definitions else tree
+
+    same = {
+        name
+        for name, _, statement in statements()
+        if inlined(statement.lhs, statement.definitions) == inlined(statement.rhs, statement.definitions)
+    }
+    assert same <= IN_THE_SAME_WORDS

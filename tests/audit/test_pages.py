@@ -1,0 +1,69 @@
+"""The pages of the record lead from a drive's chain to its C functions and statements, and back."""
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from derive.audit import drive_pages
+from derive.audit.render import MathML
+from derive.prove.tree import parse
+
+GENERATED = Path(__file__).resolve().parents[2] / "generated"
+DRIVES = sorted(path.stem for path in (GENERATED / "descriptions").glob("*.json"))
+
+
+@cache
+def text(name):
+    return (GENERATED / "audit" / name).read_text(encoding="utf-8")
+
+
+@cache
+def anchors(name):
+    return re.findall(r'\bid="([^"]+)"', text(name))
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_a_drives_page_leads_to_statements_and_functions_that_are_there(drive):
+    page = text(drive_pages.file_name(drive))
+    assert 'class="chain"' in page and "generating motion" in page
+    for target, key in set(re.findall(r'href="([\w-]+\.html)#([^"]+)"', page)):
+        assert key in anchors(target), f"{target}#{key}"
+    for key in set(re.findall(r'href="#([^"]+)"', page)):
+        assert key in anchors(drive_pages.file_name(drive)), key
+    header = (GENERATED / "c" / f"{drive}.h").read_text(encoding="utf-8").splitlines()
+    functions = re.findall(r'<tr id="fn-(\w+)"><td><code>\w+</code></td><td class="number">(\d+)</td>', page)
+    assert {"eval", "step", "setup"} <= {name for name, _ in functions}
+    for name, line in functions:
+        assert f" {drive}_{name}(" in header[int(line) - 1]
+
+
+def test_statements_lead_back_to_the_functions_that_rest_on_them():
+    assert "drive-cylindrical_worm_zn_zn.html#fn-" in text("helicoids.html")
+    for drive, name in set(re.findall(r'href="drive-(\w+)\.html#(fn-\w+)"', text("helicoids.html"))):
+        assert name in anchors(drive_pages.file_name(drive))
+
+
+@pytest.mark.parametrize("name", ["recess-action.html", "rack-and-pinion.html", "derivation.html"])
+def test_definitions_stand_once_on_a_page_and_hashes_in_full(name):
+    found = [key for key in anchors(name) if key.startswith("def-")]
+    assert found and len(found) == len(set(found))
+    assert set(re.findall(r'href="#(def-[^"]+)"', text(name))) == set(found)
+    assert re.search(r'href="certificates\.jsonl">[0-9a-f]{64}<', text(name))
+
+
+def test_generated_c_names_what_it_computes():
+    header = (GENERATED / "c" / "cylindrical_worm_zn_zn.h").read_text(encoding="utf-8")
+    for words in ("psi_hob: screw angle of the hob flank", "slope of the equation of meshing", "wheel angle"):
+        assert re.search(rf"= .*;  /\* .*{words}.* \*/", header), words
+
+
+def test_a_long_formula_breaks_between_its_terms():
+    sum_of_products = parse("m*(a*cos(x) + b*sin(x) - c*cos(y)*sin(x) + d*sin(y)) + e*cos(x)*cos(y)")
+    pieces = MathML().pieces(sum_of_products)
+    assert len(pieces) == 5
+    assert pieces[-1].startswith('<mo form="infix">+</mo>') and pieces[2].startswith('<mo form="infix">−</mo>')
+    whole = "".join(re.findall(r">([^<>]+)<", "".join(pieces)))
+    assert whole == "m(acosx+bsinx−ccosysinx+dsiny)+ecosxcosy"
+    assert MathML().pieces(parse("a + b")) == [MathML().write(parse("a + b"))]
