@@ -21,7 +21,7 @@ from tests.quick import quick
 LOAD = Load(50e3, "wheel")
 
 
-@pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate"), "bevel-formate"))
+@pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate")))
 def pair(request):
     drive = Drive.load(request.param)
     return drive, gear_pair(drive)
@@ -55,7 +55,7 @@ def test_nodes_lie_on_the_generated_flanks(pair):
         assert distance_from_flank(drive.flank(name), nodes, starts).max() < 1e-9
 
 
-@pytest.mark.parametrize("member", ["pinion", "wheel"])
+@pytest.mark.parametrize("member", quick(("pinion", "wheel"), "pinion"))
 def test_regions_and_sizes_make_the_same_tooth(member):
     """Helical gears have both: fillet and flank of either side in common sections, cuts and bore, to 1e-6 mm."""
     drive = Drive.load("helical-crowned").with_(design={f"{m}_{k}_um": 0.0 for m, k in (

@@ -103,8 +103,8 @@ class _Curves:
         return np.linspace(*self.faces, _SECTIONS)
 
     def _profile(self, found: Lines) -> tuple[Floats, Floats]:
-        ends = found.lower[:, found.region.profile], found.upper[:, found.region.profile]
-        return ends if self.upward else ends[::-1]
+        lower, upper = found.lower[:, found.region.profile], found.upper[:, found.region.profile]
+        return (lower, upper) if self.upward else (upper, lower)
 
     def surface(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
         """Points and normals (..., 3) at profile parameters in sections; not a number where the surface is not."""
