@@ -69,14 +69,15 @@ VERIFIED = (
     (
         "Edges, limits and CasADi",
         "check_bounded.py compares the equations of edge contact with margins, points and normals of the description, "
-        "their Jacobian and the slopes and second derivatives of limits with dual numbers, and runs CasADi's own "
-        "lists of instructions beside the C functions, result by result.",
+        "their Jacobian and the slopes and second derivatives of limits with dual numbers, runs CasADi's own lists "
+        "of instructions beside the C functions, result by result, and the tables of certified functions likewise.",
     ),
     (
         "The description is what is printed",
         "printed.txt says, family by family, what papers, books and standards print of machine and assembly motions, "
         "tool edges, rules, sizes, guards, margins and outward normals. check_print.py evaluates it beside the plain "
-        "data of each drive, so that a description that was changed makes its statements false; and it requires that "
+        "data of each drive, so that a description that was changed makes its statements false; what nothing is said "
+        "of is refused, but for the few entries that printed.txt lists as open, with the reason. And it requires that "
         "every surface is its edge carried by its chain, that its normal is at right angles to the generating motion "
         "and to the tool, and that the residual is that of two placed surfaces.",
     ),

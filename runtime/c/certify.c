@@ -245,6 +245,17 @@ void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s)
 
 /* -- contact ------------------------------------------------------------------------------------------------------- */
 
+/* Whether the equations know what they read of the state from the one number to the other. Returns a reason. */
+static int known_between(const problem *p, int first, int end)
+{
+    for (int i = 0; i < p->equations->inputs; i++) {
+        const int at = p->equations->input[i];
+        if (at < first || at >= end) continue;
+        if (!(p->balls[at].radius < HUGE_VAL && p->balls[at].mid == p->balls[at].mid)) return MW_REASON_DESIGN;
+    }
+    return MW_REASON_NONE;
+}
+
 /* A design's contact problem at no angle yet. Returns a reason. */
 static int posed(const mw_model *m, const mw_wide *s, problem *p)
 {
@@ -253,11 +264,7 @@ static int posed(const mw_model *m, const mw_wide *s, problem *p)
     p->equations = &t->equations;
     p->n = m->nx;
     known(p, s, t->slots);
-    for (int i = 0; i < t->equations.inputs; i++) {
-        const int at = t->equations.input[i];
-        if (at < t->design_slots && !(p->balls[at].radius < HUGE_VAL && p->balls[at].mid == p->balls[at].mid)) return MW_REASON_DESIGN;
-    }
-    return MW_REASON_NONE;
+    return known_between(p, 0, t->design_slots);
 }
 
 /* What follows from the angle, and the natural sizes of the unknowns, from the midpoints of the state. Returns a reason. */
@@ -266,18 +273,16 @@ static int turned(const mw_model *m, mw_wide phi, problem *p)
     const mw_certified *t = tables_of(m);
     mw_wide registers[MWC_REGISTERS];
     double state[MWC_ARGUMENTS];
-    int reason = MW_REASON_NONE;
     p->arguments[t->slots] = bounded(phi);
     mwc_run_wide(&t->instant, t->instant.instructions, p->arguments, registers);
     for (int i = t->design_slots; i < t->slots; i++) {
         p->arguments[i] = registers[t->instant.output[i - t->design_slots]];
         p->balls[i] = mwc_of_wide(p->arguments[i]);
-        if (!(p->balls[i].radius < HUGE_VAL && p->balls[i].mid == p->balls[i].mid)) reason = MW_REASON_DESIGN;
     }
     for (int i = 0; i < t->slots; i++) state[i] = p->arguments[i].hi;
     for (int i = t->slots; i < MWC_ARGUMENTS; i++) state[i] = NAN;
     m->scale(state, p->sizes);
-    return reason;
+    return known_between(p, t->design_slots, t->slots);
 }
 
 /* Negative surely, or perhaps; a limit that the design does not set is neither. */

@@ -22,7 +22,7 @@ def only(drive, words, functions=None):
     """Of all checks those whose words hold a text, where roots exist or may be any function."""
     chosen = [check for name, check in checker.checks_of(drive, functions) if words in name]
     assert chosen
-    draws = (checker.Salted(1), checker.Salted(-1), checker.DESCRIBED.Draws(1), checker.DESCRIBED.Draws(-1))
+    draws = checker.kept_draws()
     for check, *arguments in chosen:
         checker.with_any_root(check, tuple(arguments), draws)
 
@@ -76,3 +76,23 @@ def test_a_changed_instruction_of_casadi_is_refused():
     function.definitions[f"o[{at + 1}]"] = ("expression", f"-{function.definitions[f'o[{at + 1}]'][1]}")
     with pytest.raises(checker.Rejected, match="residual"):
         only(drive, "CasADi: residual", functions)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "other", "reason"),
+    [
+        (r"(certified_setup_operation\[\] = {\n[^\n]*\n)2,", r"\g<1>0,", "table setup"),
+        (r"(certified_equations_output\[\] = { )(\d+),(\d+)", r"\g<1>\3,\2", "table equations"),
+        (r"(certified_rule_7_constant\[\] = {) { 0\.785", r"\1 { 0.786", "within its radius"),
+        (r"(certified_observed_input\[\] = { )(\d+),(\d+)", r"\g<1>\3,\2", "table observed"),
+        (r"3\.061616997868383e-17", "3.1e-17", "within its radius"),
+        (r"2\.9486522708701687e-19", "2.8e-19", "the unit of"),
+    ],
+)
+def test_a_changed_table_is_refused(pattern, other, reason):
+    drive = drive_of(SPUR)
+    text = (GENERATED / "c" / f"{SPUR}_certified.h").read_text(encoding="utf-8")
+    drive.tables, count = re.subn(pattern, other, text, count=1)
+    assert count == 1
+    with pytest.raises(checker.Rejected, match=reason):
+        only(drive, "table")

@@ -108,3 +108,26 @@ def test_a_drive_of_which_nothing_is_printed_is_refused(tmp_path):
 def test_a_line_that_says_nothing_is_refused():
     with pytest.raises(checker.Rejected, match="not a statement"):
         checker.read_printed("[a_*]\nrule A\n")
+
+
+def test_what_nothing_is_said_of_is_refused(tmp_path):
+    described = copy.deepcopy(description_of(SPUR))
+    described["sizes"].append({"key": "made_up_mm", "value": "m", "meaning": "made up"})
+    with pytest.raises(checker.Rejected, match="nothing says what size made_up_mm is"):
+        checked(SPUR, described, tmp_path)
+
+
+def test_a_result_that_gives_one_root_twice_is_refused(tmp_path):
+    described = copy.deepcopy(description_of(ZN))
+    function = next(f for f in described["functions"] if f["name"] == "tool_point")
+    function["results"][0]["values"][1] = function["results"][0]["values"][0]
+    with pytest.raises(checker.Rejected, match="one root twice"):
+        checked(ZN, described, tmp_path)
+
+
+def test_abbreviations_hold_for_their_own_section_and_word():
+    (_, found), (_, other) = checker.read_printed(
+        "[a_* x:1 y:2]\nlet p: q_%\nsize $_mm: p | source\n[b_*]\nsize z_mm: p | source\n"
+    )
+    assert [statement.sides for statement in found] == [("q_1",), ("q_2",)]
+    assert other[0].sides == ("p",)

@@ -1,40 +1,55 @@
 """Wrong physics in the sources: one edit of a drive, tool, rule, pass or printer at a time, in a copy of the tree.
 
-Each edit is generated anew, of one drive that uses the file, and put before the checkers alone. What the derivation
-itself refuses (it does not run, or one of its own checks fails) is counted apart, and so is what changes no byte.
+Each edit is generated anew, of the drives that use the file one after the other, and put before the checkers alone, as
+``make audit`` does with all drives. What the derivation itself refuses (it does not run, or one of its own checks
+fails) is counted apart, and so is what changes no byte of any of these drives and what changes no value: the program is
+another one, and each of its functions returns what it returned.
+
+``python -m tests.audit.wrong_sources [--count N] [--seed S] [--jobs J] [--log FILE]`` prints a line an edit; with a
+log, what stands in it is not run again.
 """
 
+import argparse
 import ast
 import json
 import os
 import random
+import resource
 import shutil
 import sys
+import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED = 7
-SPUR, CONCAVE, ZN = "spherical_convex_spur", "spherical_concave_convex", "cylindrical_worm_zn_zn"
-#: File -> a drive that it takes part in; of a folder the drive that is quickest.
+#: A derivation that takes longer does not end.
+SECONDS = 150
+ZN, ZA, ZI, ZK, ZC = (f"cylindrical_worm_{form}_{form}" for form in ("zn", "za", "zi", "zk", "zc"))
+SPUR, CONCAVE = "spherical_convex_spur", "spherical_concave_convex"
+WORMS, BEVELS, EVERY = (ZN, ZA, ZI, ZK, ZC), ("bevel_formate", "bevel_generated"), (SPUR, ZN, "bevel_formate")
+FACE, CYLINDRICAL = ("face_worm",), ("cylindrical_gears",)
+#: File -> drives that it takes part in; of what all use, one of each kind, the quickest first.
 DRIVES = {
-    "drives/spherical.py": CONCAVE, "drives/spherical_keys.py": CONCAVE, "drives/cylindrical_worm.py": ZN,
-    "drives/cylindrical_worm_functions.py": ZN, "drives/face_worm.py": "face_worm",
-    "drives/cylindrical_gears.py": "cylindrical_gears", "drives/bevel.py": "bevel_formate",
-    "tools/straight_blade.py": ZN, "tools/worm_body.py": ZN, "tools/tip_rounding.py": ZN,
-    "tools/axial_blade.py": "cylindrical_worm_za_za", "tools/involute.py": "cylindrical_worm_zi_zi",
-    "tools/grinding.py": "cylindrical_worm_zk_zk", "tools/grinding_disc.py": "cylindrical_worm_zk_zk",
-    "tools/grinding_arc.py": "cylindrical_worm_zc_zc", "tools/basic_rack.py": "cylindrical_gears",
-    "tools/rack_section.py": CONCAVE, "tools/cutter_blade.py": "bevel_formate", "tools/head_cutter.py": "bevel_formate",
-    "language/chain.py": SPUR, "language/contact.py": SPUR, "language/differentiate.py": SPUR,
-    "language/envelope.py": SPUR, "language/surface.py": SPUR, "language/vectors.py": SPUR,
-    "language/rack_and_pinion.py": ZN, "passes/singular.py": ZN, "language/functions.py": SPUR,
-    "passes/completion.py": SPUR, "passes/directional.py": SPUR, "passes/edges.py": SPUR, "passes/fuse.py": SPUR,
-    "passes/geometry.py": SPUR, "passes/linearise.py": SPUR, "passes/quotients.py": SPUR,
-    "program/tape.py": SPUR, "emit/c99.py": SPUR, "emit/lanes.py": SPUR, "emit/sensitivity.py": SPUR,
-    "emit/bounded.py": SPUR,
+    "drives/spherical.py": (CONCAVE, SPUR), "drives/spherical_keys.py": (CONCAVE,),
+    "drives/cylindrical_worm.py": WORMS, "drives/cylindrical_worm_functions.py": WORMS,
+    "drives/face_worm.py": FACE, "drives/face_worm_keys.py": FACE, "drives/cylindrical_gears.py": CYLINDRICAL,
+    "drives/cylindrical_gears_keys.py": CYLINDRICAL, "drives/bevel.py": BEVELS, "drives/bevel_keys.py": BEVELS,
+    "tools/straight_blade.py": (ZN,), "tools/worm_body.py": WORMS, "tools/tip_rounding.py": WORMS,
+    "tools/axial_blade.py": (ZA,), "tools/involute.py": (ZI,), "tools/grinding.py": (ZK, ZC),
+    "tools/grinding_disc.py": (ZK,), "tools/grinding_arc.py": (ZC,), "tools/basic_rack.py": CYLINDRICAL,
+    "tools/rack_section.py": (CONCAVE, *CYLINDRICAL), "tools/cutter_blade.py": BEVELS, "tools/head_cutter.py": BEVELS,
+    "language/chain.py": EVERY, "language/contact.py": EVERY, "language/differentiate.py": EVERY,
+    "language/envelope.py": EVERY, "language/surface.py": EVERY, "language/vectors.py": EVERY,
+    "language/rack_and_pinion.py": (ZN, *CYLINDRICAL), "passes/singular.py": EVERY, "language/functions.py": EVERY,
+    "passes/completion.py": EVERY, "passes/directional.py": EVERY, "passes/edges.py": EVERY, "passes/fuse.py": EVERY,
+    "passes/geometry.py": EVERY, "passes/linearise.py": EVERY, "passes/quotients.py": EVERY,
+    "program/tape.py": EVERY, "program/formula.py": EVERY, "emit/c99.py": EVERY, "emit/lanes.py": EVERY,
+    "emit/sensitivity.py": EVERY, "emit/bounded.py": EVERY, "emit/casadi.py": EVERY, "emit/certified.py": EVERY,
+    "emit/approximation.py": EVERY,
 }  # fmt: skip
 OTHER = {"sin": "cos", "cos": "sin", "Rx": "Ry", "Ry": "Rz", "Rz": "Rx", "add": "sub", "sub": "add", "mul": "add"}
 SWAPPED = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Add, ast.Div: ast.Mult}
@@ -52,7 +67,9 @@ class Edit:
 
 @dataclass(frozen=True)
 class Outcome:
-    """By whom an edit is refused: a checker (print, code, description, bounded), derivation; or "same", "survivor"."""
+    """By whom an edit is refused: a checker (print, code, description, bounded, tables), derivation; or "same" (no byte
+    changes), "equal" (no value changes), "survivor".
+    """
 
     edit: Edit
     by: str
@@ -86,7 +103,7 @@ def _edits_of(file: str, rng: random.Random) -> list[Edit]:
         for span, other in _changes(node, place, raw):
             changed = (raw[: span[0]] + other + raw[span[1] :]).decode()
             words = f"{raw[span[0] : span[1]].decode()!r} -> {other.decode()!r}"
-            found.append(Edit(file, node.lineno, words, changed))
+            found.append(Edit(file, getattr(node, "lineno", 0), words, changed))
     rng.shuffle(found)
     return found
 
@@ -121,63 +138,83 @@ def _is_text(node) -> bool:
                and isinstance(n.value, str)) for n in ast.walk(node))  # fmt: skip
 
 
-def judged(edits_: list[Edit], folder: Path, report=None) -> Iterator[Outcome]:
+def judged(edits_: list[Edit], folder: Path, jobs: int = 1) -> Iterator[Outcome]:
     """Each edit in a copy of derive/ and a process of its own; the parent has what every one of them imports first."""
     import casadi  # noqa: F401
     import sympy  # noqa: F401
 
-    shutil.copytree(ROOT / "derive", folder / "derive", ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "runtime").symlink_to(ROOT / "runtime")
-    for k, edit in enumerate(edits_):
-        path = folder / "derive" / edit.file
-        kept = path.read_text(encoding="utf-8")
-        path.write_text(edit.text, encoding="utf-8")
-        result = folder / f"outcome_{k}.json"
-        child = os.fork()
-        if not child:
-            _judge(edit, folder, result)
-        os.waitpid(child, 0)
+    for k in range(jobs):
+        shutil.copytree(ROOT / "derive", folder / f"{k}" / "derive", ignore=shutil.ignore_patterns("__pycache__"))
+        (folder / f"{k}" / "runtime").symlink_to(ROOT / "runtime")
+    shutil.copytree(ROOT / "generated", folder / "kept", ignore=shutil.ignore_patterns("site", "benchmark"))
+    waiting, free, running = list(reversed(edits_)), list(range(jobs)), {}
+    while waiting or running:
+        while waiting and free:
+            edit, slot = waiting.pop(), free.pop()
+            path = folder / f"{slot}" / "derive" / edit.file
+            kept = path.read_text(encoding="utf-8")
+            path.write_text(edit.text, encoding="utf-8")
+            (folder / f"{slot}.json").unlink(missing_ok=True)
+            child = os.fork()
+            if not child:
+                _judge(edit, folder, slot)
+            running[child] = edit, slot, path, kept
+        child, _ = os.wait()
+        edit, slot, path, kept = running.pop(child)
         path.write_text(kept, encoding="utf-8")
-        by, reason = json.loads(result.read_text(encoding="utf-8")) if result.is_file() else ("derivation", "ended")
-        outcome = Outcome(edit, by, reason)
-        if report:
-            report(outcome)
-        yield outcome
+        free.append(slot)
+        result = folder / f"{slot}.json"
+        yield Outcome(edit, *(json.loads(result.read_text("utf-8")) if result.is_file() else ("derivation", "ended")))
 
 
-def _judge(edit: Edit, folder: Path, result: Path) -> None:
+def _judge(edit: Edit, folder: Path, slot: int) -> None:
     """In a process of its own: never returns."""
+    own = folder / f"{slot}"
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
     sys.dont_write_bytecode = True
-    sys.path.insert(0, str(folder))
-    os.chdir(folder)
+    sys.path.insert(0, str(own))
+    os.chdir(own)
     for name in [n for n in sys.modules if n.partition(".")[0] == "derive"]:
         del sys.modules[name]
+    sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     try:
-        by, reason = _verdict(DRIVES[edit.file], folder)
+        by, reason = _of_all(DRIVES[edit.file], own, folder / "kept")
     except BaseException as error:  # whatever the derivation ends in
         by, reason = "derivation", repr(error)[:200]
-    result.write_text(json.dumps([by, reason]), encoding="utf-8")
+    (folder / f"{slot}.json").write_text(json.dumps([by, reason]), encoding="utf-8")
     os._exit(0)
 
 
-def _verdict(drive: str, folder: Path) -> tuple[str, str]:
-    from derive.audit import check_bounded, check_code, check_description, check_print
+def _of_all(drives: tuple[str, ...], folder: Path, kept: Path) -> tuple[str, str]:
+    """Refused if it is refused of one drive; what is the same or equal in all is no wrong physics."""
+    found: dict[str, str] = {}
+    for drive in drives:
+        by, reason = _verdict(drive, folder, kept)
+        if by not in ("same", "equal", "survivor"):
+            return by, f"{drive}: {reason}"
+        found.setdefault(by, f"{drive} {reason}")
+    by = next(by for by in ("survivor", "equal", "same") if by in found)
+    return by, found[by]
+
+
+def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
+    from derive.audit import check_bounded, check_code, check_description, check_print, mutations
 
     assert Path(check_print.__file__).is_relative_to(folder)
-    made, kept = folder / "generated", ROOT / "generated"
+    made = folder / "generated"
     shutil.rmtree(made, ignore_errors=True)
     shutil.copytree(kept / "audit", made / "audit")
     printed = check_print.read_printed(Path(check_print.__file__).with_name("printed.txt").read_text(encoding="utf-8"))
     description, header = made / "descriptions" / f"{drive}.json", made / "c" / f"{drive}.h"
     write_description(drive, description)
-    changed = description.read_text(encoding="utf-8") != (kept / "descriptions" / f"{drive}.json").read_text("utf-8")
+    changed = _differs(description, kept / "descriptions" / f"{drive}.json")
     try:
         if changed:
             check_print.check_drive(description, printed)
     except check_print.Rejected as reason:
         return "print", str(reason)[:200]
     write_all(drive, made)
-    if not changed and not any(_differs(path, kept / "c" / path.name) for path in (made / "c").glob(f"{drive}*.h")):
+    if not changed and not any(_differs(path, kept / path.relative_to(made)) for path in written(drive, made)):
         return "same", ""
     checks = (
         (check_code, lambda: check_code.check_header(header)),
@@ -190,7 +227,13 @@ def _verdict(drive: str, folder: Path) -> tuple[str, str]:
             check()
         except checker.Rejected as reason:
             return checker.__name__.rpartition("_")[2], str(reason)[:200]
-    return "survivor", ""
+    different = mutations.different(drive, made, kept)
+    return ("survivor", different) if different else ("equal", "")
+
+
+def written(drive: str, folder: Path) -> list[Path]:
+    """The files of a drive that hold its functions."""
+    return [*(folder / "c").glob(f"{drive}*.h"), *(folder / "casadi").glob(f"{drive}*.casadi")]
 
 
 def _differs(path: Path, other: Path) -> bool:
@@ -219,16 +262,34 @@ def write_all(drive: str, folder: Path) -> None:
 
 
 def main() -> int:
-    import tempfile
-
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    parser = argparse.ArgumentParser(prog="python -m tests.audit.wrong_sources", description=__doc__)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--log", type=Path, help="a line of JSON an edit; what stands there is not run again")
+    options = parser.parse_args()
+    chosen = {key_of(edit): edit for edit in edits(options.count, options.seed)}
+    known = {}
+    if options.log and options.log.is_file():
+        known = {tuple(key): by for *key, by, _ in map(json.loads, options.log.read_text("utf-8").splitlines())}
+    counted = Counter(by for key, by in known.items() if key in chosen)
+    begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
-        begin = time.perf_counter()
-        for outcome in judged(list(edits(count)), Path(folder)):
+        left = [edit for key, edit in chosen.items() if key not in known]
+        left.sort(key=lambda edit: not edit.file.startswith(("drives/", "tools/")))  # what print refuses is quick
+        for outcome in judged(left, Path(folder), options.jobs):
             edit = outcome.edit
+            counted[outcome.by] += 1
             print(f"{outcome.by:12} {edit.file}:{edit.line} {edit.words[:60]} | {outcome.reason[:110]}", flush=True)
-        print(f"{time.perf_counter() - begin:.0f} s")
+            if options.log:
+                with options.log.open("a", encoding="utf-8") as log:
+                    log.write(json.dumps([*key_of(edit), outcome.by, outcome.reason]) + "\n")
+    print(dict(counted), f"{time.perf_counter() - begin:.0f} s")
     return 0
+
+
+def key_of(edit: Edit) -> tuple[str, int, str]:
+    return edit.file, edit.line, edit.words
 
 
 if __name__ == "__main__":

@@ -84,7 +84,7 @@ def test_so_do_those_of_a_face_worm_with_the_placement_of_its_cutter():
 def test_error_and_contact_point_of_a_random_bevel_pair_hold_those_of_the_machine(seed):
     tables = random_design(seed)  # generated (1) and Formate (2) gears
     drive = Drive.from_tables(tables)
-    degrees = Fraction(repr(round(np.degrees(drive.design.reference_angle) + 2.0, 4)))
+    degrees = Fraction(repr(round(float(np.degrees(drive.design.reference_angle)) + 2.0, 4)))
     result, found = certified(drive, degrees)
     with mpmath.workdps(DIGITS):
         phi = mpmath.mpf(degrees.numerator) / degrees.denominator * mpmath.pi / 180

@@ -44,9 +44,11 @@ def _certified(drive, angles, solutions):
 
 
 def _held(solutions, centres, half):
-    """How many of the solutions (M, nx) each box holds; none is nearer to a side than 1e-6 of its half-width."""
+    """How many of the solutions (M, nx) each box holds, and whether that is sure of solutions that are doubles: none is
+    nearer to a side than some of their last places.
+    """
     off = np.abs(solutions[None] - centres[:, None]) / half[:, None]
-    return np.sum(np.all(off < 1.0, axis=2), axis=1), np.all(np.abs(off - 1.0) > 1e-6, axis=(1, 2))
+    return np.sum(np.all(off < 1.0, axis=2), axis=1), np.all(np.abs(off - 1.0) * half[:, None] > 1e-13, axis=(1, 2))
 
 
 def beside(rng, count):
@@ -104,6 +106,7 @@ def _around(rng, drive, angle, solutions, n):
     spread = np.ptp(solutions, axis=0) + 1e-9
     shape = (n, solutions.shape[1])
     half = spread * rng.choice([1e-6, 1e-4, 1e-2, 0.2, 0.6, 1.1, 3.0], (n, 1)) * rng.uniform(0.5, 1.5, shape)
+    half = np.maximum(half, 1e-12)
     between = solutions.mean(axis=0) + rng.uniform(-1.5, 1.5, shape) * spread
     near = solutions[rng.integers(0, len(solutions), n)] + rng.uniform(-1.1, 1.1, shape) * half
     centres = np.where(rng.random((n, 1)) < 0.7, near, between)

@@ -63,7 +63,8 @@ def test_a_contact_is_proved_and_its_bounds_hold_what_the_library_encloses(tmp_p
     for k, entry in enumerate(closer.records["x"][0][: len(solution)]):
         # of the decimals, where the header's is of the doubles: they differ by some units in the last place
         assert abs(float(entry["hi"]) - solution[k]) <= e[k] + 1e-12 * (1.0 + abs(solution[k]))
-    assert called(prove, drive, angle, solution + 1e-3)[0] == 0
+    outcome, e, _ = called(prove, drive, angle, solution + 1e-3)
+    assert outcome == 0 or np.all(e > 0.999e-3)
     assert called(prove, drive, angle, np.full(len(solution), np.nan))[0] == 0
 
 
