@@ -1168,7 +1168,8 @@ OUTCOME_OF_KIND = {"ring_nf": "proved", "exact_point": "refuted", "undecided": "
 
 _POINT = {"angles", "arcs", "point", "lhs", "rhs", "rounded"}
 KEYS = {
-    "source": {"id", "document", "document_sha256", "locator", "verbatim", "ocr_doubt", "reading", "figures"},
+    "source": {"id", "document", "document_sha256", "locator", "verbatim", "ocr_doubt", "reading", "figures"}
+    | {"offset"},
     "step": {"id", "op", "tree", "inputs"},
     "equation": {"id", "kind", "lhs", "rhs", "where", "jets", "signs", "side_conditions", "unit", "sources"},
     "verdict": {"id", "source", "status", "plain", "readings", "corrected", "contradiction", "change", "missing"}
@@ -1276,7 +1277,18 @@ def formed_certificate(certificate: dict) -> bool:
     )
 
 
-FORMS = {"equation": formed_equation, "verdict": formed_verdict, "certificate": formed_certificate}
+def formed_source(source: dict) -> bool:
+    """Whether a text is said to stand at a place of its document, or nowhere: then it is a transliteration."""
+    at = source["offset"]
+    return at is None or (type(at) is int and at >= 0 and source["verbatim"] != "")
+
+
+FORMS = {
+    "source": formed_source,
+    "equation": formed_equation,
+    "verdict": formed_verdict,
+    "certificate": formed_certificate,
+}
 
 
 def distinct_texts(items: list) -> bool:

@@ -32,6 +32,7 @@ import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
@@ -57,6 +58,8 @@ MULTIPLES = 16
 #: What the circle's number is modulo the prime, and the largest divisor of the multiples that decimals stand for.
 PI = SystemRandom().randrange(1, PRIME)
 DIVISOR = 720
+#: Which odd function stands for the sign.
+SALT = SystemRandom().randrange(1, PRIME)
 PI_ENCLOSED = CHECK.number_of("pi").middle
 
 
@@ -129,8 +132,24 @@ def root(a: Number) -> Number:
 
 
 def sign(a: Number) -> Number:
-    """1 for squares, else -1, which is as odd and as constant as the sign of a real number."""
-    return Number(1 if pow(a.value, (PRIME - 1) // 2, PRIME) in (0, 1) else PRIME - 1)
+    """An odd function that is constant; nothing else is asked of the sign, so that no branch stands for the others.
+
+    Where its square has to be 1, or a root of a square it, SALT is 0: 1 for squares, else -1.
+    """
+    residue = pow(a.value, (PRIME - 1) // 2, PRIME)
+    if not residue or not SALT:
+        return Number(residue if residue else 1)
+    return Number(residue * hash((SALT, a.value * a.value % PRIME)) % PRIME)
+
+
+@contextmanager
+def real_signs() -> Iterator[None]:
+    """Signs whose squares are 1, and that are those of roots of squares."""
+    kept, globals()["SALT"] = SALT, 0
+    try:
+        yield
+    finally:
+        globals()["SALT"] = kept
 
 
 def scaled(a: Number, literal: Fraction, product: Number) -> Number:
@@ -261,9 +280,12 @@ def read_companion(path: Path, ending: str) -> str:
     return companion.read_text(encoding="utf-8") if companion.is_file() else ""
 
 
+COMMENT = re.compile(r" */\*.*?\*/", re.DOTALL)
+
+
 def body_of(text: str, name: str) -> str:
     """What stands between the braces of a function, by its name."""
-    return re.search(rf"\b{name}\)?\([^)]*\)\n{{\n(.*?)\n}}", text, re.DOTALL)[1]
+    return COMMENT.sub("", re.search(rf"\b{name}\)?\([^)]*\)\n{{\n(.*?)\n}}", text, re.DOTALL)[1])
 
 
 def read_lanes(text: str, name: str) -> Function:
@@ -304,7 +326,7 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
 def without_blocks(body: str) -> Iterator[str]:
     """The lines outside inner braces, which hold the guards of the design."""
     depth = 0
-    for line in map(str.strip, body.splitlines()):
+    for line in map(str.strip, COMMENT.sub("", body).splitlines()):
         depth += line.count("{")
         if not depth:
             yield line
@@ -926,9 +948,8 @@ def kernel_value(expression: str, known: dict[str, Fraction]) -> Fraction:
 
 def verify(folder: Path) -> tuple[int, int]:
     """Headers and checks; Rejected if one fails."""
-    headers = [
-        path for path in sorted((folder.parent / "c").glob("*.h")) if "_setup(" in path.read_text(encoding="utf-8")
-    ]
+    drives = "_setup(const double *p, double *s)"
+    headers = [path for path in sorted((folder.parent / "c").glob("*.h")) if drives in path.read_text(encoding="utf-8")]
     return len(headers), sum(map(check_header, headers))
 
 

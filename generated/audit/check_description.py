@@ -6,8 +6,10 @@ The description is plain data (``descriptions/<drive>.json``): motions are lists
 Both it and the C functions are evaluated modulo a prime of 61 bits drawn at random, at random parameters, unknowns and
 points of the circle; derivatives are those of dual numbers. Then, for every drive:
 
-  rules      each default and each rule of a design, in its order; the change of each along changes of what it reads
-  systems    of a design: guess, natural sizes, equations with their Jacobian, what they fill in, where they are regular
+  rules      each default and rule of a design, in its order; the change of each along changes of what it reads
+  state      the parameters at its end
+  systems    of a design: guess, natural sizes, equations with Jacobian, what they fill in, where they are regular,
+             changes of equations and of what they fill in
   guards     what must be positive, in its order; divisors by the name in their message
   sizes      derived sizes
   residual   of contact and start; natural sizes, guess and first contact
@@ -335,6 +337,14 @@ def given_rules(drive: Drive) -> list[tuple[str, object]]:
     return [pair for pair in defaults if pair[1] is not None] + [tuple(rule) for rule in drive.description["rules"]]
 
 
+def check_kept(drive: Drive, rng: Random) -> None:
+    """The state ends with the parameters, which functions that need the design again read there."""
+    setup = drive.base(rng).earlier.earlier
+    slots = int(re.search(rf"{drive.prefix}_NS (\d+)", drive.text)[1]) - len(drive.parameters)
+    for k, name in enumerate(drive.parameters):
+        same(setup.value(f"s[{slots + k}]"), setup.inputs[f"p[{k}]"], f"setup: s[{slots + k}] for {name}")
+
+
 def check_sizes(drive: Drive, number: int, rng: Random) -> None:
     run, reader = drive.run("size", rng, "q", [])
     entry = drive.description["sizes"][number]
@@ -479,6 +489,61 @@ def check_changes(drive: Drive, number: int, rng: Random) -> None:
     expected = Reader(drive.named, values, run)(value)
     run.inputs[f"p[{place}]"] = Number(expected.value, (), expected.angle)
     same(run.value(f"dp[{place}]") if body else Number(0), rate(expected, 0), words)
+    if body:
+        same(run.value(f"known[{place}]"), run.inputs[f"p[{place}]"], f"{words}: known[{place}]")
+
+
+def check_system_changes(drive: Drive, system: dict, rng: Random) -> None:
+    """Changes of a design system's residual along changes of parameters and unknowns, the share of the path fixed."""
+    base, name = drive.base(rng), system["name"]
+    symbols = [unknown["name"] for unknown in system["unknowns"]]
+    share = len(drive.parameters)
+    own, moved, values = {f"q[{share}]": Number(rng.randrange(1, CODE.PRIME))}, {}, {}
+    values["path"] = own[f"q[{share}]"]
+    for key, symbol in [*((f"q[{k}]", s) for k, s in enumerate(drive.parameters)),
+                        *((f"y[{k}]", s) for k, s in enumerate(symbols))]:  # fmt: skip
+        given = base.inputs[f"p{key[1:]}"] if key[0] == "q" else Number(rng.randrange(1, CODE.PRIME))
+        form = given.form if key[0] == "q" else {f"{name} {key}": Fraction(1)}
+        own[key], moved[f"d{key}"] = Number(given.value, (), form), Number(rng.randrange(1, CODE.PRIME))
+        values[symbol] = Number(given.value, (moved[f"d{key}"].value,), form)
+    body = CODE.body_of(drive.tangents, f"{drive.prefix}_{name}_tangent")
+    run = Machine(own | moved, Function(f"{name}_tangent", CODE.read_body(body), {}), None, base.circle)
+    reader = Reader(drive.named, values, run)
+    reader = reader.at({symbol: reader(value) for symbol, value in system["fixed"].items()})
+    for k, row in enumerate(system["residual"]):
+        expected = reader(row)
+        if system["homotopy"]:
+            guess = {symbol: reader(system["guess"][symbol]) for symbol in symbols}
+            left = CODE.add(ONE, values["path"], -1)
+            expected = CODE.add(expected, CODE.multiply(left, reader.at(guess)(row)), -1)
+        same(run.value(f"dR[{k}]"), rate(expected, 0), f"{name}_tangent: dR[{k}]")
+
+
+FILLED = re.compile(r"if \(known\[(\d+)\] != known\[\1\]\) dq\[\1\] = (\S+), known\[\1\] = q\[\1\];")
+
+
+def check_filled_changes(drive: Drive, system: dict, rng: Random) -> None:
+    """Changes of what a design system fills in, along changes of parameters and unknowns."""
+    base, name = drive.base(rng), system["name"]
+    symbols = [unknown["name"] for unknown in system["unknowns"]]
+    body = CODE.body_of(drive.tangents, f"{drive.prefix}_{name}_fill_tangent")
+    lines = FILLED.findall(body)
+    targets = [drive.parameters[int(place)] for place, _ in lines]
+    require(targets == list(system["fills"]), f"{name}_fill_tangent fills in other parameters")
+    program = CODE.read_body(FILLED.sub("", body))
+    own, moved, values = {}, {}, {}
+    for key, symbol in [*((f"q[{k}]", s) for k, s in enumerate(drive.parameters) if s not in targets),
+                        *((f"y[{k}]", s) for k, s in enumerate(symbols))]:  # fmt: skip
+        given = base.inputs[f"p{key[1:]}"] if key[0] == "q" else Number(rng.randrange(1, CODE.PRIME))
+        form = given.form if key[0] == "q" else {f"{name} {key}": Fraction(1)}
+        own[key], moved[f"d{key}"] = Number(given.value, (), form), Number(rng.randrange(1, CODE.PRIME))
+        values[symbol] = Number(given.value, (moved[f"d{key}"].value,), form)
+    end = {f"q[{len(drive.parameters)}]": Number(1, (), {})}
+    run = Machine(own | moved | end, Function(f"{name}_fill_tangent", program, {}), None, base.circle)
+    reader = Reader(drive.named, values, run)
+    reader = reader.at({symbol: reader(value) for symbol, value in system["fixed"].items()})
+    for target, (_, text) in zip(targets, lines, strict=True):
+        same(run.value(text), rate(reader(system["fills"][target]), 0), f"{name}_fill_tangent: {target}")
 
 
 def names_in(e: object, named: Mapping[str, object]) -> set[str]:
@@ -605,15 +670,20 @@ def tangent_basis(normal: list[Number], tangent: list[Number]) -> list[list[Numb
     return [first, cross(normal, first)]
 
 
-def check_principal(found: list[Number], form: list[Number], words: str) -> None:
-    """Two curvatures by sum and product."""
+def check_principal(found: list[Number], form: list[Number], side: int, words: str) -> None:
+    """Two curvatures by sum and product. Their mean has to be a square, or the opposite of one: a program may take the
+    root of the mean's square, and is right on one side where it is wrong on the other.
+    """
     low, high = found
+    mean = CODE.add(form[0], form[2]).value * pow(2, -1, CODE.PRIME) % CODE.PRIME
+    if pow(mean, (CODE.PRIME - 1) // 2, CODE.PRIME) != side % CODE.PRIME:
+        raise CODE.NoRoot
     same(CODE.add(low, high), CODE.add(form[0], form[2]), f"{words}: the sum")
     product = CODE.add(CODE.multiply(form[0], form[2]), CODE.multiply(form[1], form[1]), -1)
     same(CODE.multiply(low, high), product, f"{words}: the product")
 
 
-def check_curvature(drive: Drive, entry: dict, name: str, rng: Random) -> None:
+def check_curvature(drive: Drive, entry: dict, name: str, side: int, rng: Random) -> None:
     """Tangent basis, second form and principal curvatures of a flank or region, in its body's frame."""
     symbols = [q["name"] for q in entry["surface"]["parameters"]]
     run, reader = drive.run(f"curvature_{name}", rng, "q", symbols)
@@ -624,7 +694,7 @@ def check_curvature(drive: Drive, entry: dict, name: str, rng: Random) -> None:
     for key, expected in (("tangent_basis", [*basis[0], *basis[1]]), ("second_form", form)):
         for k, number in enumerate(read(run, key)):
             same(number, expected[k], f"curvature_{name}: {key}[{k}]")
-    check_principal(read(run, "curvature"), form, f"curvature_{name}: curvature")
+    check_principal(read(run, "curvature"), form, side, f"curvature_{name}: curvature")
 
 
 def check_forms(drive: Drive, key: str, rng: Random) -> None:
@@ -644,7 +714,7 @@ def check_forms(drive: Drive, key: str, rng: Random) -> None:
         same(number, expected[k], f"observe: {key}[{k}]")
 
 
-def check_gap(drive: Drive, rng: Random) -> None:
+def check_gap(drive: Drive, side: int, rng: Random) -> None:
     """Second form of the gap and its principal curvatures follow from the forms of both flanks.
 
     Where the program reads them where it writes them, any numbers stand for them: it then rests on no root of theirs.
@@ -652,16 +722,16 @@ def check_gap(drive: Drive, rng: Random) -> None:
     run, _ = drive.run("observe", rng, "x", drive.unknowns)
     forms = [f"second_form_{body['name']}" for body in drive.description["bodies"]]
     try:
-        check_gap_of(cut(run, forms, rng), forms)
+        check_gap_of(cut(run, forms, rng), forms, side)
     except Rejected:
-        check_gap_of(run, forms)
+        check_gap_of(run, forms, side)
 
 
-def check_gap_of(run: Machine, forms: list[str]) -> None:
+def check_gap_of(run: Machine, forms: list[str], side: int) -> None:
     gap = read(run, "second_form_gap")
     for k, (number, a, b) in enumerate(zip(gap, *(read(run, name) for name in forms), strict=True)):
         same(number, Number(-(a.value + b.value)), f"observe: second_form_gap[{k}]")
-    check_principal(read(run, "curvature_gap"), gap, "observe: curvature_gap")
+    check_principal(read(run, "curvature_gap"), gap, side, "observe: curvature_gap")
 
 
 def turning(reader: Reader, motion: list, place: int, point: list[Number]) -> list[Number]:
@@ -832,6 +902,10 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
         for name, places in (keys | ({"watch": ["sign"]} if system["regular"] else {})).items():
             for key in places:
                 yield f"{key} of {system['name']}_{name}", (check_system, drive, system, name, key)
+        if drive.tangents:
+            yield f"changes of {system['name']}", (check_system_changes, drive, system)
+            yield f"changes by {system['name']}", (check_filled_changes, drive, system)
+    yield "parameters at the end of the state", (check_kept, drive)
     for k, words in enumerate(guard_texts(drive)):
         if k < len(described["guards"]) or DIVISOR.search(words):
             yield f"guard {k}", (check_guard, drive, k)
@@ -859,11 +933,13 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
         margins = [f"margin_{m['event']}" for m in entry["margins"]]
         for key in ("point", "normal", "regular", *conditions, *margins):
             yield f"{key} of {name}", (check_surface, drive, entry, name, key)
-        yield f"curvature of {name}", (check_curvature, drive, entry, name)
+        for side in (1, -1):
+            yield f"curvature of {name}", (check_curvature, drive, entry, name, side)
     names = [f"second_form_{body['name']}" for body in described["bodies"]]
     for key in ("tangent_basis", *names):
         yield f"{key} of the observation", (check_forms, drive, key)
-    yield "gap of the observation", (check_gap, drive)
+    for side in (1, -1):
+        yield "gap of the observation", (check_gap, drive, side)
     yield "lever arms of the observation", (check_arms, drive)
     for member, body in enumerate(described["bodies"]):
         yield f"placement of the {body['name']}", (check_placement, drive, member)

@@ -50,7 +50,7 @@ Rejected, require, Number = CODE.Rejected, CODE.require, CODE.Number
 Reader, Surface, inner, unit, rate = (
     DESCRIBED.Reader, DESCRIBED.Surface, DESCRIBED.inner, DESCRIBED.unit, DESCRIBED.rate,
 )  # fmt: skip
-Draws, attempt, once = DESCRIBED.Draws, DESCRIBED.attempt, DESCRIBED.once
+Draw, Draws, attempt, once = DESCRIBED.Draw, DESCRIBED.Draws, DESCRIBED.attempt, DESCRIBED.once
 
 
 # ---- what is printed -------------------------------------------------------------------------------------------------
@@ -67,26 +67,47 @@ class Statement:
     text: str
 
 
+LET = re.compile(r"let (\w+): (.*)")
 LINE = re.compile(r"(\w+)((?: [\w/]+)*): (.*?) *\| (.+)")
 
 
 def read_printed(text: str) -> list[tuple[list[str], list[Statement]]]:
     """Sections: patterns of the names of drives, and what is printed of them."""
     sections: list[tuple[list[str], list[Statement]]] = []
-    words: list[list[str]] = []
-    for line in re.sub(r"\n +", " ", text).splitlines():
-        if line.startswith("["):
-            names = line.strip("[]").split()
-            words = [name.split(":") for name in names if not PATTERN.search(name)]
-            sections.append(([name for name in names if PATTERN.search(name)], []))
-        elif line and not line.startswith("#"):
-            lines = [line.replace("$", word[0]).replace("%", word[-1]) for word in words] if words else [line]
-            for one in dict.fromkeys(lines):
-                match = LINE.fullmatch(one)
-                require(match and sections, f"printed.txt: not a statement: {one[:60]}")
-                sides = tuple(read_expression(side) for side in match[3].split(" = "))
-                sections[-1][1].append(Statement(match[1], tuple(match[2].split()), sides, match[4], one))
+    for part in re.split(r"^(?=\[)", re.sub(r"\n +", " ", text), flags=re.M)[1:]:
+        head, *lines = part.splitlines()
+        names = head.strip("[]").split()
+        words = [name.split(":") for name in names if not PATTERN.search(name)]
+        found: dict[str, Statement] = {}
+        for word in words or [["$", "%"]]:
+            let: dict[str, object] = {}
+            for line in lines:
+                if line and not line.startswith("#"):
+                    _read_line(line.replace("$", word[0]).replace("%", word[-1]), let, found)
+        sections.append(([name for name in names if PATTERN.search(name)], list(found.values())))
     return sections
+
+
+def _read_line(line: str, let: dict[str, object], found: dict[str, Statement]) -> None:
+    """An abbreviation, or a statement."""
+    if match := LET.fullmatch(line):
+        let[match[1]] = replaced(read_expression(match[2]), let)
+        return
+    match = LINE.fullmatch(line)
+    require(match, f"printed.txt: not a statement: {line[:60]}")
+    sides = tuple(replaced(read_expression(side), let) for side in match[3].split(" = "))
+    found[line] = Statement(match[1], tuple(match[2].split()), sides, match[4], line)
+
+
+def replaced(e: object, values: dict[str, object]) -> object:
+    """An expression, vector or motion with abbreviations written out."""
+    if isinstance(e, str):
+        return values.get(e, e)
+    if isinstance(e, tuple):
+        return tuple(replaced(part, values) for part in e)
+    if not isinstance(e, list):
+        return e
+    return [e[0] if isinstance(e[0], str) else replaced(e[0], values), *(replaced(part, values) for part in e[1:])]
 
 
 #: A pattern of names of drives; any other word stands for $.
@@ -132,6 +153,8 @@ def _node(node: ast.expr) -> object:
                     return [sign, a, b]
         case ast.Call(ast.Name("T"), parts):
             return [["translation", [_node(part) for part in parts]]]
+        case ast.Call(ast.Name("F"), columns):
+            return [["placement", [list(_node(column)) for column in columns]]]
         case ast.Call(ast.Name("Rx" | "Ry" | "Rz" as name), [angle]):
             return [["rotation", name[1], _node(angle)]]
         case ast.Call(ast.Name(name), parts):
@@ -152,6 +175,7 @@ class Described:
         self.entries = {body["name"]: body for body in description["bodies"]} | {
             f"{region['member']}/{region['region']}": region for region in description["regions"]
         }
+        self.said = dict(said_of(description))
 
     def reader(self, rng: Random, along: tuple[str, ...] = (), free: tuple[str, ...] = ()) -> Reader:
         """Values of one draw, with rates along some symbols; ``free`` are drawn although they are defined."""
@@ -166,7 +190,8 @@ class Described:
             circle = once(rng, "circle", lambda: CODE.Circle(rng, True))
             run = CODE.Machine({}, CODE.Function("description", {}, {}), None, circle)
             named = {name: value for name, value in self.named.items() if name not in (*along, *free)}
-            return Open(named, once(rng, "axes", lambda: axes(self.parameters, circle)), run, drawn)
+            entries = {name.replace("/", "_"): entry for name, entry in self.entries.items()}
+            return Open(named, once(rng, "axes", lambda: axes(self.parameters, circle)), run, drawn, entries)
 
         return once(rng, ("described", along, free), made)
 
@@ -179,21 +204,50 @@ def axes(parameters: list[str], circle: object) -> dict[str, Number]:
 
 
 class Open(Reader):
-    """A reader that draws what is not defined."""
+    """A reader that draws what is not defined, and knows surfaces, substitutions and derivatives.
 
-    def __init__(self, named: dict, values: dict, run: object, draw: object):
+    ``r_of_wheel_x``, ``n_of_wheel_x``: point and unit normal of a surface in its body's frame; ``f_of_wheel``: its
+    condition; ``at(e, name, value, …)``: an expression at other values; ``d(e, name)``: its derivative.
+    """
+
+    def __init__(self, named: dict, values: dict, run: object, draw: object, entries: dict):
         super().__init__(named, values, run)
-        self.draw = draw
+        self.draw, self.entries = draw, entries
 
     def at(self, values: dict) -> Open:
         there = super().at(values)
-        return Open(there.named, there.values, self.run, self.draw)
+        return Open(there.named, there.values, self.run, self.draw, self.entries)
+
+    def __call__(self, e: object) -> Number:
+        match e:
+            case ["at", inside, *pairs]:
+                return self.at({pairs[k]: self(pairs[k + 1]) for k in range(0, len(pairs), 2)})(inside)
+            case ["min", first, *others]:
+                least = self(first)
+                for other in map(self, others):
+                    apart = FUNCTIONS["abs"](self.run, CODE.add(least, other, -1))
+                    least = CODE.multiply(HALF, CODE.add(CODE.add(least, other), apart, -1))
+                return least
+            case ["d", inside, str() as name]:
+                here = self(name)
+                return rate(self.at({name: Number(here.value, (1,), here.form)})(inside), 0)
+        return super().__call__(e)
 
     def _defined(self, name: str) -> Number:
         if name in self.named:
             return super()._defined(name)
+        of = OF.fullmatch(name)
+        if of and of[2] in self.entries:
+            surface = Surface(self, self.entries[of[2]]["surface"], [])
+            if of[1] == "f":
+                return self(surface.surface["conditions"][0])
+            return (surface.point if of[1] == "r" else surface.normal)["xyz".index(of[3])]
         self.values[name] = self.draw(name)
         return self.values[name]
+
+
+FUNCTIONS, HALF = DESCRIBED.FUNCTIONS, DESCRIBED.literal(Fraction(1, 2))
+OF = re.compile(r"([rnf])_of_(\w+?)(?:_([xyz]))?")
 
 
 # ---- statements ------------------------------------------------------------------------------------------------------
@@ -201,7 +255,7 @@ class Open(Reader):
 
 def check_statement(drive: Described, statement: Statement, rng: Random) -> None:
     """What is printed is what the description says."""
-    SUBJECTS[statement.kind](drive, statement, rng)
+    SUBJECTS.get(statement.kind, subject_entry)(drive, statement, rng)
 
 
 def same(found: Number, expected: Number, statement: Statement) -> None:
@@ -225,26 +279,21 @@ def subject_where(drive: Described, statement: Statement, rng: Random) -> None:
     same(reader(statement.sides[0]), reader(statement.sides[1]), statement)
 
 
-def listed(key: str, name: str, value: str):
-    """A subject that is an entry of a list by its name or place."""
-
-    def subject(drive: Described, statement: Statement, rng: Random) -> None:
-        entries = drive.description[key]
-        (about,) = statement.about
-        entry = entries[int(about) - 1] if about.isdigit() else next(e for e in entries if e[name] == about)
-        reader = drive.reader(rng)
-        same(reader(entry[value]), reader(statement.sides[0]), statement)
-
-    return subject
+def subject_signed(drive: Described, statement: Statement, rng: Random) -> None:
+    """The same where the square of a sign has to be 1."""
+    with CODE.real_signs():
+        subject_where(drive, statement, Draw(rng.sign))
 
 
-def subject_margin(drive: Described, statement: Statement, rng: Random) -> None:
-    place, event = statement.about
-    margins = [m for m in drive.entries[place]["margins"] if m["event"] == event]
-    require(len(margins) == 1, f"{place}: no margin {event}")
-    require(margins[0]["along"] is None, f"{place}: the margin {event} is a slope")
+def subject_entry(drive: Described, statement: Statement, rng: Random) -> None:
+    """An entry of the description: what is printed of it, component by component."""
+    key = (statement.kind, *statement.about)
+    require(key in drive.said, f"the description has no {' '.join(key)}")
+    found, printed = drive.said[key], statement.sides[0]
     reader = drive.reader(rng)
-    same(reader(margins[0]["positive"]), reader(statement.sides[0]), statement)
+    pairs = zip(found, printed, strict=True) if isinstance(printed, tuple) else [(found, printed)]
+    for a, b in pairs:
+        same(reader(a), reader(b), statement)
 
 
 def carried_alike(drive: Described, found: list, statement: Statement, rng: Random) -> None:
@@ -254,6 +303,15 @@ def carried_alike(drive: Described, found: list, statement: Statement, rng: Rand
     (printed,) = statement.sides
     for a, b in zip(reader.carried(found, point), reader.carried(printed, point), strict=True):
         same(a, b, statement)
+
+
+def subject_root(drive: Described, statement: Statement, rng: Random) -> None:
+    """Every value of a result makes an expression zero, and no two are the same."""
+    values, reader = drive.said["function", *statement.about], drive.reader(rng)
+    found = list(map(reader, values if isinstance(values[0], list) else [values]))
+    require(len({str(value.form) for value in found}) == len(found), f"one root twice: {statement.text}")
+    for value in found:
+        same(reader.at({statement.about[1]: value})(statement.sides[0]), Number(0), statement)
 
 
 def subject_motion(drive: Described, statement: Statement, rng: Random) -> None:
@@ -297,42 +355,90 @@ def subject_condition(drive: Described, statement: Statement, rng: Random) -> No
     same(reader(conditions[int(number[0]) - 1 if number else 0]), reader(statement.sides[0]), statement)
 
 
-def subject_function(drive: Described, statement: Statement, rng: Random) -> None:
-    name, key = statement.about
-    function = next(f for f in drive.description["functions"] if f["name"] == name)
-    result = next(r for r in function["results"] if r["name"] == key)
-    reader = drive.reader(rng)
-    printed = statement.sides[0] if isinstance(statement.sides[0], tuple) else (statement.sides[0],)
-    for a, b in zip(result["values"], printed, strict=True):
-        same(reader(a), reader(b), statement)
-
-
-def subject_contact(drive: Described, statement: Statement, rng: Random) -> None:
-    reader = drive.reader(rng)
-    same(reader(drive.description["contact"][statement.about[0]]), reader(statement.sides[0]), statement)
-
-
-def subject_start(drive: Described, statement: Statement, rng: Random) -> None:
-    reader = drive.reader(rng)
-    same(reader(drive.description["start"]["solution"][statement.about[0]]), reader(statement.sides[0]), statement)
-
-
+#: Kinds of statements of which more is to be known than that an entry is what is printed.
 SUBJECTS = {
     "rule": subject_rule,
     "where": subject_where,
-    "size": listed("sizes", "key", "value"),
-    "guard": listed("guards", "message", "positive"),
-    "margin": subject_margin,
+    "signed": subject_signed,
+    "root": subject_root,
     "motion": subject_motion,
     "generation": subject_generation,
     "sweep": subject_sweep,
     "curve": subject_curve,
     "normal": subject_normal,
-    "condition": subject_condition,
-    "function": subject_function,
-    "contact": subject_contact,
-    "start": subject_start,
 }
+
+
+def said_of(d: dict) -> Iterator[tuple[tuple[str, ...], object]]:
+    """Every entry of a description that a statement can be about, and its value. Which curves, motions, rules and
+    normals there are follows here too; their own subjects read them.
+    """
+    places: dict[tuple[str, str], int] = {}
+    rules = [(key["symbol"]["name"], key["default"]) for key in d["keys"] if key["default"] is not None]
+    for kind, listed in (("rule", [*rules, *d["rules"]]), ("proportion", d["proportions"])):
+        for target, value in listed:
+            places[kind, target] = places.get((kind, target), 0) + 1
+            yield (kind, target, str(places[kind, target])), value
+    for k, guard in enumerate(d["guards"], 1):
+        yield ("guard", str(k)), guard["positive"]
+    for size in d["sizes"]:
+        yield ("size", size["key"]), size["value"]
+    for entry in (*d["bodies"], *d["regions"]):
+        yield from said_of_surface(entry)
+    for key in ("ratio", "wheel_angle", "reference_angle"):
+        yield ("contact", key), d["contact"][key]
+    for unknown in d["contact"]["unknowns"]:
+        yield ("scale", unknown["name"]), unknown["scale"]
+    start = d["start"]
+    for name, value in start["solution"].items():
+        yield ("start", name), value
+    systems = [("start", start), *((system["name"], system) for system in d["design_systems"])]
+    for name, system in systems:
+        for unknown in system["unknowns"]:
+            yield ("scale", name, unknown["name"]), unknown["scale"]
+        for k, row in enumerate(system["residual"], 1):
+            yield ("equation", name, str(k)), row
+        for key in ("guess", "fills", "fixed"):
+            for symbol, value in system.get(key, {}).items():
+                yield (key, name, symbol), value
+        if system.get("regular"):
+            yield ("regular", name), system["regular"]["sign"]
+    for function in d["functions"]:
+        for result in function["results"]:
+            values = result["values"]
+            yield ("function", function["name"], result["name"]), values if len(values) > 1 else values[0]
+
+
+def said_of_surface(entry: dict) -> Iterator[tuple[tuple[str, ...], object]]:
+    name = entry.get("name") or f"{entry['member']}/{entry['region']}"
+    if "motion" in entry:
+        yield ("motion", name), None
+    for kind in ("curve", "sweep", "normal"):
+        yield (kind, name), None
+    if any(step["step"] == "envelope" for step in entry["surface"]["made"]):
+        yield ("generation", name), None
+    for margin in entry["margins"]:
+        if margin["along"] is None:
+            yield ("margin", name, margin["event"]), margin["positive"]
+    if entry["regular"] is not None:
+        yield ("regular", name), entry["regular"]
+    for symbol, value in entry.get("reference", {}).items():
+        yield ("reference", name, symbol), value
+    for k, condition in enumerate(entry["surface"]["conditions"], 1):
+        yield ("condition", name, str(k)), condition
+
+
+def check_said(drive: Described, statements: list[Statement]) -> None:
+    """Nothing of the description is left unsaid, but for what is listed as open and what a law says."""
+    about = {("function" if s.kind == "root" else s.kind, *s.about) for s in statements}
+    about |= {s.about for s in statements if s.kind == "open"}
+    for key in drive.said:
+        kind, name, *_ = key
+        first = key[:-1] if key[-1] == "1" else key
+        law = kind == "condition" and len(drive.entries[name]["surface"]["made"]) > 1
+        if kind == "rule":
+            first = key[:-1]
+        require(key in about or first in about or law, f"nothing says what {' '.join(key)} is")
 
 
 # ---- laws ------------------------------------------------------------------------------------------------------------
@@ -456,12 +562,17 @@ def check_slope(drive: Described, name: str, of: str, symbol: str, rng: Random) 
 # ---- all -------------------------------------------------------------------------------------------------------------
 
 
+def statements_of(name: str, printed: list) -> list[Statement]:
+    """What is printed of a drive."""
+    chosen = (found for patterns, found in printed if any(fnmatch(name, pattern) for pattern in patterns))
+    return [statement for found in chosen for statement in found]
+
+
 def checks_of(drive: Described, name: str, printed: list) -> Iterator[tuple[str, tuple]]:
     """Words, and a check with its arguments."""
-    for patterns, statements in printed:
-        if any(fnmatch(name, pattern) for pattern in patterns):
-            for statement in statements:
-                yield statement.text, (check_statement, drive, statement)
+    for statement in statements_of(name, printed):
+        if statement.kind != "open":
+            yield statement.text, (check_statement, drive, statement)
     for place in drive.entries:
         yield f"chain of {place}", (check_made, drive, place)
         yield f"enveloping of {place}", (check_enveloping, drive, place)
@@ -475,7 +586,9 @@ def check_drive(path: Path, printed: list) -> int:
     try:
         drive, draws = Described(json.loads(path.read_text(encoding="utf-8"))), (Draws(1), Draws(-1))
         checks = list(checks_of(drive, path.stem, printed))
-        require(any(check[0] is check_statement for _, check in checks), "nothing printed is known of this drive")
+        own = [pattern for patterns, _ in printed for pattern in patterns if pattern != "*"]
+        require(any(fnmatch(path.stem, pattern) for pattern in own), "nothing printed is known of this drive")
+        check_said(drive, statements_of(path.stem, printed))
         for words, check in checks:
             try:
                 attempt(*check, draws=draws)

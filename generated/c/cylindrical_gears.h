@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 961, set_phi 63, R 265, R and J 672, step 747, observe 946.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_gears/explicit
@@ -1265,7 +1265,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
         const double t167 = t133 + t119;
         const double t168 = s0 * t157;
         const double t169 = s0 * t158;
-        const double t170 = t130 / t98;
+        const double t170 = t130 / t98;  /* start_n_x: common normal */
         const double t171 = MW_FMA(p[30], p[30], t164);
         const double t172 = s0 * t159;
         const double t173 = s0 * t165;
@@ -1299,23 +1299,23 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
         const double t201 = MW_FNMA(p[1], p[11], t178);
         const double t202 = 1.0 - s0;
         const double t203 = t153 / t202;
-        const double t204 = t196 / t194;
+        const double t204 = t196 / t194;  /* start_slope: parting of the generators */
         const double t205 = MW_FMA(p[37], p[37], t198);
         const double t206 = MW_FNMA(p[1], p[11], t179);
         const double t207 = MW_FNMA(p[1], p[24], t182);
         const double t208 = MW_FNMA(p[1], p[24], t183);
-        const double t209 = t200 / c0;
+        const double t209 = t200 / c0;  /* l_A_pinion: place on the edge that cuts the tip of the pinion */
         const double t210 = MW_FMA(p[38], p[38], t205);
         const double t211 = MW_FNMA(p[1], p[24], t185);
-        const double t212 = t201 / c0;
-        const double t213 = t206 / c0;
+        const double t212 = t201 / c0;  /* l_a_pinion: place on the edge that cuts the tip relief's begin of the pinion */
+        const double t213 = t206 / c0;  /* l_f_pinion: place on the edge that cuts the root relief's begin of the pinion */
         const double t214 = MW_FMA(p[39], p[39], t210);
-        const double t215 = t207 / c0;
+        const double t215 = t207 / c0;  /* l_A_wheel: place on the edge that cuts the tip of the wheel */
         const double t216 = t191 - t55;
-        const double t217 = t208 / c0;
+        const double t217 = t208 / c0;  /* l_a_wheel: place on the edge that cuts the tip relief's begin of the wheel */
         const double t218 = t193 - t75;
         const double t219 = MW_FMA(p[40], p[40], t214);
-        const double t220 = t211 / c0;
+        const double t220 = t211 / c0;  /* l_f_wheel: place on the edge that cuts the root relief's begin of the wheel */
         const double t221 = t188 + t216;
         const double t222 = c2 * t6;
         const double t223 = t190 + t218;
@@ -1337,7 +1337,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
         const double t239 = t30 * t30;
         const double t240 = t104 * t104;
         const double t241 = MW_FMS(p[7], t202, p[6]);
-        const double t242 = t241 / c0;
+        const double t242 = t241 / c0;  /* l_F: start of the straight edge */
         const double t243 = t215 - t217;
         const double t244 = t121 + t227;
         const double t245 = t202 * t202;
@@ -1463,7 +1463,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t50 = c0 * s4;
     const double t51 = s2 * c0;
     const double t52 = p[8] + (-2.0);
-    const double t53 = t46 / c0;
+    const double t53 = t46 / c0;  /* l_F: start of the straight edge */
     const double t54 = p[15] * t52;
     const double t55 = p[28] * t52;
     const double t56 = 1.0 / c2;
@@ -1506,13 +1506,13 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t93 = 1.0 + t92;
     const double t94 = t47 / t33;
     const double t95 = t49 + t78;
-    const double t96 = t39 * t56;
+    const double t96 = t39 * t56;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t97 = 0.5 * t93;
-    const double t98 = t40 * t59;
+    const double t98 = t40 * t59;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t99 = t53 * (-4.0);
     const double t100 = p[0] * p[1];
     const double t101 = 2.0 * c4;
-    const double t102 = 1.0 / t70;
+    const double t102 = 1.0 / t70;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t103 = t33 * t97;
     const double t104 = MW_FMA(s19, s19, t97);
     const double t105 = p[9] * t100;
@@ -1520,7 +1520,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t107 = p[0] * s0;
     const double t108 = t79 + t80;
     const double t109 = t80 + t81;
-    const double t110 = 1.0 / t101;
+    const double t110 = 1.0 / t101;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t111 = t104 * t104;
     const double t112 = p[22] * t100;
     const double t113 = t88 + t95;
@@ -1548,13 +1548,13 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t135 = 1.0 + t121;
     const double t136 = 0.5 * t135;
     const double t137 = t56 * t106;
-    const double t138 = t107 * t56;
-    const double t139 = 1.0 / t105;
+    const double t138 = t107 * t56;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t139 = 1.0 / t105;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t140 = t102 * t105;
     const double t141 = MW_FMA(t113, t136, t133);
     const double t142 = t106 * t59;
-    const double t143 = t107 * t59;
-    const double t144 = 1.0 / t112;
+    const double t143 = t107 * t59;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
+    const double t144 = 1.0 / t112;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t145 = t110 * t112;
     const double t146 = p[1] * 0.7853981633974483;
     const double t147 = t134 / t141;
@@ -1571,15 +1571,15 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t158 = cylindrical_gears_atan2(s0, t157);
     const double t159 = t128 - t38;
     const double t160 = t129 - t38;
-    const double t161 = t152 / c0;
+    const double t161 = t152 / c0;  /* l_a_pinion: place on the edge that cuts the tip relief's begin of the pinion */
     const double t162 = t127 - t35;
-    const double t163 = t160 / c0;
+    const double t163 = t160 / c0;  /* l_a_wheel: place on the edge that cuts the tip relief's begin of the wheel */
     const double t164 = t131 - t38;
-    const double t165 = t162 / c0;
-    const double t166 = t164 / c0;
+    const double t165 = t162 / c0;  /* l_f_pinion: place on the edge that cuts the root relief's begin of the pinion */
+    const double t166 = t164 / c0;  /* l_f_wheel: place on the edge that cuts the root relief's begin of the wheel */
     const double t167 = MW_FMA(s19, t68, t147);
-    const double t168 = t151 / c0;
-    const double t169 = t159 / c0;
+    const double t168 = t151 / c0;  /* l_A_pinion: place on the edge that cuts the tip of the pinion */
+    const double t169 = t159 / c0;  /* l_A_wheel: place on the edge that cuts the tip of the wheel */
     const double t170 = MW_FNMA(t167, t167, t120);
     const double t171 = sqrt(t170);
     const double t172 = t70 * t139;
@@ -1673,7 +1673,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t260 = t239 * t255;
     const double t261 = MW_FMA(8.0, t169, t249);
     const double t262 = MW_FMA(t229, t261, t217);
-    const double t263 = cylindrical_gears_atan2(t174, t171);
+    const double t263 = cylindrical_gears_atan2(t174, t171);  /* start_nu_wheel: angle of the common normal */
     const double t264 = t52 * t235;
     const double t265 = t243 * t258;
     const double t266 = t53 + t168;
@@ -1738,13 +1738,13 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t325 = MW_FNMA(s0, t168, t324);
     const double t326 = MW_FMA(c0, t168, t148);
     const double t327 = MW_FNMA(s0, t310, t326);
-    const double t328 = 1.0 / t313;
+    const double t328 = 1.0 / t313;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t329 = MW_FNMA(c0, t316, t146);
     const double t330 = MW_FNMA(s0, t169, t329);
     const double t331 = t153 * t325;
     const double t332 = MW_FMA(c0, t169, t149);
     const double t333 = MW_FNMA(s0, t316, t332);
-    const double t334 = 1.0 / t315;
+    const double t334 = 1.0 / t315;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t335 = t311 + t311;
     const double t336 = t154 * t330;
     const double t337 = t318 + t318;
@@ -1752,7 +1752,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t339 = t322 + t322;
     const double t340 = p[0] * t314;
     const double t341 = p[0] * t317;
-    const double t342 = cylindrical_gears_atan2(t167, t171);
+    const double t342 = cylindrical_gears_atan2(t167, t171);  /* start_nu_pinion: angle of the common normal */
     const double t343 = t289 * t312;
     const double t344 = t296 * t321;
     const double t345 = p[12] * 2.0;
@@ -1777,16 +1777,16 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t364 = t172 * t362;
     const double t365 = t173 * t363;
     const double t366 = cylindrical_gears_atan2(1.0, t156);
-    const double t367 = t364 * t328;
-    const double t368 = t365 * t334;
+    const double t367 = t364 * t328;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t368 = t365 * t334;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t369 = p[21] * t351;
     const double t370 = p[34] * t354;
     const double t371 = t303 * t319;
     const double t372 = t306 * t323;
     const double t373 = p[21] * t348;
     const double t374 = p[34] * t353;
-    const double t375 = t171 / t104;
-    const double t376 = t167 / t104;
+    const double t375 = t171 / t104;  /* start_n_x: common normal */
+    const double t376 = t167 / t104;  /* start_n_y: common normal */
     const double t377 = p[12] * c2;
     const double t378 = c0 * t377;
     const double t379 = p[25] * c0;
@@ -1795,8 +1795,8 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t382 = t381 * t245;
     const double t383 = 0.5 * t232;
     const double t384 = t383 * t250;
-    const double t385 = 1.0 / t378;
-    const double t386 = 1.0 / t380;
+    const double t385 = 1.0 / t378;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t386 = 1.0 / t380;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t387 = MW_FMA(t290, t382, t343);
     const double t388 = t280 * t382;
     const double t389 = MW_FMA(t297, t384, t344);
@@ -1909,10 +1909,10 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t496 = t494 / t474;
     const double t497 = t435 - t448;
     const double t498 = t432 - t446;
-    double s499, c499;
+    double s499, c499;  /* of derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     cylindrical_gears_seldom_sincos(t367, &s499, &c499);
     const double t501 = t493 + t496;
-    double s502, c502;
+    double s502, c502;  /* of derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     cylindrical_gears_seldom_sincos(t368, &s502, &c502);
     const double t504 = s0 * t140;
     const double t505 = MW_FMA(t504, t417, t476);
@@ -1946,7 +1946,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t533 = t334 * t527;
     const double t534 = t524 + t526;
     const double t535 = s19 * t375;
-    const double t536 = t535 / t425;
+    const double t536 = t535 / t425;  /* start_slope: parting of the generators */
     const double t537 = t46 * 0.5;
     const double t538 = 0.5 * t151;
     const double t539 = 0.5 * t159;
@@ -2053,7 +2053,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t640 = t633 * t615;
     const double t641 = s0 * t473;
     const double t642 = MW_FMA(t629, t587, t634);
-    const double t643 = 1.0 / t641;
+    const double t643 = 1.0 / t641;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t644 = p[1] * p[7];
     const double t645 = c2 * s0;
     const double t646 = MW_FMA(t636, t609, t640);
@@ -2064,11 +2064,11 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t651 = t474 * t650;
     const double t652 = MW_FMA(t593, t639, t646);
     const double t653 = s0 * t474;
-    const double t654 = 1.0 / t653;
+    const double t654 = 1.0 / t653;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t655 = 1.0 / t647;
     const double t656 = 1.0 / t651;
-    const double t657 = 1.0 / t648;
-    const double t658 = 1.0 / t652;
+    const double t657 = 1.0 / t648;  /* derivation/relative: the same at the reference point of the pinion */
+    const double t658 = 1.0 / t652;  /* derivation/relative: the same at the reference point of the wheel */
     const double t659 = t23 * (-2.0);
     const double t660 = (-2.0) * t25;
     const double t661 = t342 - t361;
@@ -2083,8 +2083,8 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t670 = MW_FMA(t637, t668, t669);
     const double t671 = c2 * t35;
     const double t672 = c0 * t671;
-    const double t673 = 1.0 / t666;
-    const double t674 = 1.0 / t667;
+    const double t673 = 1.0 / t666;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_pinion */
+    const double t674 = 1.0 / t667;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_wheel */
     const double t675 = 1.0 / t670;
     const double t676 = t672 / s0;
     const double t677 = t649 + t156;
@@ -2131,11 +2131,11 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     const double t718 = p[0] * (-0.5);
     const double t719 = p[1] * t718;
     const double t720 = 1.0 / t699;
-    const double t721 = 1.0 / p[1];
+    const double t721 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t722 = p[9] * t719;
-    const double t723 = 1.0 / t716;
-    const double t724 = 1.0 / t717;
-    const double t725 = p[9] / p[22];
+    const double t723 = 1.0 / t716;  /* derivation/step-size: natural size of an unknown */
+    const double t724 = 1.0 / t717;  /* derivation/step-size: natural size of an unknown */
+    const double t725 = p[9] / p[22];  /* ratio: z1/z2 */
     const double t726 = c0 * t722;
     const double t727 = p[0] * 8.0;
     const double t728 = p[7] * t727;
@@ -2601,8 +2601,8 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t57 = t26 * t56;
     const double t58 = MW_FMA(t26, s[41], s[5]);
     const double t59 = x[1] * s[2];
-    const double t60 = MW_FMA(t31, t29, t52);
-    const double t61 = MW_FMA(t17, t59, t53);
+    const double t60 = MW_FMA(t31, t29, t52);  /* E_pinion_l_pinion */
+    const double t61 = MW_FMA(t17, t59, t53);  /* E_pinion: modification of the profile, pinion */
     const double t62 = MW_FMA(t28, s[44], s[5]);
     const double t63 = t47 * s[45];
     const double t64 = MW_FMA(t62, t63, t51);
@@ -2620,11 +2620,11 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t76 = x[3] * s[39];
     const double t77 = MW_FNMA(x[0], s[14], t69);
     const double t78 = x[1] * s[0];
-    const double t79 = MW_FMA(t43, t76, t71);
+    const double t79 = MW_FMA(t43, t76, t71);  /* E_wheel: modification of the profile, wheel */
     const double t80 = x[1] * x[1];
     const double t81 = MW_FMA(t80, s[28], t74);
-    const double t82 = 1.0 / t70;
-    const double t83 = MW_FMA(t58, t57, t75);
+    const double t82 = 1.0 / t70;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t83 = MW_FMA(t58, t57, t75);  /* E_wheel_l_wheel */
     const double t84 = MW_FMA(t77, s[15], t78);
     const double t85 = s[27] * t72;
     const double t86 = MW_FNMA(s[12], t79, s[13]);
@@ -2639,7 +2639,7 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t95 = x[3] * s[37];
     const double t96 = x[3] * x[3];
     const double t97 = MW_FMA(t96, s[60], t89);
-    const double t98 = 1.0 / t90;
+    const double t98 = 1.0 / t90;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t99 = MW_FMS(t92, t94, t87);
     const double t100 = MW_FMA(t93, s[48], t95);
     const double t101 = s[27] * t91;
@@ -2661,7 +2661,7 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t117 = x[1] * s[32];
     const double t118 = s[64] + x[3];
     const double t119 = MW_FMS(t90, t111, t114);
-    const double t120 = t113 * t82;
+    const double t120 = t113 * t82;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t121 = MW_FMA(t91, s[56], t115);
     const double t122 = s[27] * t119;
     const double t123 = s[199] - t120;
@@ -2669,7 +2669,7 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t125 = t121 * s[62];
     double s126, c126;
     cylindrical_gears_sincos(t123, &s126, &c126);
-    const double t128 = t125 * t98;
+    const double t128 = t125 * t98;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t129 = t128 + t104;
     const double t130 = MW_FMA(t128, s[63], t100);
     const double t131 = MW_FNMA(x[1], s[24], t124);
@@ -2703,24 +2703,24 @@ static inline void cylindrical_gears_eval(const double *s, const double *x, doub
     const double t159 = MW_FMS(s[34], t152, t154);
     const double t160 = s[34] * t146;
     const double t161 = MW_FMA(s[36], t152, t160);
-    const double t162 = MW_FMA(s[34], t144, t158);
+    const double t162 = MW_FMA(s[34], t144, t158);  /* row 2 of the contact equations */
     const double t163 = s[27] * t156;
     const double t164 = MW_FMA(t97, s132, t117);
     const double t165 = MW_FNMA(t134, s132, t157);
     const double t166 = t101 * s132;
     const double t167 = t101 * c132;
     const double t168 = MW_FNMA(t143, s[33], t164);
-    const double t169 = MW_FNMA(t97, c132, t165);
+    const double t169 = MW_FNMA(t97, c132, t165);  /* row 0 of the contact equations */
     const double t170 = MW_FMS(t102, c132, t166);
     const double t171 = MW_FMA(t102, s132, t167);
-    const double t172 = MW_FNMA(t134, c132, t168);
+    const double t172 = MW_FNMA(t134, c132, t168);  /* row 1 of the contact equations */
     const double t173 = t155 * t170;
     const double t174 = t171 * t153;
     const double t175 = MW_FMA(t119, t163, t173);
     const double t176 = MW_FMS(t170, t159, t174);
     const double t177 = MW_FMA(t171, t150, t175);
-    const double t178 = MW_FNMA(t161, t122, t176);
-    const double t179 = -t177;
+    const double t178 = MW_FNMA(t161, t122, t176);  /* row 4 of the contact equations */
+    const double t179 = -t177;  /* row 3 of the contact equations */
     R[0] = t169;
     R[1] = t172;
     R[2] = t162;
@@ -3102,8 +3102,8 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t57 = t38 * t49;
     const double t58 = 0.5 * t47;
     const double t59 = t26 * t58;
-    const double t60 = MW_FMA(t32, t34, t52);
-    const double t61 = MW_FMA(t8, t11, t53);
+    const double t60 = MW_FMA(t32, t34, t52);  /* E_pinion_l_pinion */
+    const double t61 = MW_FMA(t8, t11, t53);  /* E_pinion: modification of the profile, pinion */
     const double t62 = t34 * t49;
     const double t63 = MW_FMA(t32, t43, t62);
     const double t64 = MW_FMA(x[2], 8.0, s[53]);
@@ -3118,7 +3118,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t73 = s[9] * t41;
     const double t74 = MW_FMA(t31, t73, t48);
     const double t75 = t67 - t56;
-    const double t76 = 1.0 / t68;
+    const double t76 = 1.0 / t68;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t77 = MW_FMA(t24, s[28], t70);
     const double t78 = MW_FNMA(x[0], s[14], t71);
     const double t79 = s[27] * t69;
@@ -3164,10 +3164,10 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t119 = t77 * s[85];
     const double t120 = MW_FMA(t79, t104, t119);
     const double t121 = x[3] * s[39];
-    const double t122 = MW_FMA(t86, t121, t111);
-    const double t123 = t115 * t76;
+    const double t122 = MW_FMA(t86, t121, t111);  /* E_wheel: modification of the profile, wheel */
+    const double t123 = t115 * t76;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t124 = t55 * t112;
-    const double t125 = MW_FMA(t110, t124, t114);
+    const double t125 = MW_FMA(t110, t124, t114);  /* E_wheel_l_wheel */
     const double t126 = MW_FMA(s[10], t118, s[75]);
     const double t127 = t116 - t120;
     const double t128 = MW_FMA(x[2], s[12], s[61]);
@@ -3191,7 +3191,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t146 = MW_FNMA(x[1], s[24], t132);
     const double t147 = x[3] * x[3];
     const double t148 = MW_FMA(t147, s[60], t129);
-    const double t149 = 1.0 / t134;
+    const double t149 = 1.0 / t134;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t150 = t76 * t145;
     const double t151 = s[27] * t136;
     const double t152 = MW_FMS(x[3], s[57], t142);
@@ -3229,7 +3229,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t184 = t124 * t180;
     const double t185 = MW_FMA(t92, t181, s[92]);
     const double t186 = s[42] * t181;
-    const double t187 = t177 * t149;
+    const double t187 = t177 * t149;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t188 = MW_FMA(t81, s[82], t179);
     const double t189 = MW_FMA(t110, t186, t183);
     const double t190 = MW_FMA(t110, t174, t184);
@@ -3286,7 +3286,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t241 = s[36] * t227;
     const double t242 = s[34] * t227;
     const double t243 = MW_FMS(s[65], t228, t241);
-    const double t244 = 1.0 / t236;
+    const double t244 = 1.0 / t236;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t245 = MW_FMA(s[70], t228, t242);
     const double t246 = MW_FNMA(s[33], t228, t238);
     const double t247 = MW_FNMA(t206, t233, t243);
@@ -3348,7 +3348,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t303 = s[33] * t258;
     const double t304 = s[62] * t296;
     const double t305 = s[27] * t300;
-    const double t306 = 1.0 / t298;
+    const double t306 = 1.0 / t298;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t307 = t286 * t302;
     const double t308 = MW_FNMA(t187, s[99], t304);
     const double t309 = c139 * s[108];
@@ -3410,7 +3410,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t365 = MW_FMS(s[34], t343, t363);
     const double t366 = s[33] * t252;
     const double t367 = MW_FNMA(t292, t366, t329);
-    const double t368 = 1.0 / t360;
+    const double t368 = 1.0 / t360;  /* derivation/elimination: pivot 5 of the Newton step */
     const double t369 = MW_FMA(t286, t364, t361);
     const double t370 = s[27] * t322;
     const double t371 = MW_FNMA(t370, t356, t352);
@@ -3463,7 +3463,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t418 = t380 * t386;
     const double t419 = MW_FMA(t383, t398, t418);
     const double t420 = s[27] * t398;
-    const double t421 = MW_FNMA(t249, c204, t411);
+    const double t421 = MW_FNMA(t249, c204, t411);  /* row 1 of the contact equations */
     const double t422 = t286 * t382;
     const double t423 = MW_FNMA(t380, t292, t422);
     const double t424 = t413 * t409;
@@ -3503,7 +3503,7 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t458 = s204 * t266;
     const double t459 = c204 * t266;
     const double t460 = MW_FNMA(c204, t410, t458);
-    const double t461 = MW_FNMA(t417, t370, t454);
+    const double t461 = MW_FNMA(t417, t370, t454);  /* row 4 of the contact equations */
     const double t462 = MW_FMA(s204, t410, t459);
     const double t463 = MW_FMA(t292, t382, t456);
     const double t464 = x[1] * s[33];
@@ -3518,15 +3518,15 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     const double t473 = MW_FNMA(t467, t450, t468);
     const double t474 = MW_FMA(t467, t438, t469);
     const double t475 = MW_FNMA(t249, s204, t471);
-    const double t476 = MW_FMA(s[34], t347, t472);
+    const double t476 = MW_FMA(s[34], t347, t472);  /* row 2 of the contact equations */
     const double t477 = t452 * t473;
-    const double t478 = t475 - t313;
+    const double t478 = t475 - t313;  /* row 0 of the contact equations */
     const double t479 = MW_FNMA(t476, t291, t421);
     const double t480 = MW_FNMA(t476, t387, t461);
     const double t481 = MW_FMA(t476, t381, t463);
     const double t482 = MW_FMS(t474, t457, t477);
     const double t483 = MW_FNMA(t476, t290, t478);
-    const double t484 = 1.0 / t482;
+    const double t484 = 1.0 / t482;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t485 = MW_FNMA(t483, t354, t479);
     const double t486 = MW_FMA(t483, t402, t480);
     const double t487 = MW_FMA(t483, t400, t481);
@@ -4367,8 +4367,8 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t57 = s[6] * t48;
     const double t58 = MW_FMA(t33, t57, t56);
     const double t59 = MW_FMA(t19, t42, t51);
-    const double t60 = MW_FMA(t33, t35, t52);
-    const double t61 = MW_FMA(t8, t11, t53);
+    const double t60 = MW_FMA(t33, t35, t52);  /* E_pinion_l_pinion */
+    const double t61 = MW_FMA(t8, t11, t53);  /* E_pinion: modification of the profile, pinion */
     const double t62 = t35 * t26;
     const double t63 = MW_FMA(t33, t44, t62);
     const double t64 = s[9] * t42;
@@ -4383,7 +4383,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t73 = 0.5 * t50;
     const double t74 = t28 * t73;
     const double t75 = t66 + t63;
-    const double t76 = 1.0 / t68;
+    const double t76 = 1.0 / t68;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t77 = MW_FMA(t21, s[28], t69);
     const double t78 = MW_FNMA(x[0], s[14], t70);
     const double t79 = s[27] * t71;
@@ -4427,10 +4427,10 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t117 = MW_FMS(t68, t106, t116);
     const double t118 = t111 - t65;
     const double t119 = x[3] * s[39];
-    const double t120 = MW_FMA(t85, t119, t110);
+    const double t120 = MW_FMA(t85, t119, t110);  /* E_wheel: modification of the profile, wheel */
     const double t121 = t72 * t112;
-    const double t122 = MW_FMA(t109, t121, t114);
-    const double t123 = t115 * t76;
+    const double t122 = MW_FMA(t109, t121, t114);  /* E_wheel_l_wheel */
+    const double t123 = t115 * t76;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t124 = s[27] * t117;
     const double t125 = MW_FMA(x[2], s[12], s[61]);
     const double t126 = t118 + t58;
@@ -4444,7 +4444,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t134 = MW_FMA(x[1], s[78], t126);
     const double t135 = MW_FMA(t133, s[60], t127);
     const double t136 = MW_FNMA(x[2], s[14], t128);
-    const double t137 = 1.0 / t129;
+    const double t137 = 1.0 / t129;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     double s138, c138;
     cylindrical_gears_seldom_sincos(t131, &s138, &c138);
     const double t140 = MW_FMA(t136, s[48], t132);
@@ -4480,7 +4480,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t170 = MW_FMA(t94, t160, t169);
     const double t171 = t36 * s[90];
     const double t172 = t164 + t164;
-    const double t173 = t165 * t137;
+    const double t173 = t165 * t137;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t174 = MW_FMA(t75, s[82], t166);
     const double t175 = t98 * t171;
     const double t176 = t121 * t171;
@@ -4530,7 +4530,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t220 = MW_FMS(s138, t203, t214);
     const double t221 = MW_FNMA(t85, s[95], s[37]);
     const double t222 = MW_FMA(s[12], t216, s[14]);
-    const double t223 = sqrt(t215);
+    const double t223 = sqrt(t215);  /* derivation/unit: length of a normal */
     const double t224 = MW_FNMA(t85, s[67], t218);
     const double t225 = t211 + t219;
     const double t226 = t212 - t220;
@@ -4588,9 +4588,9 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t278 = s[32] * t266;
     const double t279 = MW_FNMA(t173, s[99], t272);
     const double t280 = t129 * s[101];
-    const double t281 = t192 / t223;
-    const double t282 = t194 / t223;
-    const double t283 = t124 / t223;
+    const double t281 = t192 / t223;  /* derivation/unit: length of a normal */
+    const double t282 = t194 / t223;  /* derivation/unit: length of a normal */
+    const double t283 = t124 / t223;  /* derivation/unit: length of a normal */
     const double t284 = MW_FMS(t209, t269, t280);
     const double t285 = t284 - t271;
     const double t286 = MW_FMA(s[32], t274, t277);
@@ -4620,7 +4620,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t310 = MW_FMA(s189, t293, t309);
     const double t311 = c189 * t224;
     const double t312 = MW_FNMA(t135, t301, t311);
-    const double t313 = sqrt(t305);
+    const double t313 = sqrt(t305);  /* derivation/unit: length of a normal */
     const double t314 = t304 - s[24];
     const double t315 = t308 + t310;
     const double t316 = t235 * t303;
@@ -4676,7 +4676,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t366 = MW_FMA(t80, t204, t364);
     const double t367 = t358 + t362;
     const double t368 = c138 * t150;
-    const double t369 = sqrt(t361);
+    const double t369 = sqrt(t361);  /* derivation/unit: length of a normal */
     const double t370 = MW_FMA(t79, t204, t368);
     const double t371 = s138 * t150;
     const double t372 = MW_FNMA(t79, t205, t371);
@@ -4690,11 +4690,11 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t380 = MW_FMS(s[34], t340, t378);
     const double t381 = t285 * s[111];
     const double t382 = MW_FMA(s[36], t340, t381);
-    const double t383 = t374 / t223;
+    const double t383 = t374 / t223;  /* derivation/unit: length of a normal */
     const double t384 = t375 - t377;
-    const double t385 = t379 / t223;
-    const double t386 = t382 / t313;
-    const double t387 = t384 / t223;
+    const double t385 = t379 / t223;  /* derivation/unit: length of a normal */
+    const double t386 = t382 / t313;  /* derivation/unit: length of a normal */
+    const double t387 = t384 / t223;  /* derivation/unit: length of a normal */
     const double t388 = c138 * t245;
     const double t389 = MW_FMA(t77, t336, t388);
     const double t390 = t151 * t356;
@@ -4726,29 +4726,29 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t416 = s[32] * t341;
     const double t417 = MW_FMS(s[33], t380, t416);
     const double t418 = t409 + t411;
-    const double t419 = t339 / t369;
-    const double t420 = t338 / t369;
-    const double t421 = t337 / t369;
-    const double t422 = t415 / t313;
+    const double t419 = t339 / t369;  /* derivation/unit: length of a normal */
+    const double t420 = t338 / t369;  /* derivation/unit: length of a normal */
+    const double t421 = t337 / t369;  /* derivation/unit: length of a normal */
+    const double t422 = t415 / t313;  /* derivation/unit: length of a normal */
     const double t423 = s[27] * t412;
-    const double t424 = t418 / t223;
+    const double t424 = t418 / t223;  /* derivation/unit: length of a normal */
     const double t425 = s[27] * t414;
-    const double t426 = t423 / t223;
-    const double t427 = t425 / t223;
-    const double t428 = t417 / t313;
+    const double t426 = t423 / t223;  /* derivation/unit: length of a normal */
+    const double t427 = t425 / t223;  /* derivation/unit: length of a normal */
+    const double t428 = t417 / t313;  /* derivation/unit: length of a normal */
     const double t429 = t302 * s[112];
     const double t430 = t302 * s[111];
     const double t431 = MW_FMS(s[34], t355, t429);
     const double t432 = MW_FMA(s[36], t355, t430);
     const double t433 = s[33] * t360;
     const double t434 = s[32] * t360;
-    double s435, c435;
+    double s435, c435;  /* of derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     cylindrical_gears_seldom_sincos(t123, &s435, &c435);
     const double t437 = MW_FMA(s[32], t431, t433);
     const double t438 = MW_FMS(s[33], t431, t434);
-    const double t439 = t432 / t313;
-    const double t440 = t437 / t313;
-    const double t441 = t438 / t313;
+    const double t439 = t432 / t313;  /* derivation/unit: length of a normal */
+    const double t440 = t437 / t313;  /* derivation/unit: length of a normal */
+    const double t441 = t438 / t313;  /* derivation/unit: length of a normal */
     const double t442 = t282 * t419;
     const double t443 = MW_FMA(t283, t420, t442);
     const double t444 = t283 * t421;
@@ -4791,11 +4791,11 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t481 = MW_FNMA(t419, t427, t472);
     const double t482 = MW_FNMA(t447, t427, t474);
     const double t483 = MW_FMS(t464, t470, t476);
-    const double t484 = (-1.0) / t475;
+    const double t484 = (-1.0) / t475;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t485 = MW_FNMA(t447, t426, t479);
     const double t486 = MW_FNMA(t419, t426, t480);
     const double t487 = t420 * t439;
-    const double t488 = (-1.0) / t483;
+    const double t488 = (-1.0) / t483;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t489 = MW_FMS(t421, t440, t487);
     const double t490 = t443 * t440;
     const double t491 = MW_FMA(t445, t439, t490);
@@ -4820,7 +4820,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t510 = MW_FMS(t470, t502, t508);
     const double t511 = t461 * t502;
     const double t512 = t461 * t500;
-    double s513, c513;
+    double s513, c513;  /* of derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     cylindrical_gears_seldom_sincos(t173, &s513, &c513);
     const double t515 = MW_FMS(t470, t500, t509);
     const double t516 = MW_FMS(t464, t498, t512);
@@ -4835,13 +4835,13 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t525 = MW_FMA(t488, t517, t524);
     const double t526 = t518 + t520;
     const double t527 = t519 + t521;
-    const double t528 = t273 / t313;
+    const double t528 = t273 / t313;  /* derivation/unit: length of a normal */
     const double t529 = 0.5 * t523;
     const double t530 = 0.5 * t525;
     const double t531 = t527 - t526;
     const double t532 = t526 + t527;
-    const double t533 = t286 / t313;
-    const double t534 = t287 / t313;
+    const double t533 = t286 / t313;  /* derivation/unit: length of a normal */
+    const double t534 = t287 / t313;  /* derivation/unit: length of a normal */
     const double t535 = 0.5 * t531;
     const double t536 = 0.5 * t532;
     const double t537 = t529 + t530;
@@ -4893,9 +4893,9 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t583 = MW_FMS(t539, t281, t582);
     const double t584 = -t283;
     const double t585 = -t528;
-    const double t586 = -t123;
+    const double t586 = -t123;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t587 = MW_FMA(t572, t572, t579);
-    const double t588 = -t173;
+    const double t588 = -t173;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t589 = -t396;
     const double t590 = -t443;
     const double t591 = -t526;
@@ -4925,7 +4925,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t615 = MW_FMS(t293, c513, t614);
     const double t616 = t606 + t609;
     const double t617 = s[114] - t563;
-    const double t618 = t569 / t611;
+    const double t618 = t569 / t611;  /* derivation/quotient: larger principal curvature of the gap */
     const double t619 = t607 - t613;
     const double t620 = t227 * s513;
     const double t621 = t227 * c513;
@@ -4957,7 +4957,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t647 = t141 * s513;
     const double t648 = MW_FMS(t147, c513, t647);
     const double t649 = t628 * t639;
-    const double t650 = t583 / t574;
+    const double t650 = t583 / t574;  /* derivation/quotient: lever arm of the wheel */
     const double t651 = t645 * t632;
     const double t652 = MW_FMA(t642, t605, t646);
     const double t653 = MW_FMS(t632, t644, t649);
@@ -4988,7 +4988,7 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     const double t678 = t551 - t536;
     const double t679 = t618 - t677;
     const double t680 = t678 - t618;
-    const double t681 = x[4] + s[201];
+    const double t681 = x[4] + s[201];  /* wheel angle */
     const double t682 = x[0] - s[116];
     const double t683 = x[2] - s[116];
     o[0] = t539;

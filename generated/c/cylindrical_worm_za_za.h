@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 322, set_phi 2, R 122, R and J 288, step 371, observe 601.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -682,7 +682,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     cylindrical_worm_za_za_seldom_sincos(p[16], &s7, &c7);
     const double t9 = s2 / c2;
     const double t10 = s0 * t6;
-    const double t11 = 1.0 / p[4];
+    const double t11 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t12 = p[10] * p[11];
     const double t13 = t10 * t12;
     const double t14 = p[0] * p[10];
@@ -699,9 +699,9 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     cylindrical_worm_za_za_seldom_sincos(p[5], &s24, &c24);
     const double t26 = MW_FNMA(p[9], t18, t16);
     const double t27 = p[0] * t9;
-    const double t28 = t27 * t6;
+    const double t28 = t27 * t6;  /* P_hob_z_t_hob */
     const double t29 = s7 * t13;
-    const double t30 = 1.0 / t29;
+    const double t30 = 1.0 / t29;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t31 = p[15] * t21;
     const double t32 = c7 * t13;
     const double t33 = p[0] * t28;
@@ -720,7 +720,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t46 = t45 * t11;
     const double t47 = t39 * t11;
     const double t48 = t42 * t43;
-    const double t49 = 1.0 / t41;
+    const double t49 = 1.0 / t41;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t50 = t37 * t41;
     const double t51 = t23 + t46;
     const double t52 = t33 * t37;
@@ -738,7 +738,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t64 = MW_FMA(t62, t50, t54);
     const double t65 = c7 * t41;
     const double t66 = c7 * t22;
-    const double t67 = MW_FMA(t59, t59, t47);
+    const double t67 = MW_FMA(t59, t59, t47);  /* axes_discriminant: negative where there are no meshing axes */
     const double t68 = t60 + t61;
     const double t69 = p[8] + p[18];
     const double t70 = MW_FMS(t43, t65, t64);
@@ -748,7 +748,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     double s74, c74;
     cylindrical_worm_za_za_seldom_sincos(t69, &s74, &c74);
     const double t76 = t73 * t63;
-    const double t77 = t76 * t49;
+    const double t77 = t76 * t49;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t78 = t15 + t68;
     const double t79 = t73 * t70;
     const double t80 = sqrt(t67);
@@ -775,15 +775,15 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t101 = t37 * t100;
     const double t102 = t9 * t17;
     const double t103 = t37 * t91;
-    const double t104 = t98 / t23;
-    const double t105 = t99 / t23;
+    const double t104 = t98 / t23;  /* axis_1_share: share of the screw that makes the twist a rotation */
+    const double t105 = t99 / t23;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t106 = MW_FNMA(t23, t91, t102);
     const double t107 = p[11] * c7;
     const double t108 = s7 * t106;
     const double t109 = c7 * t106;
     const double t110 = t107 * t11;
     const double t111 = p[0] * t18;
-    const double t112 = t111 * t86;
+    const double t112 = t111 * t86;  /* P_worm_z_t_worm */
     const double t113 = p[0] * t86;
     const double t114 = c7 * t23;
     const double t115 = (-1.0) - t110;
@@ -820,7 +820,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t146 = c88 * t92;
     const double t147 = MW_FNMA(t94, t143, t145);
     const double t148 = MW_FMA(t94, t144, t146);
-    const double t149 = 1.0 / t140;
+    const double t149 = 1.0 / t140;  /* derivation/relative: the same at the reference point of the pinion */
     const double t150 = t94 * t141;
     const double t151 = MW_FMA(t19, t144, t147);
     const double t152 = MW_FMA(t19, t143, t148);
@@ -867,16 +867,16 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t193 = t95 * t95;
     const double t194 = -t184;
     const double t195 = -t185;
-    const double t196 = MW_FMA(t167, t167, t130);
+    const double t196 = MW_FMA(t167, t167, t130);  /* axis_1_square: squared angular velocity about the axis */
     const double t197 = t187 / t196;
-    const double t198 = MW_FMA(t169, t169, t130);
+    const double t198 = MW_FMA(t169, t169, t130);  /* axis_2_square: squared angular velocity about the axis */
     const double t199 = t188 / t198;
-    const double t200 = 1.0 / t191;
+    const double t200 = 1.0 / t191;  /* derivation/relative: the same at the reference point of the wheel */
     const double t201 = t192 / p[3];
-    const double t202 = t28 / t23;
+    const double t202 = t28 / t23;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t203 = p[4] * p[10];
     const double t204 = t10 * t203;
-    const double t205 = 1.0 / p[1];
+    const double t205 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t206 = p[0] * p[0];
     const double t207 = p[10] * p[10];
     const double t208 = t10 * t10;
@@ -914,7 +914,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     const double t240 = p[15] * t220;
     const double t241 = t11 * t220;
     const double t242 = t11 * t240;
-    const double t243 = p[3] * t11;
+    const double t243 = p[3] * t11;  /* ratio: T1/T2 */
     const double t244 = t217 * t217;
     const double t245 = c138 * s74;
     const double t246 = c138 * c74;
@@ -1123,7 +1123,7 @@ static inline void cylindrical_worm_za_za_set_phi(double *s, double phi)
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_za_za_eval(const double *s, const double *x, double *R, double *J)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_za_za_sincos(x[3], &s0, &c0);
     const double t2 = x[2] * s[4];
     const double t3 = x[2] - s[8];
@@ -1131,14 +1131,14 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     const double t5 = x[2] * s[5];
     const double t6 = x[2] * s[6];
     const double t7 = s[116] + x[1];
-    const double t8 = x[4] + s[117];
+    const double t8 = x[4] + s[117];  /* wheel angle */
     double s9, c9;
     cylindrical_worm_za_za_sincos(t7, &s9, &c9);
     const double t11 = x[0] - s[14];
     const double t12 = MW_FMA(s[15], t11, s[10]);
     const double t13 = x[1] * s[13];
     const double t14 = x[0] * s[18];
-    const double t15 = t4 * s[20];
+    const double t15 = t4 * s[20];  /* P_hob_z: blade edge */
     const double t16 = x[0] * s[1];
     const double t17 = x[0] * s[17];
     const double t18 = x[0] * s[19];
@@ -1154,7 +1154,7 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     const double t28 = MW_FMS(t4, s[11], t20);
     const double t29 = t23 * s[7];
     const double t30 = MW_FMA(t27, s[5], t6);
-    const double t31 = 1.0 / t26;
+    const double t31 = 1.0 / t26;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t32 = t26 * s[7];
     const double t33 = MW_FNMA(s[22], t27, t24);
     const double t34 = t28 * t32;
@@ -1168,7 +1168,7 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     const double t42 = MW_FMS(x[0], c9, s[0]);
     const double t43 = MW_FMA(s[18], s9, s[24]);
     const double t44 = c9 * s[1];
-    const double t45 = t37 * t31;
+    const double t45 = t37 * t31;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t46 = MW_FMA(t19, s[17], t40);
     const double t47 = MW_FNMA(s[19], t43, t44);
     const double t48 = MW_FMA(s[19], t41, t38);
@@ -1176,7 +1176,7 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     const double t50 = t42 * s[1];
     const double t51 = c9 * s[19];
     const double t52 = MW_FMA(s[1], t43, t51);
-    const double t53 = x[3] + t45;
+    const double t53 = x[3] + t45;  /* phi_hob: angle of the hob in cutting */
     const double t54 = MW_FNMA(t45, s[21], t15);
     const double t55 = MW_FMS(s[1], t46, s[23]);
     const double t56 = MW_FMS(s[17], s9, s[26]);
@@ -1187,7 +1187,7 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     double s61, c61;
     cylindrical_worm_za_za_sincos(t58, &s61, &c61);
     const double t63 = MW_FNMA(s[5], t54, t59);
-    const double t64 = MW_FNMA(s0, t25, t63);
+    const double t64 = MW_FNMA(s0, t25, t63);  /* row 2 of the contact equations */
     const double t65 = MW_FNMA(t23, c61, t50);
     const double t66 = t26 * c61;
     const double t67 = c61 * t60;
@@ -1196,15 +1196,15 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
     const double t70 = MW_FMS(t23, s61, t67);
     const double t71 = MW_FMS(t26, s61, t68);
     const double t72 = MW_FNMA(t46, s[19], t65);
-    const double t73 = MW_FNMA(t60, s61, t72);
+    const double t73 = MW_FNMA(t60, s61, t72);  /* row 0 of the contact equations */
     const double t74 = MW_FNMA(t19, s[18], t70);
     const double t75 = t69 * t47;
     const double t76 = t69 * t48;
-    const double t77 = MW_FMA(s9, t17, t74);
+    const double t77 = MW_FMA(s9, t17, t74);  /* row 1 of the contact equations */
     const double t78 = MW_FMS(t71, t56, t75);
     const double t79 = MW_FMA(t71, t57, t76);
-    const double t80 = MW_FMA(t52, t33, t78);
-    const double t81 = MW_FMA(t33, t49, t79);
+    const double t80 = MW_FMA(t52, t33, t78);  /* row 3 of the contact equations */
+    const double t81 = MW_FMA(t33, t49, t79);  /* row 4 of the contact equations */
     R[0] = t73;
     R[1] = t77;
     R[2] = t64;
@@ -1359,18 +1359,18 @@ static inline void cylindrical_worm_za_za_eval(const double *s, const double *x,
  *   derivation/step-size. */
 static inline double cylindrical_worm_za_za_step(const double *s, double *x)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_za_za_sincos(x[3], &s0, &c0);
     const double t2 = x[2] * s[4];
     const double t3 = x[2] - s[8];
     const double t4 = MW_FMA(s[9], t3, s[10]);
     const double t5 = x[2] * s[5];
     const double t6 = x[2] * s[6];
-    const double t7 = x[4] + s[117];
+    const double t7 = x[4] + s[117];  /* wheel angle */
     const double t8 = s[116] + x[1];
     double s9, c9;
     cylindrical_worm_za_za_sincos(t8, &s9, &c9);
-    const double t11 = t4 * s[20];
+    const double t11 = t4 * s[20];  /* P_hob_z: blade edge */
     const double t12 = x[0] * s[18];
     const double t13 = x[0] * s[1];
     const double t14 = x[0] * s[17];
@@ -1396,7 +1396,7 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t34 = c0 * s[31];
     const double t35 = c0 * s[7];
     const double t36 = MW_FMA(t29, s[5], t6);
-    const double t37 = 1.0 / t28;
+    const double t37 = 1.0 / t28;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t38 = t28 * s[7];
     const double t39 = t28 * s[5];
     const double t40 = t29 * s[7];
@@ -1431,7 +1431,7 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t69 = MW_FMA(s[18], s9, s[29]);
     const double t70 = c9 * s[19];
     const double t71 = MW_FMS(s[17], s9, s[35]);
-    const double t72 = t62 * t37;
+    const double t72 = t62 * t37;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t73 = MW_FMA(c9, t12, s[27]);
     const double t74 = MW_FNMA(s[19], t67, t66);
     const double t75 = MW_FNMA(s[19], t69, t66);
@@ -1439,9 +1439,9 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t77 = MW_FMA(s[1], t69, t70);
     const double t78 = s9 * t12;
     const double t79 = s9 * t13;
-    const double t80 = x[3] + t72;
+    const double t80 = x[3] + t72;  /* phi_hob: angle of the hob in cutting */
     const double t81 = MW_FNMA(t72, s[21], t11);
-    const double t82 = 1.0 / t75;
+    const double t82 = 1.0 / t75;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t83 = MW_FMA(t29, t72, t63);
     const double t84 = MW_FNMA(t72, t49, t65);
     const double t85 = MW_FMA(s[19], t73, t79);
@@ -1485,7 +1485,7 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t123 = s[7] * t120;
     const double t124 = s[7] * t89;
     const double t125 = MW_FNMA(s[5], t81, t119);
-    const double t126 = MW_FNMA(s0, t17, t125);
+    const double t126 = MW_FNMA(s0, t17, t125);  /* row 2 of the contact equations */
     const double t127 = t28 * c94;
     const double t128 = t36 * c94;
     const double t129 = t29 * s94;
@@ -1516,9 +1516,9 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t154 = MW_FMS(t85, t138, t148);
     const double t155 = MW_FMS(s94, t49, t149);
     const double t156 = MW_FMA(c94, t49, t150);
-    const double t157 = t146 - t131;
+    const double t157 = t146 - t131;  /* row 0 of the contact equations */
     const double t158 = t136 * t85;
-    const double t159 = 1.0 / t151;
+    const double t159 = 1.0 / t151;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t160 = MW_FMA(t41, t104, t152);
     const double t161 = MW_FMA(t76, t48, t153);
     const double t162 = MW_FNMA(t106, t48, t154);
@@ -1534,11 +1534,11 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t172 = MW_FMA(t136, t101, t171);
     const double t173 = t102 * t136;
     const double t174 = MW_FMS(t135, t91, t173);
-    const double t175 = t102 + t164;
+    const double t175 = t102 + t164;  /* row 1 of the contact equations */
     const double t176 = MW_FMA(t76, t54, t166);
     const double t177 = MW_FMA(t106, t54, t168);
-    const double t178 = MW_FMA(t76, t41, t170);
-    const double t179 = MW_FMA(t41, t106, t172);
+    const double t178 = MW_FMA(t76, t41, t170);  /* row 3 of the contact equations */
+    const double t179 = MW_FMA(t41, t106, t172);  /* row 4 of the contact equations */
     const double t180 = c0 * s94;
     const double t181 = MW_FNMA(t41, t108, t174);
     const double t182 = c0 * c94;
@@ -1564,7 +1564,7 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t202 = MW_FMA(t193, t97, t192);
     const double t203 = MW_FNMA(t160, t188, t181);
     const double t204 = MW_FNMA(t178, t188, t179);
-    const double t205 = 1.0 / t197;
+    const double t205 = 1.0 / t197;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t206 = MW_FMA(t194, t97, t196);
     const double t207 = MW_FNMA(t195, t97, t198);
     const double t208 = MW_FMA(t194, t98, t122);
@@ -1587,7 +1587,7 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     const double t225 = MW_FMS(t219, t220, t223);
     const double t226 = MW_FMS(t218, t220, t222);
     const double t227 = MW_FMS(t218, t221, t224);
-    const double t228 = 1.0 / t226;
+    const double t228 = 1.0 / t226;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t229 = t228 * t225;
     const double t230 = t228 * t227;
     const double t231 = MW_FNMA(t202, t229, t207);
@@ -2084,7 +2084,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t0 = s[116] + x[1];
     double s1, c1;
     cylindrical_worm_za_za_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of psi_fixed_hob */
     cylindrical_worm_za_za_seldom_sincos(x[3], &s3, &c3);
     const double t5 = x[0] * s[45];
     const double t6 = x[2] * s[4];
@@ -2093,11 +2093,11 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t9 = x[2] * s[5];
     const double t10 = s[47] * x[0];
     const double t11 = x[2] * s[6];
-    const double t12 = x[4] + s[117];
+    const double t12 = x[4] + s[117];  /* wheel angle */
     const double t13 = x[2] * s[25];
     const double t14 = x[2] * s[22];
-    const double t15 = t8 * s[20];
-    double s16, c16;
+    const double t15 = t8 * s[20];  /* P_hob_z: blade edge */
+    double s16, c16;  /* of psi_worm */
     cylindrical_worm_za_za_seldom_sincos(x[1], &s16, &c16);
     const double t18 = c1 * s[46];
     const double t19 = MW_FMA(s1, t5, t18);
@@ -2121,7 +2121,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t37 = c3 * s[31];
     const double t38 = c3 * s[7];
     const double t39 = MW_FMA(t32, s[5], t11);
-    const double t40 = 1.0 / t31;
+    const double t40 = 1.0 / t31;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t41 = MW_FMA(t10, t10, t34);
     const double t42 = t31 * s[7];
     const double t43 = MW_FNMA(s[22], t32, t13);
@@ -2129,7 +2129,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t45 = t33 * t42;
     const double t46 = MW_FMA(t39, t38, t44);
     const double t47 = t42 * t36;
-    const double t48 = sqrt(t41);
+    const double t48 = sqrt(t41);  /* derivation/unit: length of a normal */
     const double t49 = t42 * t28;
     const double t50 = t31 * s[5];
     const double t51 = MW_FMA(t39, t35, t45);
@@ -2164,7 +2164,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t80 = x[0] - s[14];
     const double t81 = MW_FMA(s[15], t80, s[10]);
     const double t82 = x[1] * s[13];
-    const double t83 = t67 * t40;
+    const double t83 = t67 * t40;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t84 = t74 - s[64];
     const double t85 = x[0] * s16;
     const double t86 = t22 - s[61];
@@ -2172,7 +2172,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t88 = MW_FMA(t81, s[16], t82);
     const double t89 = x[0] * c16;
     const double t90 = t85 * t85;
-    const double t91 = x[3] + t83;
+    const double t91 = x[3] + t83;  /* phi_hob: angle of the hob in cutting */
     const double t92 = MW_FNMA(t83, t63, t75);
     const double t93 = MW_FMA(t32, t83, t78);
     const double t94 = MW_FNMA(t83, s[21], t15);
@@ -2187,10 +2187,10 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t103 = MW_FMS(s[38], t84, t98);
     const double t104 = MW_FMS(s[19], t96, t87);
     const double t105 = MW_FNMA(s[38], t96, t97);
-    const double t106 = t19 / t48;
-    const double t107 = t21 / t48;
+    const double t106 = t19 / t48;  /* derivation/unit: length of a normal */
+    const double t107 = t21 / t48;  /* derivation/unit: length of a normal */
     const double t108 = t12 - t99;
-    const double t109 = t10 / t48;
+    const double t109 = t10 / t48;  /* derivation/unit: length of a normal */
     double s110, c110;
     cylindrical_worm_za_za_seldom_sincos(t108, &s110, &c110);
     const double t112 = s1 * t106;
@@ -2199,14 +2199,14 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t115 = MW_FMS(t101, s[36], t65);
     const double t116 = 1.0 + t101;
     const double t117 = s[7] * t116;
-    const double t118 = t76 / t48;
+    const double t118 = t76 / t48;  /* derivation/unit: length of a normal */
     const double t119 = s[7] * t100;
     const double t120 = MW_FNMA(s[48], t109, t114);
     const double t121 = MW_FNMA(s[21], t100, s[33]);
     const double t122 = MW_FNMA(s[22], t121, t29);
     const double t123 = MW_FMA(s[5], t121, t64);
-    const double t124 = t77 / t48;
-    const double t125 = s[47] / t48;
+    const double t124 = t77 / t48;  /* derivation/unit: length of a normal */
+    const double t125 = s[47] / t48;  /* derivation/unit: length of a normal */
     const double t126 = MW_FNMA(t106, t120, s1);
     const double t127 = MW_FNMA(t107, t120, c1);
     const double t128 = MW_FMA(t109, t120, s[48]);
@@ -2228,7 +2228,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t144 = s110 * t30;
     const double t145 = c110 * t30;
     const double t146 = MW_FNMA(t39, t135, t144);
-    const double t147 = sqrt(t139);
+    const double t147 = sqrt(t139);  /* derivation/unit: length of a normal */
     const double t148 = MW_FNMA(s[1], t140, t55);
     const double t149 = MW_FMA(s[19], t140, t56);
     const double t150 = t142 + t146;
@@ -2258,7 +2258,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t174 = s110 * t117;
     const double t175 = t168 - t166;
     const double t176 = c110 * t54;
-    const double t177 = sqrt(t169);
+    const double t177 = sqrt(t169);  /* derivation/unit: length of a normal */
     const double t178 = MW_FMS(t27, t174, t176);
     const double t179 = c110 * t113;
     const double t180 = MW_FMA(t102, t174, t179);
@@ -2284,9 +2284,9 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t200 = MW_FMS(s[1], t182, t198);
     const double t201 = s[1] * t115;
     const double t202 = MW_FMA(s[19], t182, t201);
-    const double t203 = t126 / t147;
-    const double t204 = t128 / t147;
-    const double t205 = t127 / t147;
+    const double t203 = t126 / t147;  /* derivation/unit: length of a normal */
+    const double t204 = t128 / t147;  /* derivation/unit: length of a normal */
+    const double t205 = t127 / t147;  /* derivation/unit: length of a normal */
     const double t206 = MW_FMS(s[19], t196, t72);
     const double t207 = MW_FMA(s[1], t196, t73);
     const double t208 = s[17] * t156;
@@ -2310,12 +2310,12 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t226 = t27 * c129;
     const double t227 = MW_FNMA(t102, s129, t226);
     const double t228 = t106 * t104;
-    const double t229 = t209 / t177;
-    const double t230 = t207 / t177;
-    const double t231 = t159 / t177;
-    const double t232 = t221 / t177;
-    const double t233 = t211 / t177;
-    const double t234 = t223 / t177;
+    const double t229 = t209 / t177;  /* derivation/unit: length of a normal */
+    const double t230 = t207 / t177;  /* derivation/unit: length of a normal */
+    const double t231 = t159 / t177;  /* derivation/unit: length of a normal */
+    const double t232 = t221 / t177;  /* derivation/unit: length of a normal */
+    const double t233 = t211 / t177;  /* derivation/unit: length of a normal */
+    const double t234 = t223 / t177;  /* derivation/unit: length of a normal */
     const double t235 = t109 * t203;
     const double t236 = t107 * t204;
     const double t237 = t106 * t205;
@@ -2370,8 +2370,8 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t286 = MW_FMS(t243, t234, t278);
     const double t287 = t107 * t242;
     const double t288 = MW_FMA(t106, t241, t287);
-    const double t289 = (-1.0) / t281;
-    const double t290 = (-1.0) / t282;
+    const double t289 = (-1.0) / t281;  /* cylindrical_worm/undercut: singular function of a flank */
+    const double t290 = (-1.0) / t282;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t291 = t243 * t265;
     const double t292 = MW_FMS(t267, t269, t291);
     const double t293 = t265 * t288;
@@ -2393,10 +2393,10 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t309 = t225 * t225;
     const double t310 = MW_FMA(t227, t227, t309);
     const double t311 = sqrt(t95);
-    const double t312 = t148 / t177;
+    const double t312 = t148 / t177;  /* derivation/unit: length of a normal */
     const double t313 = sqrt(t310);
-    const double t314 = t153 / t177;
-    const double t315 = t154 / t177;
+    const double t314 = t153 / t177;  /* derivation/unit: length of a normal */
+    const double t315 = t154 / t177;  /* derivation/unit: length of a normal */
     const double t316 = MW_FMA(s[5], t94, t79);
     const double t317 = MW_FMA(s[5], t94, s[23]);
     const double t318 = t79 + t317;
@@ -2455,7 +2455,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t371 = MW_FMA(t366, t366, t319);
     const double t372 = MW_FMS(t74, t106, t370);
     const double t373 = -t109;
-    const double t374 = -t83;
+    const double t374 = -t83;  /* psi_hob: screw angle of the hob flank */
     const double t375 = -t219;
     const double t376 = -t242;
     const double t377 = -t324;
@@ -2475,7 +2475,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t391 = t382 * t384;
     const double t392 = t365 * t346;
     const double t393 = MW_FMA(t367, t352, t392);
-    const double t394 = t372 / t308;
+    const double t394 = t372 / t308;  /* derivation/quotient: lever arm of the wheel */
     const double t395 = t386 * t389;
     const double t396 = s[46] * s16;
     const double t397 = MW_FMS(t5, c16, t396);
@@ -2511,7 +2511,7 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     const double t427 = t348 + t364;
     const double t428 = s[50] - t311;
     const double t429 = t311 - s[51];
-    const double t430 = t357 / t422;
+    const double t430 = t357 / t422;  /* derivation/quotient: larger principal curvature of the gap */
     const double t431 = -t421;
     const double t432 = t379 + s[55];
     const double t433 = s[57] - x[2];

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 553, set_phi 2, R 303, R and J 768, step 849, observe 1021.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -790,11 +790,11 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t46 = s11 * t30;
     const double t47 = MW_FNMA(t22, t29, t39);
     const double t48 = p[10] + p[15];
-    const double t49 = 1.0 / p[4];
+    const double t49 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t50 = p[10] * p[11];
     const double t51 = t15 * t50;
     const double t52 = t28 * t33;
-    const double t53 = cylindrical_worm_zc_zc_atan2(t40, t47);
+    const double t53 = cylindrical_worm_zc_zc_atan2(t40, t47);  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     const double t54 = p[6] * t37;
     const double t55 = MW_FMS(t43, t54, t45);
     const double t56 = t38 * t54;
@@ -805,7 +805,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t61 = s31 * t51;
     const double t62 = MW_FMS(t27, t44, t56);
     const double t63 = MW_FNMA(s0, t46, t55);
-    const double t64 = 1.0 / t61;
+    const double t64 = 1.0 / t61;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t65 = t25 * t33;
     const double t66 = MW_FMA(t23, t20, t52);
     const double t67 = MW_FMA(t22, t58, t66);
@@ -817,9 +817,9 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t73 = MW_FMA(s4, t58, t70);
     const double t74 = t40 * t67;
     const double t75 = p[11] * t49;
-    const double t76 = cylindrical_worm_zc_zc_atan2(t63, t68);
+    const double t76 = cylindrical_worm_zc_zc_atan2(t63, t68);  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     const double t77 = MW_FMS(t47, t73, t74);
-    const double t78 = t77 / t72;
+    const double t78 = t77 / t72;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     const double t79 = p[4] * t64;
     const double t80 = c31 * t51;
     const double t81 = t80 * t49;
@@ -838,7 +838,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t94 = s31 * t91;
     const double t95 = p[19] * t88;
     const double t96 = c31 * t75;
-    const double t97 = 1.0 / t33;
+    const double t97 = 1.0 / t33;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t98 = MW_FMA(t18, t90, t86);
     const double t99 = MW_FMA(s0, t90, t89);
     const double t100 = t94 * t49;
@@ -852,7 +852,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     double s108, c108;
     cylindrical_worm_zc_zc_seldom_sincos(t103, &s108, &c108);
     const double t110 = MW_FMS(t68, t99, t104);
-    const double t111 = t110 / t93;
+    const double t111 = t110 / t93;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     const double t112 = t81 + t105;
     const double t113 = s31 * t101;
     const double t114 = t113 * t49;
@@ -862,7 +862,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t118 = t116 * t117;
     const double t119 = 2.0 * t30;
     const double t120 = p[4] * p[4];
-    const double t121 = MW_FMA(t112, t112, t114);
+    const double t121 = MW_FMA(t112, t112, t114);  /* axes_discriminant: negative where there are no meshing axes */
     const double t122 = p[11] * c31;
     const double t123 = t122 * t49;
     const double t124 = t33 * c31;
@@ -877,12 +877,12 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     double s133, c133;
     cylindrical_worm_zc_zc_seldom_sincos(p[23], &s133, &c133);
     const double t135 = 0.5 * t53;
-    double s136, c136;
+    double s136, c136;  /* of derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     cylindrical_worm_zc_zc_seldom_sincos(t53, &s136, &c136);
     double s138, c138;
     cylindrical_worm_zc_zc_seldom_sincos(t135, &s138, &c138);
     const double t140 = 0.5 * t76;
-    double s141, c141;
+    double s141, c141;  /* of derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     cylindrical_worm_zc_zc_seldom_sincos(t76, &s141, &c141);
     const double t143 = t22 * c136;
     const double t144 = MW_FMA(s4, s136, t143);
@@ -902,7 +902,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t158 = s31 * t154;
     const double t159 = MW_FMA(t14, c136, t152);
     const double t160 = MW_FMA(t14, s136, t153);
-    const double t161 = 1.0 / t148;
+    const double t161 = 1.0 / t148;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t162 = MW_FMA(c31, t155, t158);
     const double t163 = t75 * t148;
     const double t164 = c138 * t115;
@@ -954,7 +954,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t210 = MW_FMA(t155, t203, t207);
     const double t211 = c2 * t204;
     const double t212 = MW_FNMA(s2, t202, t211);
-    const double t213 = t205 * t161;
+    const double t213 = t205 * t161;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t214 = s2 * t204;
     const double t215 = MW_FMA(c2, t202, t214);
     const double t216 = t75 * t208;
@@ -1038,8 +1038,8 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t294 = 0.5 * t290;
     const double t295 = t82 - t266;
     const double t296 = s11 * t295;
-    const double t297 = t293 * t97;
-    const double t298 = t294 * t97;
+    const double t297 = t293 * t97;  /* axis_1_share: share of the screw that makes the twist a rotation */
+    const double t298 = t294 * t97;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t299 = c11 * t295;
     const double t300 = s11 * t291;
     const double t301 = c230 * t279;
@@ -1112,20 +1112,20 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
     const double t368 = t352 + t362;
     const double t369 = t356 + t364;
     const double t370 = t49 * t91;
-    const double t371 = 1.0 / t363;
+    const double t371 = 1.0 / t363;  /* derivation/relative: the same at the reference point of the wheel */
     const double t372 = MW_FNMA(t359, t333, t365);
-    const double t373 = p[3] * t49;
+    const double t373 = p[3] * t49;  /* ratio: T1/T2 */
     const double t374 = p[6] * 6.283185307179586;
     const double t375 = t37 * t374;
     const double t376 = -t366;
-    const double t377 = MW_FMA(t346, t346, t125);
+    const double t377 = MW_FMA(t346, t346, t125);  /* axis_1_square: squared angular velocity about the axis */
     const double t378 = t368 / t377;
-    const double t379 = MW_FMA(t349, t349, t125);
+    const double t379 = MW_FMA(t349, t349, t125);  /* axis_2_square: squared angular velocity about the axis */
     const double t380 = t369 / t379;
-    const double t381 = 1.0 / t372;
+    const double t381 = 1.0 / t372;  /* derivation/relative: the same at the reference point of the pinion */
     const double t382 = t375 / p[3];
-    const double t383 = 1.0 / t126;
-    const double t384 = 1.0 / t129;
+    const double t383 = 1.0 / t126;  /* derivation/step-size: natural size of an unknown */
+    const double t384 = 1.0 / t129;  /* derivation/step-size: natural size of an unknown */
     const double t385 = p[4] * p[10];
     const double t386 = t15 * t385;
     const double t387 = p[0] * p[10];
@@ -1369,7 +1369,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t0 = x[2] * 0.5;
     double s1, c1;
     cylindrical_worm_zc_zc_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of t_hob */
     cylindrical_worm_zc_zc_sincos(x[2], &s3, &c3);
     const double t5 = x[0] * 0.5;
     double s6, c6;
@@ -1378,7 +1378,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t9 = t8 * s[19];
     const double t10 = s1 * s[19];
     const double t11 = c1 * t10;
-    double s12, c12;
+    double s12, c12;  /* of t_worm */
     cylindrical_worm_zc_zc_sincos(x[0], &s12, &c12);
     const double t14 = MW_FMA(s3, s[23], s[24]);
     const double t15 = t14 * s[25];
@@ -1393,11 +1393,11 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t24 = MW_FMS(t18, t23, t17);
     const double t25 = s[28] * c3;
     const double t26 = c3 * s[29];
-    double s27, c27;
+    double s27, c27;  /* of psi_fixed_hob */
     cylindrical_worm_zc_zc_sincos(x[3], &s27, &c27);
     const double t29 = MW_FNMA(t21, t25, t22);
     const double t30 = MW_FNMA(t21, t26, t24);
-    const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);
+    const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);  /* xi_hob: angle along the wheel's arc from its pitch point, about y */
     const double t32 = s6 * s6;
     const double t33 = t32 * s[0];
     const double t34 = s6 * s[0];
@@ -1422,8 +1422,8 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     cylindrical_worm_zc_zc_sincos(t51, &s52, &c52);
     const double t54 = MW_FNMA(t50, t44, t48);
     const double t55 = MW_FNMA(t50, t45, t49);
-    const double t56 = cylindrical_worm_zc_zc_atan2(t54, t55);
-    const double t57 = x[4] + s[124];
+    const double t56 = cylindrical_worm_zc_zc_atan2(t54, t55);  /* xi_worm: angle along the wheel's arc from its pitch point, about y */
+    const double t57 = x[4] + s[124];  /* wheel angle */
     const double t58 = s[7] * s12;
     const double t59 = s12 * s[17];
     const double t60 = c12 * s[7];
@@ -1442,12 +1442,12 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t73 = MW_FMA(s[18], t69, t71);
     const double t74 = MW_FNMA(s[42], t69, t72);
     const double t75 = 0.5 * t31;
-    double s76, c76;
+    double s76, c76;  /* of xi_hob: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_sincos(t31, &s76, &c76);
     double s78, c78;
     cylindrical_worm_zc_zc_sincos(t75, &s78, &c78);
     const double t80 = 0.5 * t56;
-    double s81, c81;
+    double s81, c81;  /* of xi_worm: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_sincos(t56, &s81, &c81);
     const double t83 = s[31] * c76;
     const double t84 = s78 * s78;
@@ -1462,23 +1462,23 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t93 = s78 * s[32];
     const double t94 = t87 * t46;
     const double t95 = t87 * t47;
-    const double t96 = c3 * t87;
+    const double t96 = c3 * t87;  /* n_hob_x: normal */
     const double t97 = MW_FMA(s[12], s76, t89);
     const double t98 = MW_FMA(s[12], c76, t90);
     double s99, c99;
     cylindrical_worm_zc_zc_sincos(t80, &s99, &c99);
     const double t101 = MW_FMA(c78, t92, t97);
     const double t102 = MW_FMA(c78, t93, t98);
-    const double t103 = MW_FMS(s[34], t91, t94);
+    const double t103 = MW_FMS(s[34], t91, t94);  /* n_hob_y: normal */
     const double t104 = MW_FMA(s[26], t91, t95);
-    const double t105 = MW_FMA(c3, t101, t9);
+    const double t105 = MW_FMA(c3, t101, t9);  /* P_hob_x: contact point on the wheel */
     const double t106 = MW_FNMA(s3, t101, t11);
     const double t107 = c27 * t96;
     const double t108 = MW_FNMA(s27, t103, t107);
     const double t109 = s[34] * t102;
-    const double t110 = MW_FMS(s[26], t106, t109);
+    const double t110 = MW_FMS(s[26], t106, t109);  /* P_hob_y: contact point on the wheel */
     const double t111 = s[26] * t102;
-    const double t112 = MW_FMA(s[34], t106, t111);
+    const double t112 = MW_FMA(s[34], t106, t111);  /* P_hob_z: contact point on the wheel */
     const double t113 = s27 * t96;
     const double t114 = MW_FMA(c27, t103, t113);
     const double t115 = t105 * t103;
@@ -1489,7 +1489,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t120 = MW_FNMA(s27, t110, t117);
     const double t121 = s[37] * t104;
     const double t122 = MW_FMA(s[35], t114, t121);
-    const double t123 = 1.0 / t108;
+    const double t123 = 1.0 / t108;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t124 = t119 * s[35];
     const double t125 = t108 * s[38];
     const double t126 = s[13] * c81;
@@ -1518,7 +1518,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t149 = s[40] * t144;
     const double t150 = s99 * s99;
     const double t151 = s99 * s[11];
-    const double t152 = t145 * t123;
+    const double t152 = t145 * t123;  /* psi_hob: screw angle of the hob flank */
     const double t153 = s99 * s[14];
     const double t154 = MW_FMA(s[40], t146, t148);
     const double t155 = MW_FMS(s[41], t146, t149);
@@ -1526,7 +1526,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t157 = s[18] * t147;
     const double t158 = MW_FMA(t150, s[14], t126);
     const double t159 = MW_FMS(t150, s[16], t128);
-    const double t160 = x[3] - t152;
+    const double t160 = x[3] - t152;  /* phi_hob: angle of the hob in cutting */
     const double t161 = MW_FMA(s[25], t152, t112);
     const double t162 = MW_FMA(s[18], t154, t156);
     const double t163 = MW_FNMA(s[42], t154, t157);
@@ -1540,11 +1540,11 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     double s171, c171;
     cylindrical_worm_zc_zc_sincos(t166, &s171, &c171);
     const double t173 = MW_FNMA(s12, t169, t35);
-    const double t174 = MW_FMA(c12, t169, t33);
+    const double t174 = MW_FMA(c12, t169, t33);  /* P_worm_x: contact point on the wheel */
     const double t175 = s[7] * t170;
     const double t176 = s[17] * t170;
-    const double t177 = MW_FMA(s[17], t173, t175);
-    const double t178 = MW_FMS(s[7], t173, t176);
+    const double t177 = MW_FMA(s[17], t173, t175);  /* P_worm_z: contact point on the wheel */
+    const double t178 = MW_FMS(s[7], t173, t176);  /* P_worm_y: contact point on the wheel */
     const double t179 = t174 * s52;
     const double t180 = MW_FMS(t174, c52, s[15]);
     const double t181 = MW_FMA(x[1], s[6], t177);
@@ -1557,7 +1557,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t188 = MW_FMS(s[18], t187, s[43]);
     const double t189 = MW_FMA(t183, s[42], t188);
     const double t190 = MW_FNMA(t119, s[37], t189);
-    const double t191 = MW_FNMA(s[35], t161, t190);
+    const double t191 = MW_FNMA(s[35], t161, t190);  /* row 2 of the contact equations */
     const double t192 = MW_FNMA(t167, s171, t185);
     const double t193 = MW_FMA(t120, s171, t186);
     const double t194 = t122 * c171;
@@ -1566,12 +1566,12 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t197 = MW_FNMA(t187, s[42], t192);
     const double t198 = MW_FNMA(t167, c171, t193);
     const double t199 = MW_FMA(t122, s171, t195);
-    const double t200 = MW_FNMA(t120, c171, t197);
+    const double t200 = MW_FNMA(t120, c171, t197);  /* row 0 of the contact equations */
     const double t201 = MW_FMA(t155, t196, t168);
     const double t202 = MW_FMA(t196, t70, t137);
-    const double t203 = MW_FNMA(s[40], t181, t198);
-    const double t204 = MW_FNMA(t199, t163, t201);
-    const double t205 = MW_FNMA(t199, t74, t202);
+    const double t203 = MW_FNMA(s[40], t181, t198);  /* row 1 of the contact equations */
+    const double t204 = MW_FNMA(t199, t163, t201);  /* row 3 of the contact equations */
+    const double t205 = MW_FNMA(t199, t74, t202);  /* row 4 of the contact equations */
     R[0] = t200;
     R[1] = t203;
     R[2] = t191;
@@ -1644,7 +1644,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t269 = s3 * t87;
     const double t270 = t262 + t261;
     const double t271 = c3 * t101;
-    const double t272 = t264 / t225;
+    const double t272 = t264 / t225;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     const double t273 = s3 * t101;
     const double t274 = t54 * t268;
     const double t275 = s27 * t110;
@@ -1662,7 +1662,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
     const double t287 = s12 * s52;
     const double t288 = t133 * t287;
     const double t289 = t133 * t60;
-    const double t290 = t282 / t259;
+    const double t290 = t282 / t259;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     const double t291 = MW_FMA(t125, t283, t278);
     const double t292 = s12 * c52;
     const double t293 = t133 * t292;
@@ -1942,14 +1942,14 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t0 = x[2] * 0.5;
     double s1, c1;
     cylindrical_worm_zc_zc_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of t_hob */
     cylindrical_worm_zc_zc_sincos(x[2], &s3, &c3);
     const double t5 = x[0] * 0.5;
     double s6, c6;
     cylindrical_worm_zc_zc_sincos(t5, &s6, &c6);
     const double t8 = s1 * s1;
     const double t9 = s1 * s[19];
-    double s10, c10;
+    double s10, c10;  /* of t_worm */
     cylindrical_worm_zc_zc_sincos(x[0], &s10, &c10);
     const double t12 = s[20] * c3;
     const double t13 = MW_FMA(s3, s[23], s[24]);
@@ -1966,11 +1966,11 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t24 = MW_FMS(t18, t22, t17);
     const double t25 = s[28] * c3;
     const double t26 = c3 * s[29];
-    double s27, c27;
+    double s27, c27;  /* of psi_fixed_hob */
     cylindrical_worm_zc_zc_sincos(x[3], &s27, &c27);
     const double t29 = MW_FNMA(t23, t25, t21);
     const double t30 = MW_FNMA(t23, t26, t24);
-    const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);
+    const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);  /* xi_hob: angle along the wheel's arc from its pitch point, about y */
     const double t32 = s[1] * c10;
     const double t33 = s6 * s6;
     const double t34 = MW_FMA(s10, s[4], s[5]);
@@ -2002,7 +2002,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t60 = t18 * t58;
     const double t61 = c3 * s[21];
     const double t62 = t18 * t61;
-    const double t63 = cylindrical_worm_zc_zc_atan2(t53, t54);
+    const double t63 = cylindrical_worm_zc_zc_atan2(t53, t54);  /* xi_worm: angle along the wheel's arc from its pitch point, about y */
     const double t64 = t56 + t56;
     const double t65 = t59 - t12;
     const double t66 = MW_FMS(s[19], t64, t15);
@@ -2016,7 +2016,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t74 = t30 * t30;
     const double t75 = MW_FMA(t29, t29, t74);
     const double t76 = MW_FMA(t26, t67, t69);
-    const double t77 = x[4] + s[124];
+    const double t77 = x[4] + s[124];  /* wheel angle */
     const double t78 = MW_FMA(t25, t67, t71);
     const double t79 = c3 * s[34];
     const double t80 = MW_FMA(c3, s[54], t72);
@@ -2046,7 +2046,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t104 = MW_FMS(t30, t89, t96);
     double s105, c105;
     cylindrical_worm_zc_zc_sincos(t100, &s105, &c105);
-    const double t107 = t104 / t75;
+    const double t107 = t104 / t75;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     const double t108 = MW_FMA(t44, t101, t92);
     const double t109 = MW_FMA(t41, t101, t95);
     const double t110 = s[7] * t99;
@@ -2068,15 +2068,15 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t126 = t53 * t118;
     const double t127 = s10 * s[47];
     const double t128 = MW_FMS(t54, t119, t126);
-    const double t129 = t128 / t116;
+    const double t129 = t128 / t116;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     const double t130 = 0.5 * t107;
     const double t131 = 0.5 * t31;
-    double s132, c132;
+    double s132, c132;  /* of xi_hob: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_sincos(t31, &s132, &c132);
     double s134, c134;
     cylindrical_worm_zc_zc_sincos(t131, &s134, &c134);
     const double t136 = 0.5 * t63;
-    double s137, c137;
+    double s137, c137;  /* of xi_worm: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_sincos(t63, &s137, &c137);
     const double t139 = s[31] * c132;
     const double t140 = s[29] * s132;
@@ -2087,7 +2087,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t145 = s132 * t107;
     const double t146 = c132 * t107;
     const double t147 = s[31] * t145;
-    const double t148 = c3 * t141;
+    const double t148 = c3 * t141;  /* n_hob_x: normal */
     const double t149 = t141 * t49;
     const double t150 = t141 * t50;
     const double t151 = t141 * t79;
@@ -2095,7 +2095,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t153 = s3 * t141;
     const double t154 = s134 * s134;
     const double t155 = s134 * s[30];
-    const double t156 = MW_FMS(s[34], t144, t149);
+    const double t156 = MW_FMS(s[34], t144, t149);  /* n_hob_y: normal */
     const double t157 = MW_FMA(s[26], t144, t150);
     const double t158 = s134 * s[32];
     const double t159 = c27 * t148;
@@ -2112,7 +2112,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t170 = MW_FMA(s[12], s132, t162);
     const double t171 = MW_FMA(s[12], c132, t163);
     const double t172 = MW_FMA(s[35], t165, t166);
-    const double t173 = 1.0 / t164;
+    const double t173 = 1.0 / t164;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t174 = t164 * s[38];
     const double t175 = t168 + t168;
     const double t176 = MW_FMA(c134, t155, t170);
@@ -2132,15 +2132,15 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t190 = MW_FMA(s[12], t146, t179);
     const double t191 = s[30] * t161;
     const double t192 = MW_FMS(c1, t9, t184);
-    const double t193 = MW_FMA(t8, s[19], t185);
+    const double t193 = MW_FMA(t8, s[19], t185);  /* P_hob_x: contact point on the wheel */
     const double t194 = MW_FMS(c134, t191, t180);
     const double t195 = s[32] * t161;
     const double t196 = MW_FMS(c134, t195, t181);
     const double t197 = s[31] * t146;
     const double t198 = MW_FMS(s[33], t175, t197);
     const double t199 = t190 + t194;
-    const double t200 = MW_FMS(s[26], t192, t186);
-    const double t201 = MW_FMA(s[34], t192, t187);
+    const double t200 = MW_FMS(s[26], t192, t186);  /* P_hob_y: contact point on the wheel */
+    const double t201 = MW_FMA(s[34], t192, t187);  /* P_hob_z: contact point on the wheel */
     const double t202 = t193 * c27;
     const double t203 = t193 * s27;
     const double t204 = t193 * t156;
@@ -2179,7 +2179,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t237 = MW_FMA(s27, t215, t236);
     const double t238 = t200 * t189;
     const double t239 = MW_FMS(t148, t233, t238);
-    const double t240 = t232 * t173;
+    const double t240 = t232 * t173;  /* psi_hob: screw angle of the hob flank */
     const double t241 = MW_FNMA(s27, t200, t202);
     const double t242 = s27 * t218;
     const double t243 = c27 * t218;
@@ -2187,7 +2187,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t245 = MW_FNMA(s27, t233, t243);
     const double t246 = s[38] * t230;
     const double t247 = t239 - t228;
-    const double t248 = x[3] - t240;
+    const double t248 = x[3] - t240;  /* phi_hob: angle of the hob in cutting */
     const double t249 = MW_FMA(s[25], t240, t201);
     const double t250 = t216 * t246;
     const double t251 = s[35] * t244;
@@ -2289,7 +2289,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t347 = t208 * s264;
     const double t348 = MW_FMA(c264, t311, t347);
     const double t349 = t208 * c264;
-    const double t350 = 1.0 / t344;
+    const double t350 = 1.0 / t344;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t351 = MW_FNMA(s264, t311, t349);
     const double t352 = s[13] * s137;
     const double t353 = MW_FMS(t291, s[16], t352);
@@ -2325,7 +2325,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t383 = MW_FMS(c6, t36, t382);
     const double t384 = MW_FMS(c10, t328, t382);
     const double t385 = MW_FMA(s10, t328, t381);
-    const double t386 = MW_FMA(t33, s[0], t381);
+    const double t386 = MW_FMA(t33, s[0], t381);  /* P_worm_x: contact point on the wheel */
     const double t387 = s[42] * t330;
     const double t388 = MW_FMA(s[18], t357, t387);
     const double t389 = t91 - t385;
@@ -2351,7 +2351,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t409 = s[7] * t345;
     const double t410 = MW_FMS(s[7], t389, t408);
     const double t411 = MW_FMA(s[17], t389, t409);
-    const double t412 = 1.0 / t404;
+    const double t412 = 1.0 / t404;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t413 = t359 * t378;
     const double t414 = MW_FMA(t380, t394, t413);
     const double t415 = t388 * t275;
@@ -2368,9 +2368,9 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t426 = MW_FNMA(t394, t399, t417);
     const double t427 = MW_FNMA(t401, t399, t418);
     const double t428 = s[17] * t368;
-    const double t429 = MW_FMS(s[7], t383, t428);
+    const double t429 = MW_FMS(s[7], t383, t428);  /* P_worm_y: contact point on the wheel */
     const double t430 = s[7] * t368;
-    const double t431 = MW_FMA(s[17], t383, t430);
+    const double t431 = MW_FMA(s[17], t383, t430);  /* P_worm_z: contact point on the wheel */
     const double t432 = MW_FNMA(t342, t421, t426);
     const double t433 = t378 * t370;
     const double t434 = MW_FMA(t380, t401, t433);
@@ -2413,12 +2413,12 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t471 = MW_FNMA(t378, t450, t463);
     const double t472 = t284 * t392;
     const double t473 = MW_FMA(t380, t370, t472);
-    const double t474 = 1.0 / t467;
+    const double t474 = 1.0 / t467;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t475 = MW_FMA(t394, t425, t469);
     const double t476 = MW_FMA(t401, t425, t470);
     const double t477 = s[42] * t363;
     const double t478 = MW_FMS(t361, s[60], t477);
-    const double t479 = MW_FNMA(t378, t401, t473);
+    const double t479 = MW_FNMA(t378, t401, t473);  /* row 4 of the contact equations */
     const double t480 = s[18] * t363;
     const double t481 = MW_FMS(t348, t421, t475);
     const double t482 = MW_FMA(t361, s[59], t480);
@@ -2433,7 +2433,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t491 = MW_FMA(c105, t429, t490);
     const double t492 = MW_FMA(t405, t464, t484);
     const double t493 = MW_FMA(t380, t483, t485);
-    const double t494 = MW_FNMA(t378, t394, t487);
+    const double t494 = MW_FNMA(t378, t394, t487);  /* row 3 of the contact equations */
     const double t495 = s[41] * t411;
     const double t496 = s[40] * t411;
     const double t497 = MW_FMA(s[40], t456, t495);
@@ -2481,18 +2481,18 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     const double t539 = MW_FMA(t530, t521, t532);
     const double t540 = s[38] * t282;
     const double t541 = MW_FNMA(t525, s[42], t534);
-    const double t542 = MW_FNMA(s[40], t440, t535);
+    const double t542 = MW_FNMA(s[40], t440, t535);  /* row 1 of the contact equations */
     const double t543 = 1.0 - t303;
     const double t544 = MW_FNMA(t208, s[37], t537);
     const double t545 = s[38] * t543;
     const double t546 = t538 * t528;
-    const double t547 = t541 - t334;
+    const double t547 = t541 - t334;  /* row 0 of the contact equations */
     const double t548 = MW_FNMA(t542, t441, t479);
     const double t549 = MW_FNMA(t542, t421, t494);
-    const double t550 = MW_FNMA(s[35], t249, t544);
+    const double t550 = MW_FNMA(s[35], t249, t544);  /* row 2 of the contact equations */
     const double t551 = MW_FMS(t529, t539, t546);
     const double t552 = MW_FNMA(t542, t396, t547);
-    const double t553 = 1.0 / t551;
+    const double t553 = 1.0 / t551;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t554 = MW_FNMA(t552, t460, t550);
     const double t555 = MW_FMA(t552, t464, t548);
     const double t556 = MW_FMA(t552, t462, t549);
@@ -4002,9 +4002,9 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     cylindrical_worm_zc_zc_seldom_sincos(t0, &s2, &c2);
     double s4, c4;
     cylindrical_worm_zc_zc_seldom_sincos(t1, &s4, &c4);
-    double s6, c6;
+    double s6, c6;  /* of t_hob */
     cylindrical_worm_zc_zc_seldom_sincos(x[2], &s6, &c6);
-    double s8, c8;
+    double s8, c8;  /* of t_worm */
     cylindrical_worm_zc_zc_seldom_sincos(x[0], &s8, &c8);
     const double t10 = s2 * s[19];
     const double t11 = s2 * s2;
@@ -4046,10 +4046,10 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t47 = s[9] * c8;
     const double t48 = c8 * s[10];
     const double t49 = 0.5 * c4;
-    const double t50 = cylindrical_worm_zc_zc_atan2(t41, t43);
+    const double t50 = cylindrical_worm_zc_zc_atan2(t41, t43);  /* xi_hob: angle along the wheel's arc from its pitch point, about y */
     const double t51 = MW_FNMA(t45, t47, t44);
     const double t52 = MW_FNMA(t45, t48, t46);
-    const double t53 = cylindrical_worm_zc_zc_atan2(t51, t52);
+    const double t53 = cylindrical_worm_zc_zc_atan2(t51, t52);  /* xi_worm: angle along the wheel's arc from its pitch point, about y */
     const double t54 = s4 * t49;
     const double t55 = t54 + t54;
     const double t56 = 0.5 * s4;
@@ -4057,7 +4057,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t58 = s[48] * c4;
     const double t59 = c8 * s[5];
     const double t60 = t38 * t59;
-    double s61, c61;
+    double s61, c61;  /* of psi_fixed_hob */
     cylindrical_worm_zc_zc_seldom_sincos(x[3], &s61, &c61);
     const double t63 = MW_FMS(c4, t58, t57);
     const double t64 = t63 - t30;
@@ -4104,10 +4104,10 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t105 = t96 - t17;
     const double t106 = t43 * t43;
     const double t107 = MW_FMA(t41, t41, t106);
-    const double t108 = x[4] + s[124];
+    const double t108 = x[4] + s[124];  /* wheel angle */
     const double t109 = MW_FMA(t27, t101, t94);
     const double t110 = MW_FMA(t24, t101, t98);
-    const double t111 = t103 / t81;
+    const double t111 = t103 / t81;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_worm */
     const double t112 = s[26] * t105;
     const double t113 = c6 * s[26];
     const double t114 = c6 * s[34];
@@ -4117,23 +4117,23 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t118 = MW_FMA(t42, t112, t100);
     const double t119 = MW_FMA(t40, t112, t104);
     const double t120 = c8 * s[17];
-    double s121, c121;
+    double s121, c121;  /* of psi_worm */
     cylindrical_worm_zc_zc_seldom_sincos(x[1], &s121, &c121);
     const double t123 = t118 + t115;
     const double t124 = t119 + t116;
     const double t125 = t41 * t123;
     const double t126 = 0.5 * t50;
-    double s127, c127;
+    double s127, c127;  /* of xi_hob: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_seldom_sincos(t50, &s127, &c127);
     double s129, c129;
     cylindrical_worm_zc_zc_seldom_sincos(t126, &s129, &c129);
     const double t131 = MW_FMS(t43, t124, t125);
-    double s132, c132;
+    double s132, c132;  /* of xi_worm: angle along the wheel's arc from its pitch point, about y */
     cylindrical_worm_zc_zc_seldom_sincos(t53, &s132, &c132);
     const double t134 = 0.5 * t53;
     double s135, c135;
     cylindrical_worm_zc_zc_seldom_sincos(t134, &s135, &c135);
-    const double t137 = t131 / t107;
+    const double t137 = t131 / t107;  /* derivation/explicit-angle: the direction that solves the equation of meshing for xi_hob */
     const double t138 = s[31] * c127;
     const double t139 = s129 * s129;
     const double t140 = MW_FMA(t139, s[32], t138);
@@ -4149,14 +4149,14 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t150 = s[10] * s132;
     const double t151 = s[10] * c132;
     const double t152 = s129 * s[32];
-    const double t153 = c6 * t144;
+    const double t153 = c6 * t144;  /* n_hob_x: normal */
     const double t154 = t144 * t77;
     const double t155 = MW_FMA(c129, t145, t147);
     const double t156 = t144 * t82;
     const double t157 = MW_FMA(c129, t152, t149);
     const double t158 = MW_FMS(s[9], c132, t150);
     const double t159 = MW_FMA(s[9], s132, t151);
-    const double t160 = MW_FMS(s[34], t148, t154);
+    const double t160 = MW_FMS(s[34], t148, t154);  /* n_hob_y: normal */
     const double t161 = MW_FMA(s[26], t148, t156);
     const double t162 = c61 * t153;
     const double t163 = s6 * t155;
@@ -4164,19 +4164,19 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t165 = s[34] * t157;
     const double t166 = s[26] * t157;
     const double t167 = MW_FNMA(s61, t160, t162);
-    const double t168 = c8 * t158;
+    const double t168 = c8 * t158;  /* n_worm_x: normal */
     const double t169 = t76 * t158;
     const double t170 = t84 * t158;
     const double t171 = MW_FMS(c2, t10, t163);
-    const double t172 = MW_FMA(t11, s[19], t164);
+    const double t172 = MW_FMA(t11, s[19], t164);  /* P_hob_x: contact point on the wheel */
     const double t173 = s61 * t153;
-    const double t174 = MW_FMS(s[17], t159, t169);
+    const double t174 = MW_FMS(s[17], t159, t169);  /* n_worm_y: normal */
     const double t175 = MW_FMA(s[7], t159, t170);
     const double t176 = MW_FMA(c61, t160, t173);
     const double t177 = s15 * t168;
     const double t178 = c15 * t168;
-    const double t179 = MW_FMS(s[26], t171, t165);
-    const double t180 = MW_FMA(s[34], t171, t166);
+    const double t179 = MW_FMS(s[26], t171, t165);  /* P_hob_y: contact point on the wheel */
+    const double t180 = MW_FMA(s[34], t171, t166);  /* P_hob_z: contact point on the wheel */
     const double t181 = t172 * c61;
     const double t182 = MW_FMA(c15, t174, t177);
     const double t183 = MW_FNMA(s15, t174, t178);
@@ -4184,7 +4184,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t185 = MW_FMA(s[35], t176, t184);
     const double t186 = t172 * s61;
     const double t187 = MW_FMA(t179, c61, t186);
-    const double t188 = 1.0 / t167;
+    const double t188 = 1.0 / t167;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t189 = t182 * t182;
     const double t190 = t172 * t160;
     const double t191 = MW_FMS(t179, t153, t190);
@@ -4208,7 +4208,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t209 = MW_FNMA(t203, t197, t201);
     const double t210 = s135 * t200;
     const double t211 = s135 * s[11];
-    const double t212 = sqrt(t204);
+    const double t212 = sqrt(t204);  /* derivation/unit: length of a normal */
     const double t213 = s[13] * t206;
     const double t214 = t210 + t210;
     const double t215 = t209 * s[39];
@@ -4220,7 +4220,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t221 = MW_FMS(c135, t218, t220);
     const double t222 = MW_FMA(c135, t211, t216);
     const double t223 = MW_FMS(s[14], t214, t213);
-    const double t224 = t215 * t188;
+    const double t224 = t215 * t188;  /* psi_hob: screw angle of the hob flank */
     const double t225 = t217 * t202;
     const double t226 = MW_FMS(c135, t219, t225);
     const double t227 = s[13] * t207;
@@ -4229,7 +4229,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t230 = MW_FMA(s[12], t207, t223);
     const double t231 = c8 * t222;
     const double t232 = s8 * t222;
-    const double t233 = x[3] - t224;
+    const double t233 = x[3] - t224;  /* phi_hob: angle of the hob in cutting */
     const double t234 = t144 * t114;
     const double t235 = MW_FNMA(s[12], t206, t228);
     const double t236 = s6 * t144;
@@ -4254,11 +4254,11 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t255 = t63 - t248;
     double s256, c256;
     cylindrical_worm_zc_zc_seldom_sincos(t249, &s256, &c256);
-    const double t258 = t182 / t212;
-    const double t259 = t183 / t212;
+    const double t258 = t182 / t212;  /* derivation/unit: length of a normal */
+    const double t259 = t183 / t212;  /* derivation/unit: length of a normal */
     const double t260 = MW_FMS(s[7], t255, t251);
     const double t261 = MW_FMA(s[17], t255, t252);
-    const double t262 = t175 / t212;
+    const double t262 = t175 / t212;  /* derivation/unit: length of a normal */
     const double t263 = s15 * t254;
     const double t264 = MW_FMA(c15, t260, t263);
     const double t265 = c15 * t254;
@@ -4277,7 +4277,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t278 = MW_FMS(s[33], t268, t276);
     const double t279 = s[28] * t269;
     const double t280 = MW_FMA(s[29], t270, t279);
-    const double t281 = MW_FMA(t12, s[0], t231);
+    const double t281 = MW_FMA(t12, s[0], t231);  /* P_worm_x: contact point on the wheel */
     const double t282 = s[29] * t269;
     const double t283 = MW_FMS(s[28], t270, t282);
     const double t284 = MW_FMA(s[25], t224, t180);
@@ -4344,7 +4344,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t345 = t187 * t194;
     const double t346 = t167 * s[55];
     const double t347 = MW_FMS(t193, t346, t345);
-    const double t348 = sqrt(t340);
+    const double t348 = sqrt(t340);  /* derivation/unit: length of a normal */
     const double t349 = t333 - t344;
     const double t350 = s[41] * t330;
     const double t351 = MW_FMA(s[40], t338, t350);
@@ -4374,7 +4374,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t375 = MW_FMA(s[39], t367, t365);
     const double t376 = t188 * t368;
     const double t377 = s256 * t332;
-    const double t378 = sqrt(t370);
+    const double t378 = sqrt(t370);  /* derivation/unit: length of a normal */
     const double t379 = MW_FMA(s[12], c132, t372);
     const double t380 = t187 * c256;
     const double t381 = t188 * t375;
@@ -4400,14 +4400,14 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t401 = c256 * t390;
     const double t402 = s256 * t391;
     const double t403 = MW_FMS(s[17], t393, t395);
-    const double t404 = t316 / t348;
-    const double t405 = t322 / t348;
-    const double t406 = t321 / t348;
+    const double t404 = t316 / t348;  /* derivation/unit: length of a normal */
+    const double t405 = t322 / t348;  /* derivation/unit: length of a normal */
+    const double t406 = t321 / t348;  /* derivation/unit: length of a normal */
     const double t407 = MW_FMA(s[7], t393, t397);
     const double t408 = MW_FNMA(t193, t400, t374);
     const double t409 = MW_FMA(t193, t401, t377);
     const double t410 = MW_FMS(t193, t402, t380);
-    const double t411 = t407 / t212;
+    const double t411 = t407 / t212;  /* derivation/unit: length of a normal */
     const double t412 = t291 * t401;
     const double t413 = MW_FMA(s256, t398, t412);
     const double t414 = t291 * t400;
@@ -4444,7 +4444,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t445 = t435 + t439;
     const double t446 = t442 + t436;
     const double t447 = s[17] * t385;
-    const double t448 = MW_FMS(s[7], t250, t447);
+    const double t448 = MW_FMS(s[7], t250, t447);  /* P_worm_y: contact point on the wheel */
     const double t449 = t281 * s15;
     const double t450 = s[42] * t399;
     const double t451 = MW_FMA(s[18], t420, t450);
@@ -4467,7 +4467,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t468 = MW_FMS(s[42], t445, t467);
     const double t469 = t281 * c15;
     const double t470 = MW_FNMA(t448, s15, t469);
-    const double t471 = t465 / t378;
+    const double t471 = t465 / t378;  /* derivation/unit: length of a normal */
     const double t472 = s[41] * t422;
     const double t473 = MW_FMS(s[40], t453, t472);
     const double t474 = s[40] * t422;
@@ -4484,10 +4484,10 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t485 = MW_FMA(s[40], t466, t484);
     const double t486 = s[40] * t440;
     const double t487 = MW_FMS(s[41], t466, t486);
-    const double t488 = t482 / t212;
-    const double t489 = t483 / t212;
-    const double t490 = t485 / t378;
-    const double t491 = t487 / t378;
+    const double t488 = t482 / t212;  /* derivation/unit: length of a normal */
+    const double t489 = t483 / t212;  /* derivation/unit: length of a normal */
+    const double t490 = t485 / t378;  /* derivation/unit: length of a normal */
+    const double t491 = t487 / t378;  /* derivation/unit: length of a normal */
     const double t492 = s[41] * t446;
     const double t493 = MW_FMS(s[40], t468, t492);
     const double t494 = s[40] * t446;
@@ -4496,9 +4496,9 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t497 = MW_FMA(s[18], t445, t496);
     const double t498 = t258 * t406;
     const double t499 = MW_FMS(t259, t404, t498);
-    const double t500 = t493 / t378;
-    const double t501 = t495 / t378;
-    const double t502 = t497 / t378;
+    const double t500 = t493 / t378;  /* derivation/unit: length of a normal */
+    const double t501 = t495 / t378;  /* derivation/unit: length of a normal */
+    const double t502 = t497 / t378;  /* derivation/unit: length of a normal */
     const double t503 = t455 * t406;
     const double t504 = MW_FMS(t470, t404, t503);
     const double t505 = t264 * t462;
@@ -4537,10 +4537,10 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t538 = MW_FMS(t527, t530, t526);
     const double t539 = MW_FMA(t405, t491, t531);
     const double t540 = MW_FMA(t499, t491, t532);
-    const double t541 = (-1.0) / t533;
+    const double t541 = (-1.0) / t533;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t542 = MW_FNMA(t405, t411, t535);
     const double t543 = MW_FMA(t499, t411, t537);
-    const double t544 = (-1.0) / t538;
+    const double t544 = (-1.0) / t538;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t545 = t259 * t462;
     const double t546 = MW_FMA(t258, t460, t545);
     const double t547 = t406 * t502;
@@ -4566,16 +4566,16 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t567 = MW_FNMA(t518, t558, t560);
     const double t568 = MW_FMS(t527, t558, t564);
     const double t569 = s[7] * t385;
-    const double t570 = MW_FMA(s[17], t250, t569);
+    const double t570 = MW_FMA(s[17], t250, t569);  /* P_worm_z: contact point on the wheel */
     const double t571 = t193 * s443;
     const double t572 = MW_FMA(t291, c443, t571);
     const double t573 = t193 * c443;
     const double t574 = MW_FNMA(t291, s443, t573);
-    const double t575 = t337 / t378;
+    const double t575 = t337 / t378;  /* derivation/unit: length of a normal */
     const double t576 = MW_FMA(x[1], s[6], t570);
     const double t577 = t572 * t572;
-    const double t578 = t351 / t378;
-    const double t579 = t354 / t378;
+    const double t578 = t351 / t378;  /* derivation/unit: length of a normal */
+    const double t579 = t354 / t378;  /* derivation/unit: length of a normal */
     const double t580 = t541 * t552;
     const double t581 = t541 * t561;
     const double t582 = t541 * t556;
@@ -4684,7 +4684,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t685 = MW_FMA(t260, c121, t683);
     const double t686 = t168 * s121;
     const double t687 = t168 * c121;
-    const double t688 = t658 / t680;
+    const double t688 = t658 / t680;  /* derivation/quotient: larger principal curvature of the gap */
     const double t689 = MW_FMA(t174, c121, t686);
     const double t690 = MW_FNMA(t174, s121, t687);
     const double t691 = t261 * t595;
@@ -4698,7 +4698,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     const double t699 = t689 * t692;
     const double t700 = t674 * t656;
     const double t701 = MW_FMA(t676, t659, t700);
-    const double t702 = t673 / t652;
+    const double t702 = t673 / t652;  /* derivation/quotient: lever arm of the wheel */
     const double t703 = t694 * t697;
     const double t704 = t261 * t601;
     const double t705 = MW_FMS(s[6], t685, t704);

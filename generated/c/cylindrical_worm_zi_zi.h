@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 405, set_phi 2, R 162, R and J 400, step 493, observe 712.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -655,10 +655,10 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
         const double t59 = MW_FMA(p[14], p[14], t58);
         const double t60 = MW_FMA(p[15], p[15], t59);
         const double t61 = MW_FMA(p[16], p[16], t60);
-        const double t62 = p[10] / t49;
+        const double t62 = p[10] / t49;  /* r_b_hob: base radius */
         const double t63 = MW_FMA(p[17], p[17], t61);
         const double t64 = t49 * t49;
-        const double t65 = p[6] / t54;
+        const double t65 = p[6] / t54;  /* r_b_worm: base radius */
         const double t66 = MW_FMA(p[18], p[18], t63);
         const double t67 = t54 * t54;
         const double t68 = MW_FMA(p[19], p[19], t66);
@@ -677,17 +677,17 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
         const double t81 = sqrt(t78);
         const double t82 = MW_FMA(t65, t65, t78);
         const double t83 = t82 * t82;
-        const double t84 = cylindrical_worm_zi_zi_atan2(t77, t62);
-        const double t85 = cylindrical_worm_zi_zi_atan2(t81, t65);
+        const double t84 = cylindrical_worm_zi_zi_atan2(t77, t62);  /* a_t_pitch_hob: the same on the pitch cylinder */
+        const double t85 = cylindrical_worm_zi_zi_atan2(t81, t65);  /* a_t_pitch_worm: the same on the pitch cylinder */
         const double t86 = t81 * t81;
         const double t87 = t77 * t77;
         const double t88 = MW_FMA(t65, t65, t86);
         const double t89 = MW_FMA(t62, t62, t87);
         const double t90 = t88 * t88;
         const double t91 = t89 * t89;
-        double s92, c92;
+        double s92, c92;  /* of a_t_pitch_hob: the same on the pitch cylinder */
         cylindrical_worm_zi_zi_seldom_sincos(t84, &s92, &c92);
-        double s94, c94;
+        double s94, c94;  /* of a_t_pitch_worm: the same on the pitch cylinder */
         cylindrical_worm_zi_zi_seldom_sincos(t85, &s94, &c94);
         const double t96 = c92 * c92;
         const double t97 = c94 * c94;
@@ -747,7 +747,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t18 = sqrt(t15);
     const double t19 = s7 * s7;
     const double t20 = p[9] * (-2.0);
-    const double t21 = 1.0 / p[4];
+    const double t21 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t22 = p[0] * p[10];
     const double t23 = p[10] * p[11];
     const double t24 = t12 * t23;
@@ -758,19 +758,19 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t29 = p[11] * t28;
     const double t30 = p[11] * p[15];
     const double t31 = s7 / c7;
-    const double t32 = 1.0 / t26;
+    const double t32 = 1.0 / t26;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t33 = p[15] * t29;
     const double t34 = p[8] + p[18];
     const double t35 = p[0] * t26;
     double s36, c36;
     cylindrical_worm_zi_zi_seldom_sincos(t34, &s36, &c36);
-    const double t38 = p[10] / t18;
+    const double t38 = p[10] / t18;  /* r_b_hob: base radius */
     const double t39 = t16 * t16;
     const double t40 = t39 / t19;
     const double t41 = MW_FMA(t16, t20, t17);
     const double t42 = 0.5 * t41;
     const double t43 = s13 * t24;
-    const double t44 = 1.0 / t43;
+    const double t44 = 1.0 / t43;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t45 = p[0] * s13;
     const double t46 = p[11] * t21;
     const double t47 = t42 / c2;
@@ -804,7 +804,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t75 = t68 * t69;
     const double t76 = t68 + t69;
     const double t77 = 1.0 + t40;
-    const double t78 = MW_FMA(t72, t72, t60);
+    const double t78 = MW_FMA(t72, t72, t60);  /* axes_discriminant: negative where there are no meshing axes */
     const double t79 = p[11] * c13;
     const double t80 = p[0] * p[6];
     const double t81 = t79 * t21;
@@ -829,8 +829,8 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t100 = p[10] * t97;
     double s101, c101;
     cylindrical_worm_zi_zi_seldom_sincos(p[19], &s101, &c101);
-    const double t103 = cylindrical_worm_zi_zi_atan2(t82, t38);
-    const double t104 = p[6] / t83;
+    const double t103 = cylindrical_worm_zi_zi_atan2(t82, t38);  /* a_t_pitch_hob: the same on the pitch cylinder */
+    const double t104 = p[6] / t83;  /* r_b_worm: base radius */
     const double t105 = t82 * t84;
     const double t106 = 1.0 / t105;
     const double t107 = 0.5 / t82;
@@ -846,11 +846,11 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t117 = p[6] * 6.283185307179586;
     const double t118 = t31 * t117;
     const double t119 = t31 * t31;
-    const double t120 = t114 * t32;
-    const double t121 = t115 * t32;
+    const double t120 = t114 * t32;  /* axis_1_share: share of the screw that makes the twist a rotation */
+    const double t121 = t115 * t32;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t122 = p[4] * p[10];
     const double t123 = t12 * t122;
-    const double t124 = 1.0 / p[1];
+    const double t124 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t125 = t118 / p[3];
     const double t126 = t123 * t98;
     const double t127 = MW_FMS(t26, t120, t57);
@@ -885,10 +885,10 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t156 = MW_FNMA(t145, t149, t38);
     const double t157 = t94 * t21;
     const double t158 = -t157;
-    const double t159 = MW_FMA(t128, t128, t110);
+    const double t159 = MW_FMA(t128, t128, t110);  /* axis_1_square: squared angular velocity about the axis */
     const double t160 = t148 / t159;
     const double t161 = t106 * t156;
-    const double t162 = MW_FMA(t130, t130, t110);
+    const double t162 = MW_FMA(t130, t130, t110);  /* axis_2_square: squared angular velocity about the axis */
     const double t163 = t154 / t162;
     const double t164 = p[10] * p[10];
     const double t165 = t12 * t12;
@@ -921,14 +921,14 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t192 = p[15] * t174;
     const double t193 = t21 * t174;
     const double t194 = t21 * t192;
-    const double t195 = p[3] * t21;
+    const double t195 = p[3] * t21;  /* ratio: T1/T2 */
     const double t196 = t138 * t138;
     const double t197 = c101 * c36;
     const double t198 = c101 * s36;
     const double t199 = t25 * t138;
     const double t200 = p[0] * t138;
     const double t201 = -t199;
-    const double t202 = cylindrical_worm_zi_zi_atan2(t150, t104);
+    const double t202 = cylindrical_worm_zi_zi_atan2(t150, t104);  /* a_t_pitch_worm: the same on the pitch cylinder */
     const double t203 = 0.5 / t150;
     const double t204 = t150 * t152;
     const double t205 = t137 / t204;
@@ -961,7 +961,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t232 = t181 - p[27];
     const double t233 = t131 * t196;
     const double t234 = t172 * t196;
-    double s235, c235;
+    double s235, c235;  /* of a_t_pitch_hob: the same on the pitch cylinder */
     cylindrical_worm_zi_zi_seldom_sincos(t103, &s235, &c235);
     const double t237 = t143 * t203;
     const double t238 = t104 * t237;
@@ -977,7 +977,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t248 = c235 * t155;
     const double t249 = s235 * t155;
     const double t250 = s235 * t247;
-    double s251, c251;
+    double s251, c251;  /* of a_t_pitch_worm: the same on the pitch cylinder */
     cylindrical_worm_zi_zi_seldom_sincos(t202, &s251, &c251);
     const double t253 = MW_FMA(t250, t249, t248);
     const double t254 = t247 * t253;
@@ -997,7 +997,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t268 = MW_FMA(t26, t263, t47);
     const double t269 = t35 * t260;
     const double t270 = t25 * t264;
-    const double t271 = 1.0 / t266;
+    const double t271 = 1.0 / t266;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t272 = t45 * t268;
     const double t273 = t46 * t266;
     const double t274 = p[0] * t268;
@@ -1019,7 +1019,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t290 = c251 * t245;
     const double t291 = t25 + t288;
     const double t292 = s251 * t245;
-    const double t293 = t285 * t271;
+    const double t293 = t285 * t271;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t294 = t46 * t293;
     const double t295 = t293 * t280;
     const double t296 = MW_FMA(t25, t293, t287);
@@ -1050,7 +1050,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t321 = p[6] * t319;
     const double t322 = MW_FMA(t320, t321, t99);
     const double t323 = MW_FMA(p[6], t80, t322);
-    const double t324 = 1.0 / t323;
+    const double t324 = 1.0 / t323;  /* derivation/relative: the same at the reference point of the pinion */
     const double t325 = c299 * t305;
     const double t326 = t305 * s299;
     const double t327 = c299 * t311;
@@ -1082,7 +1082,7 @@ static inline int cylindrical_worm_zi_zi_setup(const double *p, double *s)
     const double t353 = t335 * t349;
     const double t354 = MW_FMA(t336, t350, t353);
     const double t355 = MW_FMS(t111, t352, t354);
-    const double t356 = 1.0 / t355;
+    const double t356 = 1.0 / t355;  /* derivation/relative: the same at the reference point of the wheel */
     s[0] = t178;
     s[1] = c101;
     s[2] = p[15];
@@ -1250,7 +1250,7 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t3 = x[0] - s[15];
     const double t4 = x[0] + s[15];
     const double t5 = t3 * t4;
-    double s6, c6;
+    double s6, c6;  /* of psi_fixed_hob */
     cylindrical_worm_zi_zi_sincos(x[3], &s6, &c6);
     const double t8 = sqrt(t2);
     const double t9 = sqrt(t5);
@@ -1261,11 +1261,11 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t14 = x[2] * s[8];
     const double t15 = t5 + s[23];
     const double t16 = s[109] + x[1];
-    const double t17 = x[4] + s[110];
+    const double t17 = x[4] + s[110];  /* wheel angle */
     double s18, c18;
     cylindrical_worm_zi_zi_sincos(t16, &s18, &c18);
-    const double t20 = cylindrical_worm_zi_zi_atan2(t8, s[4]);
-    const double t21 = cylindrical_worm_zi_zi_atan2(t9, s[15]);
+    const double t20 = cylindrical_worm_zi_zi_atan2(t8, s[4]);  /* a_t_hob: transverse profile angle */
+    const double t21 = cylindrical_worm_zi_zi_atan2(t9, s[15]);  /* a_t_worm: transverse profile angle */
     const double t22 = t8 * t10;
     const double t23 = 1.0 / t22;
     const double t24 = s6 * t13;
@@ -1297,11 +1297,11 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t50 = MW_FMS(c18, t43, s[27]);
     const double t51 = x[2] * s[21];
     const double t52 = MW_FMS(s[1], t36, t47);
-    const double t53 = t11 * t23;
-    const double t54 = t32 * t31;
-    double s55, c55;
+    const double t53 = t11 * t23;  /* a_t_hob_t_hob */
+    const double t54 = t32 * t31;  /* a_t_worm_t_worm */
+    double s55, c55;  /* of a_t_hob: transverse profile angle */
     cylindrical_worm_zi_zi_sincos(t20, &s55, &c55);
-    double s57, c57;
+    double s57, c57;  /* of a_t_worm: transverse profile angle */
     cylindrical_worm_zi_zi_sincos(t21, &s57, &c57);
     const double t59 = s[16] - t21;
     const double t60 = 1.0 / c55;
@@ -1311,15 +1311,15 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t64 = t62 + s[10];
     const double t65 = t64 - t20;
     const double t66 = t63 * s[3];
-    const double t67 = t53 * t66;
+    const double t67 = t53 * t66;  /* P_hob_z_t_hob */
     const double t68 = MW_FMA(t65, s[11], s[12]);
     const double t69 = MW_FMS(t67, t25, t26);
     const double t70 = t67 * t12;
     const double t71 = MW_FMS(s[8], t68, t24);
-    const double t72 = s[6] * t68;
+    const double t72 = s[6] * t68;  /* P_hob_z: axial section */
     const double t73 = s57 * t61;
     const double t74 = MW_FMA(s6, t70, t28);
-    const double t75 = 1.0 / t69;
+    const double t75 = 1.0 / t69;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t76 = t69 * s[9];
     const double t77 = t73 + t59;
     const double t78 = t73 * t73;
@@ -1330,7 +1330,7 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t83 = t78 * s[24];
     const double t84 = MW_FMA(t80, t30, t79);
     const double t85 = MW_FMA(s[6], t82, t33);
-    const double t86 = t54 * t83;
+    const double t86 = t54 * t83;  /* P_worm_z_t_worm */
     const double t87 = MW_FMA(x[2], s[3], t84);
     const double t88 = MW_FMA(t85, s[18], t35);
     const double t89 = MW_FMA(s[18], t86, t37);
@@ -1340,13 +1340,13 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t93 = MW_FMA(s[1], t89, t48);
     const double t94 = MW_FMS(s[1], t88, s[22]);
     const double t95 = MW_FMA(t40, s[20], t94);
-    const double t96 = t90 * t75;
-    const double t97 = x[3] + t96;
+    const double t96 = t90 * t75;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
+    const double t97 = x[3] + t96;  /* phi_hob: angle of the hob in cutting */
     const double t98 = MW_FNMA(s[11], t96, t72);
     const double t99 = MW_FNMA(s[9], t97, t17);
     const double t100 = MW_FNMA(s[21], t98, t24);
     const double t101 = MW_FNMA(s[7], t98, t95);
-    const double t102 = MW_FNMA(s6, t51, t101);
+    const double t102 = MW_FNMA(s6, t51, t101);  /* row 2 of the contact equations */
     double s103, c103;
     cylindrical_worm_zi_zi_sincos(t99, &s103, &c103);
     const double t105 = MW_FNMA(t29, c103, t42);
@@ -1357,15 +1357,15 @@ static inline void cylindrical_worm_zi_zi_eval(const double *s, const double *x,
     const double t110 = MW_FMS(t29, s103, t107);
     const double t111 = MW_FMS(t69, s103, t108);
     const double t112 = MW_FNMA(t88, s[20], t105);
-    const double t113 = MW_FNMA(t100, s103, t112);
+    const double t113 = MW_FNMA(t100, s103, t112);  /* row 0 of the contact equations */
     const double t114 = MW_FNMA(t85, s[19], t110);
     const double t115 = t109 * t92;
     const double t116 = t109 * t46;
-    const double t117 = MW_FMA(s18, t43, t114);
+    const double t117 = MW_FMA(s18, t43, t114);  /* row 1 of the contact equations */
     const double t118 = MW_FMS(t111, t91, t115);
     const double t119 = MW_FMA(t111, t50, t116);
-    const double t120 = MW_FMA(t93, t81, t118);
-    const double t121 = MW_FMA(t81, t52, t119);
+    const double t120 = MW_FMA(t93, t81, t118);  /* row 3 of the contact equations */
+    const double t121 = MW_FMA(t81, t52, t119);  /* row 4 of the contact equations */
     R[0] = t113;
     R[1] = t117;
     R[2] = t102;
@@ -1581,7 +1581,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t3 = x[0] - s[15];
     const double t4 = x[0] + s[15];
     const double t5 = t3 * t4;
-    double s6, c6;
+    double s6, c6;  /* of psi_fixed_hob */
     cylindrical_worm_zi_zi_sincos(x[3], &s6, &c6);
     const double t8 = sqrt(t2);
     const double t9 = sqrt(t5);
@@ -1592,12 +1592,12 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t14 = x[2] * s[8];
     const double t15 = t3 + t4;
     const double t16 = t0 + t1;
-    const double t17 = x[4] + s[110];
+    const double t17 = x[4] + s[110];  /* wheel angle */
     const double t18 = s[109] + x[1];
     double s19, c19;
     cylindrical_worm_zi_zi_sincos(t18, &s19, &c19);
-    const double t21 = cylindrical_worm_zi_zi_atan2(t8, s[4]);
-    const double t22 = cylindrical_worm_zi_zi_atan2(t9, s[15]);
+    const double t21 = cylindrical_worm_zi_zi_atan2(t8, s[4]);  /* a_t_hob: transverse profile angle */
+    const double t22 = cylindrical_worm_zi_zi_atan2(t9, s[15]);  /* a_t_worm: transverse profile angle */
     const double t23 = t8 * t10;
     const double t24 = 1.0 / t23;
     const double t25 = c6 * t12;
@@ -1638,7 +1638,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t60 = x[0] * s[18];
     const double t61 = c19 * s[36];
     const double t62 = MW_FMA(s[1], s19, t61);
-    const double t63 = t11 * t24;
+    const double t63 = t11 * t24;  /* a_t_hob_t_hob */
     const double t64 = MW_FMA(s[20], t56, t58);
     const double t65 = t15 * t31;
     const double t66 = MW_FNMA(t57, s[20], t59);
@@ -1659,7 +1659,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t81 = t73 / t33;
     const double t82 = t77 / t35;
     const double t83 = MW_FNMA(t63, t76, s[4]);
-    const double t84 = t48 * t42;
+    const double t84 = t48 * t42;  /* a_t_worm_t_worm */
     const double t85 = c19 * t70;
     const double t86 = MW_FMA(s[1], t57, t85);
     const double t87 = x[0] * s19;
@@ -1674,9 +1674,9 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t96 = MW_FMS(s[1], t56, t91);
     const double t97 = t89 * s[1];
     const double t98 = t42 * t92;
-    double s99, c99;
+    double s99, c99;  /* of a_t_hob: transverse profile angle */
     cylindrical_worm_zi_zi_sincos(t21, &s99, &c99);
-    double s101, c101;
+    double s101, c101;  /* of a_t_worm: transverse profile angle */
     cylindrical_worm_zi_zi_sincos(t22, &s101, &c101);
     const double t103 = s[16] - t22;
     const double t104 = 1.0 / c99;
@@ -1693,20 +1693,20 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t115 = t111 * s[3];
     const double t116 = t104 * t113;
     const double t117 = MW_FMA(t114, s[11], s[12]);
-    const double t118 = t63 * t115;
+    const double t118 = t63 * t115;  /* P_hob_z_t_hob */
     const double t119 = t115 * t88;
     const double t120 = t110 * t116;
     const double t121 = t116 - t82;
     const double t122 = MW_FMS(t118, t25, t26);
     const double t123 = t118 * t12;
     const double t124 = MW_FMS(s[8], t117, t28);
-    const double t125 = s[6] * t117;
+    const double t125 = s[6] * t117;  /* P_hob_z: axial section */
     const double t126 = MW_FMA(t118, t38, t27);
     const double t127 = t120 + t120;
     const double t128 = t118 * t47;
     const double t129 = s101 * t107;
     const double t130 = MW_FMA(s6, t123, t27);
-    const double t131 = 1.0 / t122;
+    const double t131 = 1.0 / t122;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t132 = t122 * s[9];
     const double t133 = MW_FMS(c6, t123, t26);
     const double t134 = s[3] * t127;
@@ -1750,8 +1750,8 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t172 = s[9] * t146;
     const double t173 = MW_FMA(t124, t172, t158);
     const double t174 = t166 * t98;
-    const double t175 = t84 * t166;
-    const double t176 = t160 * t131;
+    const double t175 = t84 * t166;  /* P_worm_z_t_worm */
+    const double t176 = t160 * t131;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t177 = MW_FMA(s[7], t154, s[8]);
     const double t178 = MW_FMA(t30, t177, t148);
     const double t179 = MW_FNMA(s[21], t154, s[25]);
@@ -1759,7 +1759,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t181 = MW_FMA(t84, t169, t174);
     const double t182 = MW_FMA(s[6], t180, t94);
     const double t183 = MW_FNMA(s[19], t175, t44);
-    const double t184 = x[3] + t176;
+    const double t184 = x[3] + t176;  /* phi_hob: angle of the hob in cutting */
     const double t185 = MW_FNMA(s[11], t176, t125);
     const double t186 = t173 + t178;
     const double t187 = MW_FMA(s[18], t175, t41);
@@ -1790,7 +1790,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t212 = MW_FNMA(s[7], t185, t207);
     const double t213 = MW_FNMA(s[21], t210, t49);
     const double t214 = MW_FMA(s[7], t210, t93);
-    const double t215 = MW_FNMA(s6, t51, t212);
+    const double t215 = MW_FNMA(s6, t51, t212);  /* row 2 of the contact equations */
     const double t216 = t193 * s200;
     const double t217 = c200 * t193;
     const double t218 = c200 * t45;
@@ -1807,7 +1807,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t229 = MW_FMA(c200, t204, t219);
     const double t230 = MW_FMA(c200, t141, t222);
     const double t231 = MW_FMS(s200, t141, t223);
-    const double t232 = 1.0 / t225;
+    const double t232 = 1.0 / t225;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t233 = t226 * t196;
     const double t234 = t226 * t67;
     const double t235 = MW_FNMA(t29, c200, t97);
@@ -1818,7 +1818,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t240 = MW_FMS(s200, t146, t237);
     const double t241 = s200 * t177;
     const double t242 = MW_FMA(c200, t146, t241);
-    const double t243 = t236 - t216;
+    const double t243 = t236 - t216;  /* row 0 of the contact equations */
     const double t244 = t183 * t227;
     const double t245 = MW_FMA(t226, t190, t244);
     const double t246 = MW_FMA(t140, t199, t238);
@@ -1844,9 +1844,9 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t266 = MW_FMA(t226, t71, t261);
     const double t267 = t72 * t226;
     const double t268 = MW_FMS(t227, t66, t267);
-    const double t269 = t72 + t254;
-    const double t270 = MW_FMA(t140, t80, t266);
-    const double t271 = MW_FMA(t191, t140, t263);
+    const double t269 = t72 + t254;  /* row 1 of the contact equations */
+    const double t270 = MW_FMA(t140, t80, t266);  /* row 4 of the contact equations */
+    const double t271 = MW_FMA(t191, t140, t263);  /* row 3 of the contact equations */
     const double t272 = c6 * c200;
     const double t273 = c6 * s200;
     const double t274 = MW_FMA(s200, t213, t272);
@@ -1863,7 +1863,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t285 = MW_FMA(t275, t277, t274);
     const double t286 = MW_FMA(t71, t277, t95);
     const double t287 = MW_FNMA(t269, t277, t243);
-    const double t288 = 1.0 / t280;
+    const double t288 = 1.0 / t280;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t289 = MW_FNMA(t275, t279, t264);
     const double t290 = MW_FNMA(t275, t278, t265);
     const double t291 = MW_FNMA(t71, t279, t276);
@@ -1882,7 +1882,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t304 = MW_FNMA(t287, t296, t215);
     const double t305 = MW_FMA(t286, t297, t294);
     const double t306 = MW_FMA(t285, t298, t289);
-    const double t307 = 1.0 / t299;
+    const double t307 = 1.0 / t299;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t308 = MW_FMA(t285, t297, t290);
     const double t309 = MW_FNMA(t287, t297, t295);
     const double t310 = MW_FMA(t286, t298, t291);
@@ -1901,7 +1901,7 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     const double t323 = MW_FMS(t317, t318, t321);
     const double t324 = MW_FMS(t316, t318, t320);
     const double t325 = MW_FMS(t316, t319, t322);
-    const double t326 = 1.0 / t324;
+    const double t326 = 1.0 / t324;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t327 = t326 * t323;
     const double t328 = t326 * t325;
     const double t329 = MW_FNMA(t302, t327, t304);
@@ -2646,10 +2646,10 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t10 = sqrt(t5);
     const double t11 = t2 + s[23];
     const double t12 = t5 + s[5];
-    double s13, c13;
+    double s13, c13;  /* of psi_fixed_hob */
     cylindrical_worm_zi_zi_seldom_sincos(x[3], &s13, &c13);
-    const double t15 = cylindrical_worm_zi_zi_atan2(t9, s[15]);
-    const double t16 = cylindrical_worm_zi_zi_atan2(t10, s[4]);
+    const double t15 = cylindrical_worm_zi_zi_atan2(t9, s[15]);  /* a_t_worm: transverse profile angle */
+    const double t16 = cylindrical_worm_zi_zi_atan2(t10, s[4]);  /* a_t_hob: transverse profile angle */
     const double t17 = t9 * t11;
     const double t18 = 1.0 / t17;
     const double t19 = t10 * t12;
@@ -2675,7 +2675,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t39 = t38 * s[9];
     const double t40 = 0.5 / t10;
     const double t41 = MW_FMA(t9, t9, s[23]);
-    const double t42 = x[4] + s[110];
+    const double t42 = x[4] + s[110];  /* wheel angle */
     const double t43 = MW_FMA(t10, t10, s[5]);
     const double t44 = t10 * t36;
     const double t45 = c13 * t33;
@@ -2690,14 +2690,14 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t54 = x[2] * s[21];
     const double t55 = s13 * s[21];
     const double t56 = c13 * t54;
-    const double t57 = t21 * t18;
+    const double t57 = t21 * t18;  /* a_t_worm_t_worm */
     const double t58 = s[6] * s7;
     const double t59 = x[0] * s7;
     const double t60 = s[6] * c7;
-    const double t61 = t24 * t20;
+    const double t61 = t24 * t20;  /* a_t_hob_t_hob */
     const double t62 = x[0] * c7;
     const double t63 = s13 * t54;
-    double s64, c64;
+    double s64, c64;  /* of psi_worm */
     cylindrical_worm_zi_zi_seldom_sincos(x[1], &s64, &c64);
     const double t66 = t23 * t32;
     const double t67 = t36 * t40;
@@ -2721,9 +2721,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t85 = -t59;
     const double t86 = MW_FMS(s[37], t73, t83);
     const double t87 = x[0] * s64;
-    double s88, c88;
+    double s88, c88;  /* of a_t_worm: transverse profile angle */
     cylindrical_worm_zi_zi_seldom_sincos(t15, &s88, &c88);
-    double s90, c90;
+    double s90, c90;  /* of a_t_hob: transverse profile angle */
     cylindrical_worm_zi_zi_seldom_sincos(t16, &s90, &c90);
     const double t92 = s[16] - t15;
     const double t93 = x[0] * c64;
@@ -2751,7 +2751,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t115 = t112 * s[24];
     const double t116 = t103 * t113;
     const double t117 = MW_FMA(s[14], t114, s[17]);
-    const double t118 = t57 * t115;
+    const double t118 = t57 * t115;  /* P_worm_z_t_worm */
     const double t119 = t116 - t74;
     const double t120 = t111 * t116;
     const double t121 = t115 * t78;
@@ -2785,10 +2785,10 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t149 = MW_FMA(t140, t28, t129);
     const double t150 = MW_FMS(t134, t142, t141);
     const double t151 = MW_FMA(t143, s[11], s[12]);
-    const double t152 = t61 * t144;
+    const double t152 = t61 * t144;  /* P_hob_z_t_hob */
     const double t153 = t144 * t79;
     const double t154 = t127 * t145;
-    const double t155 = sqrt(t147);
+    const double t155 = sqrt(t147);  /* derivation/unit: length of a normal */
     const double t156 = t145 - t75;
     const double t157 = MW_FMS(t152, t30, t31);
     const double t158 = t152 * t27;
@@ -2797,9 +2797,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t161 = t152 * t46;
     const double t162 = MW_FMA(t152, t47, t34);
     const double t163 = s[6] * t152;
-    const double t164 = s[6] * t151;
+    const double t164 = s[6] * t151;  /* P_hob_z: axial section */
     const double t165 = MW_FMA(s13, t158, t34);
-    const double t166 = 1.0 / t157;
+    const double t166 = 1.0 / t157;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t167 = t157 * s[9];
     const double t168 = MW_FMS(c13, t158, t31);
     const double t169 = s[3] * t160;
@@ -2842,11 +2842,11 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t206 = s[13] * t198;
     const double t207 = t157 * s[51];
     const double t208 = -t202;
-    const double t209 = t195 * t166;
-    const double t210 = t123 / t155;
-    const double t211 = t124 / t155;
-    const double t212 = t22 / t155;
-    const double t213 = x[3] + t209;
+    const double t209 = t195 * t166;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
+    const double t210 = t123 / t155;  /* derivation/unit: length of a normal */
+    const double t211 = t124 / t155;  /* derivation/unit: length of a normal */
+    const double t212 = t22 / t155;  /* derivation/unit: length of a normal */
+    const double t213 = x[3] + t209;  /* phi_hob: angle of the hob in cutting */
     const double t214 = t196 + t203;
     const double t215 = s[3] + t214;
     const double t216 = MW_FMA(t209, t162, t206);
@@ -2856,14 +2856,14 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t220 = t166 * t216;
     const double t221 = MW_FNMA(s[21], t217, t35);
     const double t222 = MW_FMS(s[13], t215, t218);
-    const double t223 = t148 / t155;
-    const double t224 = t149 / t155;
+    const double t223 = t148 / t155;  /* derivation/unit: length of a normal */
+    const double t224 = t149 / t155;  /* derivation/unit: length of a normal */
     const double t225 = t42 - t219;
     const double t226 = t166 * t222;
     const double t227 = MW_FMA(t220, s[31], t45);
     const double t228 = MW_FMS(t220, s[33], t56);
     const double t229 = 1.0 + t220;
-    const double t230 = s[6] / t155;
+    const double t230 = s[6] / t155;  /* derivation/unit: length of a normal */
     double s231, c231;
     cylindrical_worm_zi_zi_seldom_sincos(t225, &s231, &c231);
     const double t233 = s7 * t210;
@@ -2908,7 +2908,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t272 = c231 * t237;
     const double t273 = MW_FNMA(s[1], t265, t184);
     const double t274 = MW_FMA(s[20], t265, t185);
-    const double t275 = sqrt(t266);
+    const double t275 = sqrt(t266);  /* derivation/unit: length of a normal */
     const double t276 = s[18] * t267;
     const double t277 = s[19] * t267;
     const double t278 = MW_FMS(s231, t238, t270);
@@ -2936,7 +2936,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t300 = MW_FMA(t157, t261, t297);
     const double t301 = MW_FNMA(t157, t260, t299);
     const double t302 = t293 + t296;
-    const double t303 = sqrt(t295);
+    const double t303 = sqrt(t295);  /* derivation/unit: length of a normal */
     const double t304 = MW_FMS(s[1], t298, t248);
     const double t305 = MW_FMA(s[20], t298, t249);
     const double t306 = s231 * t197;
@@ -2963,9 +2963,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t327 = MW_FMA(s[18], t289, t325);
     const double t328 = s[18] * t302;
     const double t329 = MW_FNMA(s[19], t305, t328);
-    const double t330 = t243 / t275;
-    const double t331 = t245 / t275;
-    const double t332 = t244 / t275;
+    const double t330 = t243 / t275;  /* derivation/unit: length of a normal */
+    const double t331 = t245 / t275;  /* derivation/unit: length of a normal */
+    const double t332 = t244 / t275;  /* derivation/unit: length of a normal */
     const double t333 = MW_FMS(s[20], t323, t192);
     const double t334 = MW_FMA(s[1], t323, t193);
     const double t335 = s[19] * t302;
@@ -2988,12 +2988,12 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t352 = t237 * s240;
     const double t353 = t346 * t346;
     const double t354 = t237 * c240;
-    const double t355 = t322 / t303;
-    const double t356 = t338 / t303;
-    const double t357 = t342 / t303;
-    const double t358 = t334 / t303;
-    const double t359 = t340 / t303;
-    const double t360 = t344 / t303;
+    const double t355 = t322 / t303;  /* derivation/unit: length of a normal */
+    const double t356 = t338 / t303;  /* derivation/unit: length of a normal */
+    const double t357 = t342 / t303;  /* derivation/unit: length of a normal */
+    const double t358 = t334 / t303;  /* derivation/unit: length of a normal */
+    const double t359 = t340 / t303;  /* derivation/unit: length of a normal */
+    const double t360 = t344 / t303;  /* derivation/unit: length of a normal */
     const double t361 = t212 * t330;
     const double t362 = t211 * t331;
     const double t363 = t210 * t332;
@@ -3048,8 +3048,8 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t412 = MW_FMS(t330, t357, t411);
     const double t413 = t369 * t357;
     const double t414 = MW_FMA(t368, t358, t413);
-    const double t415 = (-1.0) / t407;
-    const double t416 = (-1.0) / t408;
+    const double t415 = (-1.0) / t407;  /* cylindrical_worm/undercut: singular function of a flank */
+    const double t416 = (-1.0) / t408;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t417 = MW_FMA(t331, t360, t412);
     const double t418 = MW_FMS(t370, t360, t414);
     const double t419 = t370 * t390;
@@ -3068,9 +3068,9 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t432 = MW_FMS(t379, t418, t431);
     const double t433 = t377 * t405;
     const double t434 = MW_FMS(t379, t417, t433);
-    const double t435 = t273 / t303;
-    const double t436 = t279 / t303;
-    const double t437 = t280 / t303;
+    const double t435 = t273 / t303;  /* derivation/unit: length of a normal */
+    const double t436 = t279 / t303;  /* derivation/unit: length of a normal */
+    const double t437 = t280 / t303;  /* derivation/unit: length of a normal */
     const double t438 = s[47] - t388;
     const double t439 = MW_FMA(t438, t438, t256);
     const double t440 = t227 * s240;
@@ -3119,7 +3119,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t483 = t475 * t475;
     const double t484 = MW_FMA(t477, t477, t478);
     const double t485 = -t212;
-    const double t486 = -t209;
+    const double t486 = -t209;  /* psi_hob: screw angle of the hob flank */
     const double t487 = -t336;
     const double t488 = -t369;
     const double t489 = -t451;
@@ -3139,7 +3139,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t503 = t476 * t456;
     const double t504 = MW_FMA(t480, t457, t503);
     const double t505 = t446 + s[48];
-    const double t506 = t481 / t347;
+    const double t506 = t481 / t347;  /* derivation/quotient: lever arm of the wheel */
     const double t507 = t497 * t501;
     const double t508 = t221 * s231;
     const double t509 = c231 * t221;
@@ -3161,7 +3161,7 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     const double t525 = t475 - t491;
     const double t526 = t475 + t491;
     const double t527 = t496 + t491;
-    const double t528 = t484 / t527;
+    const double t528 = t484 / t527;  /* derivation/quotient: larger principal curvature of the gap */
     const double t529 = t525 - t528;
     const double t530 = t528 + t526;
     o[0] = t62;

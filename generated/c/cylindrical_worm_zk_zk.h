@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 411, set_phi 2, R 233, R and J 593, step 677, observe 845.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -706,9 +706,9 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t11 = t7 * s2;
     const double t12 = p[1] * 0.7853981633974483;
     const double t13 = MW_FNMA(p[9], t6, t12);
-    const double t14 = 1.0 / p[4];
+    const double t14 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t15 = p[10] * p[11];
-    const double t16 = 1.0 / t11;
+    const double t16 = 1.0 / t11;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t17 = p[0] * t13;
     const double t18 = s4 * t10;
     const double t19 = t10 * c4;
@@ -722,7 +722,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     double s27, c27;
     cylindrical_worm_zk_zk_seldom_sincos(p[5], &s27, &c27);
     const double t29 = MW_FMA(t24, t11, t25);
-    const double t30 = 1.0 / t29;
+    const double t30 = 1.0 / t29;  /* derivation/explicit: slope of the equation of meshing in u_hob */
     const double t31 = t20 * t15;
     const double t32 = p[10] * t20;
     const double t33 = MW_FMS(t19, t32, t26);
@@ -731,7 +731,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t36 = MW_FMA(t18, c8, t35);
     const double t37 = p[11] * t14;
     const double t38 = t11 * t37;
-    const double t39 = 1.0 / t34;
+    const double t39 = 1.0 / t34;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t40 = MW_FMS(t11, t22, t33);
     const double t41 = t37 * t36;
     const double t42 = c8 * t31;
@@ -765,12 +765,12 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t70 = c8 * t37;
     const double t71 = t37 * t65;
     const double t72 = t32 + t64;
-    const double t73 = t40 * t30;
+    const double t73 = t40 * t30;  /* derivation/explicit: slope of the equation of meshing in u_hob */
     const double t74 = s8 * t66;
     const double t75 = t18 * t37;
     const double t76 = t11 * t70;
     const double t77 = p[6] + p[12];
-    const double t78 = 1.0 / t32;
+    const double t78 = 1.0 / t32;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t79 = MW_FMA(t73, t63, t68);
     const double t80 = t43 + t72;
     const double t81 = MW_FNMA(s2, t73, t13);
@@ -784,7 +784,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t89 = t23 * t81;
     const double t90 = t18 * t82;
     const double t91 = t82 - p[17];
-    const double t92 = MW_FMA(t80, t80, t84);
+    const double t92 = MW_FMA(t80, t80, t84);  /* axes_discriminant: negative where there are no meshing axes */
     const double t93 = t59 * c27;
     const double t94 = s27 / c27;
     const double t95 = MW_FMA(t11, t88, t90);
@@ -799,7 +799,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t104 = MW_FMA(t41, t103, t97);
     const double t105 = t88 * t41;
     const double t106 = MW_FMA(t91, t76, t105);
-    const double t107 = 1.0 / t100;
+    const double t107 = 1.0 / t100;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t108 = MW_FMA(t38, t102, t101);
     const double t109 = t48 * t82;
     const double t110 = MW_FNMA(t18, t103, t109);
@@ -813,7 +813,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t118 = sqrt(t92);
     const double t119 = MW_FMA(t69, t87, t114);
     const double t120 = MW_FMA(t11, t113, t110);
-    const double t121 = t115 * t16;
+    const double t121 = t115 * t16;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t122 = MW_FMA(t102, t75, t117);
     const double t123 = c8 * t113;
     const double t124 = s8 * t82;
@@ -853,7 +853,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t158 = MW_FMA(t67, t150, t157);
     const double t159 = MW_FNMA(s8, t151, t123);
     const double t160 = MW_FMA(c8, t151, t125);
-    const double t161 = t152 * t107;
+    const double t161 = t152 * t107;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     double s162, c162;
     cylindrical_worm_zk_zk_seldom_sincos(t154, &s162, &c162);
     const double t164 = p[11] * p[11];
@@ -891,8 +891,8 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t196 = p[0] * c27;
     const double t197 = t32 * c8;
     const double t198 = MW_FMA(t197, t148, t124);
-    const double t199 = t193 * t78;
-    const double t200 = t195 * t78;
+    const double t199 = t193 * t78;  /* axis_1_share: share of the screw that makes the twist a rotation */
+    const double t200 = t195 * t78;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t201 = t77 - t178;
     const double t202 = c138 * t174;
     const double t203 = s138 * t174;
@@ -948,7 +948,7 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t253 = t249 * t244;
     const double t254 = t246 * t14;
     const double t255 = t247 * t14;
-    const double t256 = 1.0 / t248;
+    const double t256 = 1.0 / t248;  /* derivation/relative: the same at the reference point of the pinion */
     const double t257 = MW_FMA(t251, t236, t241);
     const double t258 = t252 * t14;
     const double t259 = t253 * t14;
@@ -961,20 +961,20 @@ static inline int cylindrical_worm_zk_zk_setup(const double *p, double *s)
     const double t266 = MW_FMA(t261, t238, t257);
     double s267, c267;
     cylindrical_worm_zk_zk_seldom_sincos(p[21], &s267, &c267);
-    const double t269 = 1.0 / t266;
+    const double t269 = 1.0 / t266;  /* derivation/relative: the same at the reference point of the wheel */
     const double t270 = t14 * t189;
     const double t271 = t14 * t56;
-    const double t272 = p[3] * t14;
+    const double t272 = p[3] * t14;  /* ratio: T1/T2 */
     const double t273 = p[6] * 6.283185307179586;
     const double t274 = t94 * t273;
     const double t275 = -t265;
-    const double t276 = MW_FMA(t242, t242, t176);
+    const double t276 = MW_FMA(t242, t242, t176);  /* axis_1_square: squared angular velocity about the axis */
     const double t277 = t263 / t276;
-    const double t278 = MW_FMA(t244, t244, t176);
+    const double t278 = MW_FMA(t244, t244, t176);  /* axis_2_square: squared angular velocity about the axis */
     const double t279 = t264 / t278;
     const double t280 = t274 / p[3];
-    const double t281 = 1.0 / t222;
-    const double t282 = 1.0 / t223;
+    const double t281 = 1.0 / t222;  /* derivation/step-size: natural size of an unknown */
+    const double t282 = 1.0 / t223;  /* derivation/step-size: natural size of an unknown */
     const double t283 = p[4] * p[10];
     const double t284 = t20 * t283;
     const double t285 = p[10] * t7;
@@ -1219,9 +1219,9 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t0 = x[2] * 0.5;
     double s1, c1;
     cylindrical_worm_zk_zk_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of t_hob */
     cylindrical_worm_zk_zk_sincos(x[2], &s3, &c3);
-    double s5, c5;
+    double s5, c5;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zk_sincos(x[3], &s5, &c5);
     const double t7 = s1 * s1;
     const double t8 = t7 * s[18];
@@ -1230,7 +1230,7 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t11 = x[0] * 0.5;
     double s12, c12;
     cylindrical_worm_zk_zk_sincos(t11, &s12, &c12);
-    const double t14 = c3 * s[19];
+    const double t14 = c3 * s[19];  /* n_hob_x: normal */
     const double t15 = MW_FMS(s3, s[23], s[24]);
     const double t16 = MW_FMA(s3, s[28], s[29]);
     const double t17 = t16 * t14;
@@ -1245,27 +1245,27 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t26 = t14 * s5;
     const double t27 = MW_FMA(t15, t22, t23);
     const double t28 = t19 * s[37];
-    double s29, c29;
+    double s29, c29;  /* of t_worm */
     cylindrical_worm_zk_zk_sincos(x[0], &s29, &c29);
     const double t31 = MW_FMS(t14, t21, t27);
-    const double t32 = 1.0 / t24;
+    const double t32 = 1.0 / t24;  /* derivation/explicit: slope of the equation of meshing in u_hob */
     const double t33 = MW_FMA(t15, s5, t25);
     const double t34 = MW_FNMA(t15, c5, t26);
     const double t35 = MW_FMA(s[33], t34, t28);
-    const double t36 = 1.0 / t33;
+    const double t36 = 1.0 / t33;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t37 = t33 * s[38];
     const double t38 = s[129] + x[1];
     double s39, c39;
     cylindrical_worm_zk_zk_sincos(t38, &s39, &c39);
-    const double t41 = t31 * t32;
+    const double t41 = t31 * t32;  /* u_hob: distance along the wheel's edge from its pitch point to the rim */
     const double t42 = MW_FNMA(s[30], t41, s[20]);
     const double t43 = MW_FNMA(s[31], t41, s[15]);
     const double t44 = t35 * s[38];
-    const double t45 = c29 * s[1];
+    const double t45 = c29 * s[1];  /* n_worm_x: normal */
     const double t46 = MW_FMS(s29, s[5], s[6]);
     const double t47 = MW_FMA(s29, s[10], s[11]);
-    const double t48 = x[4] + s[130];
-    const double t49 = MW_FMA(c3, t42, t8);
+    const double t48 = x[4] + s[130];  /* wheel angle */
+    const double t49 = MW_FMA(c3, t42, t8);  /* P_hob_x: contact point on the wheel */
     const double t50 = MW_FNMA(s3, t42, t10);
     const double t51 = s[32] * t43;
     const double t52 = t43 * s[35];
@@ -1273,8 +1273,8 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t54 = s[12] * t46;
     const double t55 = s12 * s12;
     const double t56 = t55 * s[0];
-    const double t57 = MW_FMS(s[21], t50, t51);
-    const double t58 = MW_FMA(s[34], t50, t52);
+    const double t57 = MW_FMS(s[21], t50, t51);  /* P_hob_y: contact point on the wheel */
+    const double t58 = MW_FMA(s[34], t50, t52);  /* P_hob_z: contact point on the wheel */
     const double t59 = t15 * t49;
     const double t60 = t49 * s5;
     const double t61 = MW_FMS(t49, c5, s[36]);
@@ -1285,7 +1285,7 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t66 = MW_FMA(t57, c5, t60);
     const double t67 = MW_FNMA(s5, t57, t61);
     const double t68 = MW_FMA(s29, s[7], s[8]);
-    const double t69 = 1.0 / t62;
+    const double t69 = 1.0 / t62;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t70 = t68 * s[9];
     const double t71 = MW_FNMA(t67, t44, t65);
     const double t72 = t66 * s[33];
@@ -1306,15 +1306,15 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t87 = MW_FNMA(t79, t37, t71);
     const double t88 = c29 * s[49];
     const double t89 = t87 * s[39];
-    const double t90 = t89 * t36;
+    const double t90 = t89 * t36;  /* psi_hob: screw angle of the hob flank */
     const double t91 = c39 * t80;
     const double t92 = s39 * t80;
     const double t93 = c39 * t81;
     const double t94 = s39 * t81;
-    const double t95 = x[3] - t90;
+    const double t95 = x[3] - t90;  /* phi_hob: angle of the hob in cutting */
     const double t96 = MW_FMA(s[27], t90, t58);
     const double t97 = MW_FMA(t47, s39, t91);
-    const double t98 = t85 * t69;
+    const double t98 = t85 * t69;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t99 = MW_FMS(t47, c39, t92);
     const double t100 = MW_FMA(s29, s39, t93);
     const double t101 = MW_FMS(s29, c39, t94);
@@ -1329,14 +1329,14 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     cylindrical_worm_zk_zk_sincos(t102, &s109, &c109);
     const double t111 = MW_FNMA(s[14], t98, s[15]);
     const double t112 = MW_FNMA(s29, t108, t64);
-    const double t113 = MW_FMA(c29, t108, t56);
+    const double t113 = MW_FMA(c29, t108, t56);  /* P_worm_x: contact point on the wheel */
     const double t114 = t111 * s[42];
     const double t115 = s[16] * t111;
     const double t116 = t113 * s39;
     const double t117 = MW_FMS(t113, c39, s[13]);
     const double t118 = s[44] * t97;
-    const double t119 = MW_FMA(s[41], t112, t114);
-    const double t120 = MW_FMS(s[3], t112, t115);
+    const double t119 = MW_FMA(s[41], t112, t114);  /* P_worm_z: contact point on the wheel */
+    const double t120 = MW_FMS(s[3], t112, t115);  /* P_worm_y: contact point on the wheel */
     const double t121 = MW_FMS(s[17], t104, t118);
     const double t122 = s[17] * t97;
     const double t123 = MW_FMA(s[44], t104, t122);
@@ -1356,7 +1356,7 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t137 = MW_FMS(s[17], t136, s[45]);
     const double t138 = MW_FMA(t129, s[44], t137);
     const double t139 = MW_FNMA(t66, s[37], t138);
-    const double t140 = MW_FNMA(s[33], t96, t139);
+    const double t140 = MW_FNMA(s[33], t96, t139);  /* row 2 of the contact equations */
     const double t141 = MW_FNMA(t103, s109, t134);
     const double t142 = MW_FMA(t67, s109, t135);
     const double t143 = t35 * c109;
@@ -1365,12 +1365,12 @@ static inline void cylindrical_worm_zk_zk_eval(const double *s, const double *x,
     const double t146 = MW_FNMA(t136, s[44], t141);
     const double t147 = MW_FNMA(t103, c109, t142);
     const double t148 = MW_FMA(t35, s109, t144);
-    const double t149 = MW_FNMA(t67, c109, t146);
+    const double t149 = MW_FNMA(t67, c109, t146);  /* row 0 of the contact equations */
     const double t150 = MW_FMA(t145, t105, t126);
     const double t151 = MW_FMA(t145, t107, t132);
-    const double t152 = MW_FNMA(s[40], t127, t147);
-    const double t153 = MW_FMA(t148, t123, t150);
-    const double t154 = MW_FNMA(t148, t131, t151);
+    const double t152 = MW_FNMA(s[40], t127, t147);  /* row 1 of the contact equations */
+    const double t153 = MW_FMA(t148, t123, t150);  /* row 3 of the contact equations */
+    const double t154 = MW_FNMA(t148, t131, t151);  /* row 4 of the contact equations */
     R[0] = t149;
     R[1] = t152;
     R[2] = t140;
@@ -1666,13 +1666,13 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t0 = x[2] * 0.5;
     double s1, c1;
     cylindrical_worm_zk_zk_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of t_hob */
     cylindrical_worm_zk_zk_sincos(x[2], &s3, &c3);
-    double s5, c5;
+    double s5, c5;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zk_sincos(x[3], &s5, &c5);
     const double t7 = s1 * s[18];
     const double t8 = s1 * s1;
-    const double t9 = x[4] + s[130];
+    const double t9 = x[4] + s[130];  /* wheel angle */
     const double t10 = 0.5 * s1;
     const double t11 = t7 * t10;
     const double t12 = 0.5 * c1;
@@ -1681,7 +1681,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t15 = x[0] * 0.5;
     double s16, c16;
     cylindrical_worm_zk_zk_sincos(t15, &s16, &c16);
-    const double t18 = c3 * s[19];
+    const double t18 = c3 * s[19];  /* n_hob_x: normal */
     const double t19 = MW_FMS(s3, s[23], s[24]);
     const double t20 = MW_FMA(s3, s[28], s[29]);
     const double t21 = t20 * t18;
@@ -1699,11 +1699,11 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t33 = MW_FMA(t19, t27, t29);
     const double t34 = MW_FMA(t19, s5, t32);
     const double t35 = t18 * s5;
-    const double t36 = 1.0 / t28;
+    const double t36 = 1.0 / t28;  /* derivation/explicit: slope of the equation of meshing in u_hob */
     const double t37 = MW_FNMA(t19, c5, t35);
     const double t38 = t25 * s[37];
     const double t39 = MW_FMS(t18, t31, t33);
-    const double t40 = 1.0 / t34;
+    const double t40 = 1.0 / t34;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t41 = MW_FMA(s[33], t37, t38);
     const double t42 = t34 * s[38];
     const double t43 = t13 + t13;
@@ -1725,9 +1725,9 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t59 = c3 * s[57];
     const double t60 = MW_FMA(t31, t55, t52);
     const double t61 = MW_FNMA(s3, t22, t54);
-    double s62, c62;
+    double s62, c62;  /* of t_worm */
     cylindrical_worm_zk_zk_sincos(x[0], &s62, &c62);
-    const double t64 = t39 * t36;
+    const double t64 = t39 * t36;  /* u_hob: distance along the wheel's edge from its pitch point to the rim */
     const double t65 = MW_FNMA(s[30], t64, s[20]);
     const double t66 = MW_FNMA(s[31], t64, s[15]);
     const double t67 = t58 - t61;
@@ -1744,12 +1744,12 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t78 = MW_FMS(s5, t48, t77);
     const double t79 = s[129] + x[1];
     const double t80 = MW_FMS(c1, t7, t72);
-    const double t81 = MW_FMA(t8, s[18], t73);
+    const double t81 = MW_FMA(t8, s[18], t73);  /* P_hob_x: contact point on the wheel */
     const double t82 = s[38] * t71;
     double s83, c83;
     cylindrical_worm_zk_zk_sincos(t79, &s83, &c83);
-    const double t85 = MW_FMS(s[21], t80, t74);
-    const double t86 = MW_FMA(s[34], t80, t75);
+    const double t85 = MW_FMS(s[21], t80, t74);  /* P_hob_y: contact point on the wheel */
+    const double t86 = MW_FMA(s[34], t80, t75);  /* P_hob_z: contact point on the wheel */
     const double t87 = t81 * c5;
     const double t88 = t81 * s5;
     const double t89 = MW_FMA(t85, c5, t88);
@@ -1771,7 +1771,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t105 = t93 * s[58];
     const double t106 = t95 * t82;
     const double t107 = s[38] * t78;
-    const double t108 = c62 * s[1];
+    const double t108 = c62 * s[1];  /* n_worm_x: normal */
     const double t109 = MW_FMA(s[18], t43, t101);
     const double t110 = t30 - t102;
     const double t111 = MW_FMS(s62, s[5], s[6]);
@@ -1791,13 +1791,13 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t125 = MW_FMS(t18, t118, t97);
     const double t126 = MW_FMA(c5, t118, t121);
     const double t127 = MW_FNMA(s5, t118, t122);
-    const double t128 = t120 * t40;
+    const double t128 = t120 * t40;  /* psi_hob: screw angle of the hob flank */
     const double t129 = 0.5 * s16;
     const double t130 = t124 * t129;
-    const double t131 = 1.0 / t123;
+    const double t131 = 1.0 / t123;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t132 = t117 + t125;
     const double t133 = MW_FMA(t47, t127, t106);
-    const double t134 = x[3] - t128;
+    const double t134 = x[3] - t128;  /* phi_hob: angle of the hob in cutting */
     const double t135 = MW_FMA(s[27], t128, t86);
     const double t136 = s[33] * t126;
     const double t137 = t89 * t47;
@@ -1861,7 +1861,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t195 = MW_FNMA(t114, t193, t191);
     const double t196 = MW_FNMA(s62, t116, t188);
     const double t197 = t40 * t186;
-    const double t198 = t190 * t131;
+    const double t198 = t190 * t131;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t199 = MW_FNMA(s[37], t37, t189);
     const double t200 = s[12] * c62;
     const double t201 = t192 + t194;
@@ -1899,7 +1899,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t233 = t89 * c150;
     const double t234 = MW_FNMA(s150, t202, t233);
     const double t235 = c62 * s[48];
-    const double t236 = 1.0 / t230;
+    const double t236 = 1.0 / t230;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t237 = MW_FMA(s[40], t215, t235);
     const double t238 = s[3] * s62;
     const double t239 = t41 * c150;
@@ -1910,7 +1910,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t244 = c62 * t216;
     const double t245 = s62 * t216;
     const double t246 = MW_FMS(c16, t124, t245);
-    const double t247 = MW_FMA(t158, s[0], t244);
+    const double t247 = MW_FMA(t158, s[0], t244);  /* P_worm_x: contact point on the wheel */
     const double t248 = s[12] * t219;
     const double t249 = MW_FMA(s62, t248, t244);
     const double t250 = MW_FMS(c62, t248, t245);
@@ -1961,15 +1961,15 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t295 = MW_FMA(t252, t272, t288);
     const double t296 = MW_FNMA(t274, t272, t289);
     const double t297 = t37 * s150;
-    const double t298 = 1.0 / t290;
+    const double t298 = 1.0 / t290;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t299 = t37 * c150;
     const double t300 = MW_FMA(c150, t293, t297);
     const double t301 = MW_FMS(s150, t293, t299);
     const double t302 = MW_FNMA(t228, t292, t295);
     const double t303 = s[16] * t217;
-    const double t304 = MW_FMS(s[3], t246, t303);
+    const double t304 = MW_FMS(s[3], t246, t303);  /* P_worm_y: contact point on the wheel */
     const double t305 = t217 * s[42];
-    const double t306 = MW_FMA(s[41], t246, t305);
+    const double t306 = MW_FMA(s[41], t246, t305);  /* P_worm_z: contact point on the wheel */
     const double t307 = t243 * t258;
     const double t308 = MW_FMA(t240, t274, t307);
     const double t309 = t209 * s[66];
@@ -2004,7 +2004,7 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t338 = MW_FMA(t274, t301, t332);
     const double t339 = s[17] * t215;
     const double t340 = MW_FMA(t214, s[65], t339);
-    const double t341 = MW_FNMA(t243, t274, t334);
+    const double t341 = MW_FNMA(t243, t274, t334);  /* row 4 of the contact equations */
     const double t342 = s[43] * t214;
     const double t343 = t199 * t336;
     const double t344 = t177 * t298;
@@ -2016,14 +2016,14 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t350 = MW_FMS(t232, t315, t338);
     const double t351 = MW_FMA(t240, t342, t343);
     const double t352 = MW_FMA(t291, t344, t204);
-    const double t353 = MW_FMA(t243, t252, t346);
+    const double t353 = MW_FMA(t243, t252, t346);  /* row 3 of the contact equations */
     const double t354 = MW_FMA(t291, t347, t348);
     const double t355 = MW_FMA(t291, t349, t350);
     const double t356 = t247 * c83;
     const double t357 = t247 * s83;
     const double t358 = MW_FMA(c83, t304, t357);
     const double t359 = MW_FMA(t243, t340, t351);
-    const double t360 = 1.0 / t352;
+    const double t360 = 1.0 / t352;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t361 = s62 * s[49];
     const double t362 = MW_FMA(s[43], t262, t361);
     const double t363 = c62 * s[63];
@@ -2081,9 +2081,9 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t415 = MW_FMA(t407, t406, t409);
     const double t416 = MW_FMA(t373, s[44], t413);
     const double t417 = MW_FMA(t396, t406, t398);
-    const double t418 = MW_FNMA(s[40], t316, t410);
+    const double t418 = MW_FNMA(s[40], t316, t410);  /* row 1 of the contact equations */
     const double t419 = MW_FMA(t407, t408, t411);
-    const double t420 = t412 - t220;
+    const double t420 = t412 - t220;  /* row 0 of the contact equations */
     const double t421 = s[38] * t161;
     const double t422 = 1.0 - t197;
     const double t423 = t415 * t414;
@@ -2093,10 +2093,10 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     const double t427 = MW_FNMA(t418, t292, t353);
     const double t428 = MW_FNMA(t418, t282, t420);
     const double t429 = MW_FMS(t417, t419, t423);
-    const double t430 = MW_FNMA(s[33], t135, t424);
+    const double t430 = MW_FNMA(s[33], t135, t424);  /* row 2 of the contact equations */
     const double t431 = MW_FMA(t428, t349, t426);
     const double t432 = MW_FMA(t428, t347, t427);
-    const double t433 = 1.0 / t429;
+    const double t433 = 1.0 / t429;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t434 = MW_FNMA(t428, t344, t430);
     const double t435 = MW_FMA(t434, t408, t431);
     const double t436 = MW_FMA(t434, t406, t432);
@@ -3223,7 +3223,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t0 = x[2] * 0.5;
     double s1, c1;
     cylindrical_worm_zk_zk_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of t_hob */
     cylindrical_worm_zk_zk_seldom_sincos(x[2], &s3, &c3);
     const double t5 = s[129] + x[1];
     double s6, c6;
@@ -3231,16 +3231,16 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t8 = x[0] * 0.5;
     double s9, c9;
     cylindrical_worm_zk_zk_seldom_sincos(t8, &s9, &c9);
-    const double t11 = c3 * s[19];
+    const double t11 = c3 * s[19];  /* n_hob_x: normal */
     const double t12 = MW_FMS(s3, s[23], s[24]);
     const double t13 = MW_FMA(s3, s[28], s[29]);
     const double t14 = t13 * t11;
     const double t15 = s[30] * t12;
-    double s16, c16;
+    double s16, c16;  /* of t_worm */
     cylindrical_worm_zk_zk_seldom_sincos(x[0], &s16, &c16);
     const double t18 = MW_FNMA(c3, t15, t14);
-    const double t19 = 1.0 / t18;
-    double s20, c20;
+    const double t19 = 1.0 / t18;  /* derivation/explicit: slope of the equation of meshing in u_hob */
+    double s20, c20;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zk_seldom_sincos(x[3], &s20, &c20);
     const double t22 = s1 * s[18];
     const double t23 = s[20] * s3;
@@ -3256,7 +3256,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t33 = 0.5 * s9;
     const double t34 = MW_FMA(t12, t28, t29);
     const double t35 = t30 * t33;
-    const double t36 = c16 * s[1];
+    const double t36 = c16 * s[1];  /* n_worm_x: normal */
     const double t37 = MW_FMS(s16, s[5], s[6]);
     const double t38 = MW_FMA(s16, s[10], s[11]);
     const double t39 = MW_FMA(s16, s[7], s[8]);
@@ -3270,7 +3270,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t47 = s[51] * c9;
     const double t48 = MW_FMS(c9, t47, t35);
     const double t49 = t41 + t41;
-    const double t50 = t42 * t19;
+    const double t50 = t42 * t19;  /* u_hob: distance along the wheel's edge from its pitch point to the rim */
     const double t51 = MW_FNMA(t37, c6, t43);
     const double t52 = MW_FMA(t37, s6, t44);
     const double t53 = MW_FNMA(c16, t46, t45);
@@ -3278,7 +3278,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t55 = s[2] * c16;
     const double t56 = s[2] * s16;
     const double t57 = MW_FMA(t54, s[0], t55);
-    const double t58 = 1.0 / t53;
+    const double t58 = 1.0 / t53;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t59 = t48 - t55;
     const double t60 = MW_FNMA(s[30], t50, s[20]);
     const double t61 = s[3] * t59;
@@ -3292,7 +3292,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t69 = t36 * t61;
     const double t70 = s[5] * c16;
     const double t71 = MW_FMS(c9, t30, t56);
-    const double t72 = MW_FMA(t25, s[18], t66);
+    const double t72 = MW_FMA(t25, s[18], t66);  /* P_hob_x: contact point on the wheel */
     const double t73 = MW_FMA(t39, t39, t64);
     const double t74 = MW_FMS(s[0], t49, t56);
     const double t75 = MW_FNMA(s[3], t71, s[4]);
@@ -3301,9 +3301,9 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t78 = MW_FMA(t37, t57, t77);
     const double t79 = t57 * t70;
     const double t80 = MW_FMA(t37, t74, t79);
-    const double t81 = MW_FMS(s[21], t76, t67);
-    const double t82 = MW_FMA(s[34], t76, t68);
-    const double t83 = sqrt(t73);
+    const double t81 = MW_FMS(s[21], t76, t67);  /* P_hob_y: contact point on the wheel */
+    const double t82 = MW_FMA(s[34], t76, t68);  /* P_hob_z: contact point on the wheel */
+    const double t83 = sqrt(t73);  /* derivation/unit: length of a normal */
     const double t84 = t11 * c20;
     const double t85 = MW_FMS(t36, t75, t78);
     const double t86 = MW_FMA(t12, s20, t84);
@@ -3315,12 +3315,12 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t92 = MW_FMA(t81, c20, t91);
     const double t93 = t12 * t72;
     const double t94 = MW_FMA(t11, t81, t93);
-    const double t95 = 1.0 / t86;
+    const double t95 = 1.0 / t86;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t96 = MW_FMA(s[33], t89, t32);
     const double t97 = t90 - s[36];
     const double t98 = MW_FNMA(s20, t81, t97);
     const double t99 = t92 * s[33];
-    const double t100 = t85 * t58;
+    const double t100 = t85 * t58;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t101 = t86 * s[38];
     const double t102 = t96 * s[38];
     const double t103 = c16 * s[10];
@@ -3332,7 +3332,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t109 = MW_FMA(t75, t108, t69);
     const double t110 = MW_FNMA(t98, t102, t94);
     const double t111 = MW_FNMA(t38, t108, t104);
-    const double t112 = x[4] + s[130];
+    const double t112 = x[4] + s[130];  /* wheel angle */
     const double t113 = MW_FNMA(s[12], t100, s[2]);
     const double t114 = MW_FNMA(s16, t46, t107);
     const double t115 = 0.5 * s1;
@@ -3356,18 +3356,18 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t133 = t11 * t131;
     const double t134 = c3 * s[56];
     const double t135 = c3 * t134;
-    const double t136 = t51 / t83;
+    const double t136 = t51 / t83;  /* derivation/unit: length of a normal */
     const double t137 = t58 * t130;
-    const double t138 = t126 * t95;
-    const double t139 = t52 / t83;
+    const double t138 = t126 * t95;  /* psi_hob: screw angle of the hob flank */
+    const double t139 = t52 / t83;  /* derivation/unit: length of a normal */
     const double t140 = MW_FNMA(s3, t15, t135);
     const double t141 = MW_FMS(s[18], t129, t23);
     const double t142 = MW_FMA(t12, t141, t128);
     const double t143 = s[21] * t132;
-    const double t144 = x[3] - t138;
+    const double t144 = x[3] - t138;  /* phi_hob: angle of the hob in cutting */
     const double t145 = t11 * t143;
     const double t146 = s[12] * t137;
-    const double t147 = t39 / t83;
+    const double t147 = t39 / t83;  /* derivation/unit: length of a normal */
     const double t148 = MW_FMA(c3, s[54], t142);
     const double t149 = MW_FMS(c16, t146, t120);
     const double t150 = MW_FMA(s16, t146, t119);
@@ -3395,7 +3395,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t172 = MW_FMA(c6, t164, t171);
     const double t173 = c6 * t156;
     const double t174 = MW_FNMA(s6, t164, t173);
-    const double t175 = MW_FMA(t54, s[0], t119);
+    const double t175 = MW_FMA(t54, s[0], t119);  /* P_worm_x: contact point on the wheel */
     const double t176 = s20 * t159;
     const double t177 = t19 * t170;
     const double t178 = MW_FMA(c20, t127, t176);
@@ -3455,7 +3455,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t232 = s[37] * t162;
     const double t233 = t225 - t226;
     const double t234 = MW_FMS(s[37], t211, t228);
-    const double t235 = sqrt(t227);
+    const double t235 = sqrt(t227);  /* derivation/unit: length of a normal */
     const double t236 = t86 * c166;
     const double t237 = s[39] * t231;
     const double t238 = t96 * c166;
@@ -3477,7 +3477,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t254 = t95 * t245;
     const double t255 = MW_FMS(s[39], t247, t240);
     const double t256 = s[33] * t86;
-    const double t257 = t241 / t83;
+    const double t257 = t241 / t83;  /* derivation/unit: length of a normal */
     const double t258 = MW_FMA(s[40], t251, t252);
     const double t259 = MW_FMS(s[43], t251, t253);
     const double t260 = MW_FNMA(t254, s[60], t191);
@@ -3500,7 +3500,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t277 = MW_FNMA(s[37], t269, t228);
     const double t278 = MW_FMA(s[33], t269, t230);
     const double t279 = s166 * t270;
-    const double t280 = sqrt(t272);
+    const double t280 = sqrt(t272);  /* derivation/unit: length of a normal */
     const double t281 = MW_FMS(t98, t275, t271);
     const double t282 = MW_FNMA(t196, t276, t273);
     const double t283 = MW_FNMA(t86, t279, t244);
@@ -3510,9 +3510,9 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t287 = MW_FMA(t196, t275, t274);
     const double t288 = c166 * t270;
     const double t289 = t281 + t282;
-    const double t290 = t203 / t235;
-    const double t291 = t206 / t235;
-    const double t292 = t205 / t235;
+    const double t290 = t203 / t235;  /* derivation/unit: length of a normal */
+    const double t291 = t206 / t235;  /* derivation/unit: length of a normal */
+    const double t292 = t205 / t235;  /* derivation/unit: length of a normal */
     const double t293 = MW_FMA(t96, t288, t248);
     const double t294 = t283 + t293;
     const double t295 = MW_FMA(t86, t288, t246);
@@ -3539,7 +3539,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t316 = t307 + t310;
     const double t317 = t313 + t308;
     const double t318 = s[16] * t229;
-    const double t319 = MW_FMS(s[3], t152, t318);
+    const double t319 = MW_FMS(s[3], t152, t318);  /* P_worm_y: contact point on the wheel */
     const double t320 = s[17] * t204;
     const double t321 = MW_FMA(s[44], t294, t320);
     const double t322 = s[44] * t204;
@@ -3550,7 +3550,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t327 = MW_FMA(s[17], t306, t325);
     const double t328 = s[17] * t278;
     const double t329 = MW_FNMA(s[44], t306, t328);
-    const double t330 = t323 / t280;
+    const double t330 = t323 / t280;  /* derivation/unit: length of a normal */
     const double t331 = s[44] * t263;
     const double t332 = MW_FMA(s[17], t289, t331);
     const double t333 = s[17] * t263;
@@ -3567,8 +3567,8 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t344 = MW_FMS(s[44], t316, t343);
     const double t345 = t175 * c6;
     const double t346 = MW_FNMA(t319, s6, t345);
-    const double t347 = t340 / t280;
-    const double t348 = t342 / t280;
+    const double t347 = t340 / t280;  /* derivation/unit: length of a normal */
+    const double t348 = t342 / t280;  /* derivation/unit: length of a normal */
     const double t349 = s[43] * t301;
     const double t350 = MW_FMS(s[40], t329, t349);
     const double t351 = s[40] * t301;
@@ -3585,10 +3585,10 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t362 = MW_FMS(s[40], t344, t361);
     const double t363 = s[40] * t317;
     const double t364 = MW_FMA(s[43], t344, t363);
-    const double t365 = t359 / t83;
-    const double t366 = t360 / t83;
-    const double t367 = t362 / t280;
-    const double t368 = t364 / t280;
+    const double t365 = t359 / t83;  /* derivation/unit: length of a normal */
+    const double t366 = t360 / t83;  /* derivation/unit: length of a normal */
+    const double t367 = t362 / t280;  /* derivation/unit: length of a normal */
+    const double t368 = t364 / t280;  /* derivation/unit: length of a normal */
     const double t369 = t86 * s[83];
     const double t370 = MW_FMA(s[17], t316, t369);
     const double t371 = t136 * t292;
@@ -3597,7 +3597,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t374 = MW_FMS(t346, t290, t373);
     const double t375 = t172 * t338;
     const double t376 = MW_FMS(t174, t336, t375);
-    const double t377 = t370 / t280;
+    const double t377 = t370 / t280;  /* derivation/unit: length of a normal */
     const double t378 = t332 * t292;
     const double t379 = MW_FMA(t354, t290, t378);
     const double t380 = MW_FMA(s[9], t291, t374);
@@ -3631,11 +3631,11 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t408 = t139 * t338;
     const double t409 = MW_FMS(t397, t401, t398);
     const double t410 = MW_FMS(t372, t348, t403);
-    const double t411 = (-1.0) / t404;
+    const double t411 = (-1.0) / t404;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t412 = MW_FMS(t292, t366, t405);
     const double t413 = MW_FMA(t336, t366, t406);
     const double t414 = MW_FMA(t136, t336, t408);
-    const double t415 = (-1.0) / t409;
+    const double t415 = (-1.0) / t409;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t416 = MW_FNMA(t291, t257, t412);
     const double t417 = MW_FNMA(t372, t257, t413);
     const double t418 = t338 * t367;
@@ -3659,7 +3659,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t436 = MW_FMS(t397, t429, t433);
     const double t437 = MW_FNMA(t391, t429, t432);
     const double t438 = t229 * s[42];
-    const double t439 = MW_FMA(s[41], t152, t438);
+    const double t439 = MW_FMA(s[41], t152, t438);  /* P_worm_z: contact point on the wheel */
     const double t440 = t98 * s314;
     const double t441 = MW_FMA(t196, c314, t440);
     const double t442 = t98 * c314;
@@ -3667,7 +3667,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t444 = MW_FMS(t397, t435, t434);
     const double t445 = MW_FNMA(t196, s314, t442);
     const double t446 = MW_FMA(x[1], s[9], t439);
-    double s447, c447;
+    double s447, c447;  /* of psi_worm */
     cylindrical_worm_zk_zk_seldom_sincos(x[1], &s447, &c447);
     const double t449 = t411 * t424;
     const double t450 = t411 * t426;
@@ -3685,14 +3685,14 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t462 = t457 + t458;
     const double t463 = 0.5 * t456;
     const double t464 = t458 - t457;
-    const double t465 = t250 / t280;
+    const double t465 = t250 / t280;  /* derivation/unit: length of a normal */
     const double t466 = 0.5 * t462;
     const double t467 = sqrt(t460);
     const double t468 = 0.5 * t464;
     const double t469 = t461 + t463;
-    const double t470 = t258 / t280;
+    const double t470 = t258 / t280;  /* derivation/unit: length of a normal */
     const double t471 = t466 * t466;
-    const double t472 = t259 / t280;
+    const double t472 = t259 / t280;  /* derivation/unit: length of a normal */
     const double t473 = t468 * t468;
     const double t474 = t92 * s[37];
     const double t475 = t446 - s[86];
@@ -3762,7 +3762,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t539 = MW_FMA(t98, t510, t537);
     const double t540 = t196 * t510;
     const double t541 = MW_FNMA(t98, t507, t538);
-    const double t542 = t532 / t534;
+    const double t542 = t532 / t534;  /* derivation/quotient: larger principal curvature of the gap */
     const double t543 = t196 * t507;
     const double t544 = MW_FMS(t277, s314, t543);
     const double t545 = MW_FMA(t277, c314, t540);
@@ -3796,7 +3796,7 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     const double t573 = t563 * t566;
     const double t574 = t546 * t529;
     const double t575 = MW_FMA(t551, t530, t574);
-    const double t576 = t549 / t516;
+    const double t576 = t549 / t516;  /* derivation/quotient: lever arm of the wheel */
     const double t577 = t568 * t571;
     const double t578 = t165 * t504;
     const double t579 = MW_FMS(s[9], t560, t578);

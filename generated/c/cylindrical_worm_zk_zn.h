@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 450, set_phi 2, R 201, R and J 504, step 593, observe 752.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -716,12 +716,12 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t18 = t14 * (-0.25);
     const double t19 = t16 / s2;
     const double t20 = s4 * s4;
-    const double t21 = c4 * t17;
+    const double t21 = c4 * t17;  /* P_hob_z_t_hob */
     const double t22 = s4 / c4;
     const double t23 = p[0] * s4;
     const double t24 = MW_FMA(t20, t18, t9);
     const double t25 = s2 * t23;
-    const double t26 = 1.0 / p[4];
+    const double t26 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t27 = p[10] * p[11];
     const double t28 = p[10] * c2;
     const double t29 = p[10] * (-4.0);
@@ -746,7 +746,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t48 = t22 * t35;
     const double t49 = t34 * t19;
     const double t50 = p[0] * t46;
-    const double t51 = 1.0 / t44;
+    const double t51 = 1.0 / t44;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t52 = t47 * t26;
     const double t53 = s10 * t48;
     const double t54 = p[0] * s10;
@@ -771,7 +771,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t73 = t54 * t66;
     const double t74 = p[0] * c2;
     const double t75 = t36 * t71;
-    const double t76 = t30 + t40;
+    const double t76 = t30 + t40;  /* r_t_hob: distance of the virtual apex from the axis */
     const double t77 = c10 * t57;
     const double t78 = t52 + t70;
     const double t79 = t72 * s0;
@@ -781,7 +781,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t83 = t67 * t82;
     const double t84 = MW_FMA(c2, t19, t76);
     const double t85 = t74 * t46;
-    const double t86 = MW_FMA(t78, t78, t56);
+    const double t86 = MW_FMA(t78, t78, t56);  /* axes_discriminant: negative where there are no meshing axes */
     const double t87 = t75 * t19;
     const double t88 = t25 * c10;
     const double t89 = t57 * t81;
@@ -802,7 +802,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t104 = p[0] * s38;
     const double t105 = s38 * t68;
     const double t106 = MW_FNMA(t93, t58, t99);
-    const double t107 = 1.0 / t101;
+    const double t107 = 1.0 / t101;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t108 = t96 - t102;
     const double t109 = t57 * t100;
     const double t110 = t57 * t101;
@@ -819,7 +819,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t121 = t95 * t120;
     const double t122 = c10 * t84;
     const double t123 = MW_FMS(t110, t122, t83);
-    const double t124 = 1.0 / t117;
+    const double t124 = 1.0 / t117;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t125 = t97 * t118;
     const double t126 = MW_FMA(t59, t109, t121);
     const double t127 = t60 + t88;
@@ -843,7 +843,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t145 = c38 * t144;
     const double t146 = t78 - t98;
     const double t147 = t78 + t98;
-    const double t148 = t125 * t107;
+    const double t148 = t125 * t107;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t149 = p[8] + p[19];
     const double t150 = p[6] * t114;
     const double t151 = c0 * c38;
@@ -857,14 +857,14 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t159 = MW_FNMA(t80, t148, t143);
     const double t160 = t133 * t150;
     const double t161 = s10 * t50;
-    const double t162 = t154 / t64;
+    const double t162 = t154 / t64;  /* axis_1_share: share of the screw that makes the twist a rotation */
     double s163, c163;
     cylindrical_worm_zk_zn_seldom_sincos(t156, &s163, &c163);
     const double t165 = t107 * t157;
-    const double t166 = t155 / t64;
+    const double t166 = t155 / t64;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t167 = MW_FMS(t79, t141, t158);
     const double t168 = t107 * t159;
-    const double t169 = t167 * t124;
+    const double t169 = t167 * t124;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t170 = MW_FNMA(t153, t165, t122);
     const double t171 = MW_FMA(p[6], t138, t160);
     const double t172 = MW_FMA(t79, t145, t171);
@@ -958,7 +958,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t260 = t258 * t255;
     const double t261 = MW_FMS(t243, t248, t253);
     const double t262 = 1.0 / p[11];
-    const double t263 = 1.0 / t257;
+    const double t263 = 1.0 / t257;  /* derivation/relative: the same at the reference point of the pinion */
     const double t264 = t259 * t26;
     const double t265 = t260 * t26;
     const double t266 = t254 * t140;
@@ -973,22 +973,22 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t275 = MW_FMA(t271, t250, t261);
     const double t276 = t264 + t268;
     const double t277 = t265 + t269;
-    const double t278 = 1.0 / t275;
+    const double t278 = 1.0 / t275;  /* derivation/relative: the same at the reference point of the wheel */
     const double t279 = t26 * t205;
     const double t280 = p[6] * 6.283185307179586;
     const double t281 = t114 * t280;
     const double t282 = -t272;
-    const double t283 = MW_FMA(t254, t254, t189);
+    const double t283 = MW_FMA(t254, t254, t189);  /* axis_1_square: squared angular velocity about the axis */
     const double t284 = t276 / t283;
-    const double t285 = MW_FMA(t256, t256, t189);
+    const double t285 = MW_FMA(t256, t256, t189);  /* axis_2_square: squared angular velocity about the axis */
     const double t286 = t277 / t285;
     const double t287 = t281 / p[3];
     const double t288 = p[27] / c2;
-    const double t289 = t21 / t64;
+    const double t289 = t21 / t64;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t290 = p[4] * p[10];
     const double t291 = t22 * t290;
-    const double t292 = 1.0 / t232;
-    const double t293 = 1.0 / p[1];
+    const double t292 = 1.0 / t232;  /* derivation/step-size: natural size of an unknown */
+    const double t293 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t294 = t291 * t262;
     const double t295 = p[6] * s38;
     const double t296 = t72 * t295;
@@ -1028,7 +1028,7 @@ static inline int cylindrical_worm_zk_zn_setup(const double *p, double *s)
     const double t330 = t26 * t301;
     const double t331 = p[16] * t301;
     const double t332 = t26 * t331;
-    const double t333 = p[3] * t26;
+    const double t333 = p[3] * t26;  /* ratio: T1/T2 */
     const double t334 = t302 * t302;
     const double t335 = t72 * t334;
     const double t336 = p[0] * t302;
@@ -1284,19 +1284,19 @@ static inline void cylindrical_worm_zk_zn_set_phi(double *s, double phi)
  *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
 static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x, double *R, double *J)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zn_sincos(x[3], &s0, &c0);
     const double t2 = x[0] * 0.5;
     double s3, c3;
     cylindrical_worm_zk_zn_sincos(t2, &s3, &c3);
-    const double t5 = MW_FMA(x[2], s[18], s[19]);
+    const double t5 = MW_FMA(x[2], s[18], s[19]);  /* P_hob_x: blade edge */
     const double t6 = MW_FMS(x[2], s[23], s[24]);
     const double t7 = MW_FMA(t5, s[22], s[26]);
     const double t8 = x[2] * s[29];
     const double t9 = MW_FMA(s[18], t5, t8);
     const double t10 = x[2] * s[20];
     const double t11 = s[25] * t5;
-    double s12, c12;
+    double s12, c12;  /* of t_worm */
     cylindrical_worm_zk_zn_sincos(x[0], &s12, &c12);
     const double t14 = t6 * t11;
     const double t15 = s[25] * s0;
@@ -1317,15 +1317,15 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     double s30, c30;
     cylindrical_worm_zk_zn_sincos(t29, &s30, &c30);
     const double t32 = MW_FMA(s[21], t24, t25);
-    const double t33 = 1.0 / t23;
+    const double t33 = 1.0 / t23;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t34 = t32 * s[31];
     const double t35 = MW_FMS(x[2], s[32], t28);
     const double t36 = t23 * s[31];
-    const double t37 = c12 * s[1];
+    const double t37 = c12 * s[1];  /* n_worm_x: normal */
     const double t38 = MW_FNMA(t22, t34, t27);
     const double t39 = MW_FMS(s12, s[5], s[6]);
     const double t40 = MW_FMA(s12, s[10], s[11]);
-    const double t41 = x[4] + s[153];
+    const double t41 = x[4] + s[153];  /* wheel angle */
     const double t42 = t40 * t37;
     const double t43 = s[12] * t39;
     const double t44 = s3 * s3;
@@ -1340,27 +1340,27 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     const double t53 = t9 * s[44];
     const double t54 = t46 * s[33];
     const double t55 = MW_FNMA(s[35], t24, t53);
-    const double t56 = 1.0 / t48;
+    const double t56 = 1.0 / t48;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t57 = MW_FNMA(s[2], s12, t49);
     const double t58 = MW_FMA(t39, t52, t51);
     const double t59 = s[12] * c12;
     const double t60 = s[3] * c12;
     const double t61 = MW_FNMA(s[3], t57, s[4]);
-    const double t62 = x[2] * s[22];
+    const double t62 = x[2] * s[22];  /* P_hob_z: blade edge */
     const double t63 = MW_FMS(s12, s[42], s[43]);
     const double t64 = s[39] * t63;
     const double t65 = s[36] * t63;
     const double t66 = c12 * s[45];
     const double t67 = c12 * s[46];
-    const double t68 = t54 * t33;
+    const double t68 = t54 * t33;  /* psi_hob: screw angle of the hob flank */
     const double t69 = MW_FMS(t37, t61, t58);
-    const double t70 = x[3] - t68;
+    const double t70 = x[3] - t68;  /* phi_hob: angle of the hob in cutting */
     const double t71 = MW_FMA(t68, s[34], t62);
     const double t72 = MW_FNMA(s[31], t70, t41);
     const double t73 = MW_FNMA(s[35], t71, t28);
     double s74, c74;
     cylindrical_worm_zk_zn_sincos(t72, &s74, &c74);
-    const double t76 = t69 * t56;
+    const double t76 = t69 * t56;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t77 = MW_FNMA(s[12], t76, s[2]);
     const double t78 = MW_FNMA(s[14], t76, s[15]);
     const double t79 = c30 * t59;
@@ -1369,7 +1369,7 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     const double t82 = MW_FMS(t40, c30, t80);
     const double t83 = c30 * t60;
     const double t84 = MW_FNMA(s12, t77, t49);
-    const double t85 = MW_FMA(c12, t77, t45);
+    const double t85 = MW_FMA(c12, t77, t45);  /* P_worm_x: contact point on the wheel */
     const double t86 = s30 * t60;
     const double t87 = MW_FMA(s12, s30, t83);
     const double t88 = MW_FMS(s12, c30, t86);
@@ -1379,8 +1379,8 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     const double t92 = MW_FMS(s[39], t87, t67);
     const double t93 = t78 * s[38];
     const double t94 = s[16] * t78;
-    const double t95 = MW_FMA(s[37], t84, t93);
-    const double t96 = MW_FMS(s[3], t84, t94);
+    const double t95 = MW_FMA(s[37], t84, t93);  /* P_worm_z: contact point on the wheel */
+    const double t96 = MW_FMS(s[3], t84, t94);  /* P_worm_y: contact point on the wheel */
     const double t97 = t85 * s30;
     const double t98 = MW_FMS(t85, c30, s[13]);
     const double t99 = s[40] * t81;
@@ -1405,7 +1405,7 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     const double t118 = t22 * s74;
     const double t119 = t32 * c74;
     const double t120 = t23 * c74;
-    const double t121 = MW_FNMA(s[21], t71, t116);
+    const double t121 = MW_FNMA(s[21], t71, t116);  /* row 2 of the contact equations */
     const double t122 = MW_FMS(t103, s[17], t117);
     const double t123 = MW_FMA(t102, s[39], t118);
     const double t124 = MW_FMS(t23, s74, t119);
@@ -1414,10 +1414,10 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
     const double t127 = MW_FNMA(t73, c74, t123);
     const double t128 = MW_FMA(t124, t90, t108);
     const double t129 = MW_FMA(t124, t92, t112);
-    const double t130 = MW_FNMA(t22, c74, t126);
-    const double t131 = MW_FNMA(s[36], t101, t127);
-    const double t132 = MW_FMA(t125, t105, t128);
-    const double t133 = MW_FNMA(t125, t110, t129);
+    const double t130 = MW_FNMA(t22, c74, t126);  /* row 0 of the contact equations */
+    const double t131 = MW_FNMA(s[36], t101, t127);  /* row 1 of the contact equations */
+    const double t132 = MW_FMA(t125, t105, t128);  /* row 3 of the contact equations */
+    const double t133 = MW_FNMA(t125, t110, t129);  /* row 4 of the contact equations */
     R[0] = t130;
     R[1] = t131;
     R[2] = t121;
@@ -1668,9 +1668,9 @@ static inline void cylindrical_worm_zk_zn_eval(const double *s, const double *x,
  *   derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zn_sincos(x[3], &s0, &c0);
-    const double t2 = MW_FMA(x[2], s[18], s[19]);
+    const double t2 = MW_FMA(x[2], s[18], s[19]);  /* P_hob_x: blade edge */
     const double t3 = MW_FMS(x[2], s[23], s[24]);
     const double t4 = MW_FMA(t2, s[22], s[26]);
     const double t5 = x[2] * s[29];
@@ -1684,7 +1684,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t13 = t6 * s[30];
     const double t14 = x[2] * s[27];
     const double t15 = MW_FNMA(t4, t14, t10);
-    double s16, c16;
+    double s16, c16;  /* of t_worm */
     cylindrical_worm_zk_zn_sincos(x[0], &s16, &c16);
     const double t18 = s[25] * s0;
     const double t19 = s[25] * c0;
@@ -1697,19 +1697,19 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t26 = MW_FMA(t4, t19, t20);
     const double t27 = MW_FMS(t18, t4, t21);
     const double t28 = t23 + t25;
-    const double t29 = x[4] + s[153];
+    const double t29 = x[4] + s[153];  /* wheel angle */
     const double t30 = t24 * s[21];
     const double t31 = s[152] + x[1];
     double s32, c32;
     cylindrical_worm_zk_zn_sincos(t31, &s32, &c32);
     const double t34 = MW_FMA(s[21], t27, t13);
-    const double t35 = 1.0 / t26;
+    const double t35 = 1.0 / t26;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t36 = t34 * s[31];
     const double t37 = MW_FMS(x[2], s[32], t30);
     const double t38 = t26 * s[31];
     const double t39 = MW_FMA(s16, s[10], s[11]);
     const double t40 = MW_FNMA(t28, t36, t15);
-    const double t41 = c16 * s[1];
+    const double t41 = c16 * s[1];  /* n_worm_x: normal */
     const double t42 = MW_FMS(s16, s[5], s[6]);
     const double t43 = t39 * t41;
     const double t44 = s[12] * t42;
@@ -1726,7 +1726,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t55 = s11 * s11;
     const double t56 = t48 * s[33];
     const double t57 = t51 + t51;
-    const double t58 = 1.0 / t50;
+    const double t58 = 1.0 / t50;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t59 = MW_FMA(t55, s[0], t53);
     const double t60 = t54 - t53;
     const double t61 = s[5] * c16;
@@ -1739,7 +1739,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t68 = s[3] * t60;
     const double t69 = c16 * s[10];
     const double t70 = c16 * s[49];
-    const double t71 = t56 * t35;
+    const double t71 = t56 * t35;  /* psi_hob: screw angle of the hob flank */
     const double t72 = MW_FMA(t42, t66, t62);
     const double t73 = MW_FMA(t42, t59, t65);
     const double t74 = MW_FNMA(s[3], t67, s[4]);
@@ -1747,13 +1747,13 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t76 = t41 * t68;
     const double t77 = s16 * s[1];
     const double t78 = MW_FNMA(s16, t44, t75);
-    const double t79 = x[3] - t71;
+    const double t79 = x[3] - t71;  /* phi_hob: angle of the hob in cutting */
     const double t80 = MW_FMA(c16, s[47], t72);
     const double t81 = MW_FMS(t41, t74, t73);
     const double t82 = t41 * t69;
     const double t83 = MW_FNMA(t39, t77, t82);
     const double t84 = MW_FMA(t74, t77, t76);
-    const double t85 = x[2] * s[22];
+    const double t85 = x[2] * s[22];  /* P_hob_z: blade edge */
     const double t86 = MW_FMA(t71, s[34], t85);
     const double t87 = MW_FNMA(s[31], t79, t29);
     const double t88 = MW_FMA(t2, c0, t23);
@@ -1765,7 +1765,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t94 = t27 * s[31];
     double s95, c95;
     cylindrical_worm_zk_zn_sincos(t87, &s95, &c95);
-    const double t97 = t81 * t58;
+    const double t97 = t81 * t58;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t98 = MW_FMA(t97, t90, t92);
     const double t99 = t37 * t94;
     const double t100 = MW_FNMA(s[12], t97, s[2]);
@@ -1788,7 +1788,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t117 = t104 - t109;
     const double t118 = MW_FNMA(s[14], t97, s[15]);
     const double t119 = MW_FNMA(s[35], t27, t110);
-    const double t120 = MW_FMA(t55, s[0], t107);
+    const double t120 = MW_FMA(t55, s[0], t107);  /* P_worm_x: contact point on the wheel */
     const double t121 = MW_FMS(c16, t113, t106);
     const double t122 = MW_FMA(s16, t113, t107);
     const double t123 = s[20] * c0;
@@ -1849,7 +1849,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t178 = MW_FMS(t39, c32, t171);
     const double t179 = MW_FMA(t39, s32, t172);
     const double t180 = MW_FMS(s16, s[42], s[43]);
-    const double t181 = 1.0 / t173;
+    const double t181 = 1.0 / t173;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t182 = c32 * t69;
     const double t183 = MW_FMA(s32, t163, t182);
     const double t184 = c32 * t163;
@@ -1911,12 +1911,12 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t240 = s[40] * t203;
     const double t241 = MW_FMA(s[17], t218, t240);
     const double t242 = s[16] * t118;
-    const double t243 = 1.0 / t235;
+    const double t243 = 1.0 / t235;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t244 = MW_FMA(t210, t216, t237);
     const double t245 = MW_FNMA(t210, t225, t239);
-    const double t246 = MW_FMS(s[3], t114, t242);
+    const double t246 = MW_FMS(s[3], t114, t242);  /* P_worm_y: contact point on the wheel */
     const double t247 = t118 * s[38];
-    const double t248 = MW_FMA(s[37], t114, t247);
+    const double t248 = MW_FMA(s[37], t114, t247);  /* P_worm_z: contact point on the wheel */
     const double t249 = t212 * t208;
     const double t250 = MW_FMS(t197, t210, t249);
     const double t251 = s[21] * t26;
@@ -1974,7 +1974,7 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t303 = MW_FMA(t210, t283, t294);
     const double t304 = s[39] * t179;
     const double t305 = MW_FMA(t212, t304, t272);
-    const double t306 = 1.0 / t298;
+    const double t306 = 1.0 / t298;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t307 = t241 * t131;
     const double t308 = t228 * t131;
     const double t309 = MW_FMA(t220, t269, t307);
@@ -1988,8 +1988,8 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t317 = MW_FMA(t208, t271, t310);
     const double t318 = c95 * t133;
     const double t319 = s95 * t133;
-    const double t320 = MW_FNMA(t210, t238, t314);
-    const double t321 = MW_FMA(t210, t208, t315);
+    const double t320 = MW_FNMA(t210, t238, t314);  /* row 4 of the contact equations */
+    const double t321 = MW_FMA(t210, t208, t315);  /* row 3 of the contact equations */
     const double t322 = MW_FMA(s95, t286, t318);
     const double t323 = MW_FNMA(c95, t286, t319);
     const double t324 = MW_FMA(s[36], t295, s[50]);
@@ -2025,8 +2025,8 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t354 = MW_FMA(t297, s[40], t346);
     const double t355 = s[31] * t345;
     const double t356 = s[31] * t199;
-    const double t357 = MW_FNMA(s[36], t258, t349);
-    const double t358 = t351 - t165;
+    const double t357 = MW_FNMA(s[36], t258, t349);  /* row 1 of the contact equations */
+    const double t358 = t351 - t165;  /* row 0 of the contact equations */
     const double t359 = MW_FMA(t347, t352, t348);
     const double t360 = MW_FMA(t335, t353, t336);
     const double t361 = MW_FNMA(t24, s[35], t354);
@@ -2036,12 +2036,12 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     const double t365 = MW_FNMA(t357, t257, t321);
     const double t366 = MW_FNMA(t357, t227, t358);
     const double t367 = t359 * t360;
-    const double t368 = MW_FNMA(s[21], t86, t361);
+    const double t368 = MW_FNMA(s[21], t86, t361);  /* row 2 of the contact equations */
     const double t369 = MW_FNMA(t366, t292, t364);
     const double t370 = MW_FNMA(t366, t290, t365);
     const double t371 = MW_FMS(t362, t363, t367);
     const double t372 = MW_FNMA(t366, t289, t368);
-    const double t373 = 1.0 / t371;
+    const double t373 = 1.0 / t371;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t374 = MW_FMA(t372, t353, t369);
     const double t375 = MW_FMA(t372, t352, t370);
     const double t376 = t359 * t374;
@@ -2948,12 +2948,12 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t3 = x[0] * 0.5;
     double s4, c4;
     cylindrical_worm_zk_zn_seldom_sincos(t3, &s4, &c4);
-    double s6, c6;
+    double s6, c6;  /* of t_worm */
     cylindrical_worm_zk_zn_seldom_sincos(x[0], &s6, &c6);
-    double s8, c8;
+    double s8, c8;  /* of psi_fixed_hob */
     cylindrical_worm_zk_zn_seldom_sincos(x[3], &s8, &c8);
     const double t10 = MW_FMS(x[2], s[23], s[24]);
-    const double t11 = MW_FMA(x[2], s[18], s[19]);
+    const double t11 = MW_FMA(x[2], s[18], s[19]);  /* P_hob_x: blade edge */
     const double t12 = MW_FMA(t11, s[22], s[26]);
     const double t13 = x[2] * s[29];
     const double t14 = MW_FMA(s[18], t11, t13);
@@ -2970,7 +2970,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t25 = s[48] * c4;
     const double t26 = MW_FMS(c4, t25, t20);
     const double t27 = MW_FNMA(t12, t22, t19);
-    const double t28 = c6 * s[1];
+    const double t28 = c6 * s[1];  /* n_worm_x: normal */
     const double t29 = MW_FMS(s6, s[5], s[6]);
     const double t30 = MW_FMA(s6, s[10], s[11]);
     const double t31 = t24 + t24;
@@ -2992,7 +2992,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t47 = MW_FMS(c4, t16, t39);
     const double t48 = MW_FMS(s[0], t31, t39);
     const double t49 = MW_FNMA(s[3], t47, s[4]);
-    const double t50 = 1.0 / t44;
+    const double t50 = 1.0 / t44;  /* derivation/explicit: slope of the equation of meshing in u_worm */
     const double t51 = t42 * t42;
     const double t52 = t28 * t46;
     const double t53 = t32 * s[9];
@@ -3016,14 +3016,14 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t71 = t15 * c8;
     const double t72 = s8 * t15;
     const double t73 = t63 + t66;
-    const double t74 = sqrt(t64);
+    const double t74 = sqrt(t64);  /* derivation/unit: length of a normal */
     const double t75 = t67 - t68;
     const double t76 = MW_FMS(t11, s8, t71);
     const double t77 = t10 * t69;
     const double t78 = t10 * t70;
     const double t79 = MW_FMS(t11, c8, s[28]);
     const double t80 = t72 + t79;
-    const double t81 = x[4] + s[153];
+    const double t81 = x[4] + s[153];  /* wheel angle */
     const double t82 = MW_FMA(t12, t70, t77);
     const double t83 = MW_FMS(t69, t12, t78);
     const double t84 = t76 * s[21];
@@ -3033,8 +3033,8 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t88 = MW_FMA(t11, c8, t72);
     const double t89 = c8 * s[51];
     const double t90 = MW_FMA(s[21], t83, t21);
-    const double t91 = 1.0 / t82;
-    const double t92 = t62 * t50;
+    const double t91 = 1.0 / t82;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
+    const double t92 = t62 * t50;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
     const double t93 = MW_FMS(x[2], s[32], t84);
     const double t94 = t82 * s[31];
     const double t95 = MW_FMS(s8, s[54], t89);
@@ -3068,19 +3068,19 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t123 = s[21] * t102;
     const double t124 = MW_FMS(c6, t116, t110);
     const double t125 = MW_FMA(s6, t116, t109);
-    const double t126 = MW_FMA(t33, s[0], t109);
+    const double t126 = MW_FMA(t33, s[0], t109);  /* P_worm_x: contact point on the wheel */
     const double t127 = s[31] * t105;
-    const double t128 = t42 / t74;
-    const double t129 = t43 / t74;
+    const double t128 = t42 / t74;  /* derivation/unit: length of a normal */
+    const double t129 = t43 / t74;  /* derivation/unit: length of a normal */
     const double t130 = MW_FMA(s[0], t31, t124);
     const double t131 = t26 - t125;
-    const double t132 = t120 * t91;
+    const double t132 = t120 * t91;  /* psi_hob: screw angle of the hob flank */
     const double t133 = t119 - t122;
-    const double t134 = t32 / t74;
+    const double t134 = t32 / t74;  /* derivation/unit: length of a normal */
     const double t135 = MW_FMS(s[3], t131, t117);
     const double t136 = MW_FMA(s[37], t131, t118);
     const double t137 = s1 * t130;
-    const double t138 = x[3] - t132;
+    const double t138 = x[3] - t132;  /* phi_hob: angle of the hob in cutting */
     const double t139 = c1 * t130;
     const double t140 = t93 * t127;
     const double t141 = t83 * s[31];
@@ -3112,14 +3112,14 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t167 = s[33] * t161;
     const double t168 = MW_FNMA(t132, t105, t166);
     const double t169 = MW_FMA(t83, t132, t167);
-    const double t170 = x[2] * s[22];
+    const double t170 = x[2] * s[22];  /* P_hob_z: blade edge */
     const double t171 = MW_FMA(t132, s[34], t170);
     const double t172 = MW_FNMA(t136, t134, t165);
     const double t173 = c6 * s[7];
     const double t174 = t91 * t168;
     const double t175 = t91 * t169;
     const double t176 = s[21] * t82;
-    const double t177 = t173 / t74;
+    const double t177 = t173 / t74;  /* derivation/unit: length of a normal */
     const double t178 = MW_FNMA(t128, t172, t142);
     const double t179 = MW_FNMA(t129, t172, t143);
     const double t180 = MW_FMA(t134, t172, t136);
@@ -3143,7 +3143,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t198 = MW_FMS(t82, s162, t197);
     const double t199 = s162 * t185;
     const double t200 = c162 * t185;
-    const double t201 = sqrt(t194);
+    const double t201 = sqrt(t194);  /* derivation/unit: length of a normal */
     const double t202 = MW_FMS(s[17], t196, t152);
     const double t203 = MW_FMA(s[40], t196, t155);
     const double t204 = s[39] * t198;
@@ -3177,7 +3177,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t232 = t221 + t225;
     const double t233 = s162 * t105;
     const double t234 = MW_FNMA(t82, t199, t231);
-    const double t235 = sqrt(t227);
+    const double t235 = sqrt(t227);  /* derivation/unit: length of a normal */
     const double t236 = t228 + t230;
     const double t237 = MW_FMA(t82, t200, t233);
     const double t238 = s162 * t98;
@@ -3195,14 +3195,14 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t250 = c162 * t176;
     const double t251 = MW_FMA(t90, t218, t250);
     const double t252 = s[16] * t159;
-    const double t253 = MW_FMS(s[3], t121, t252);
+    const double t253 = MW_FMS(s[3], t121, t252);  /* P_worm_y: contact point on the wheel */
     const double t254 = s[17] * t189;
     const double t255 = t244 + t249;
     const double t256 = MW_FNMA(s[40], t216, t254);
-    const double t257 = t180 / t201;
+    const double t257 = t180 / t201;  /* derivation/unit: length of a normal */
     const double t258 = t251 + t245;
-    const double t259 = t179 / t201;
-    const double t260 = t178 / t201;
+    const double t259 = t179 / t201;  /* derivation/unit: length of a normal */
+    const double t260 = t178 / t201;  /* derivation/unit: length of a normal */
     const double t261 = s[17] * t183;
     const double t262 = MW_FNMA(s[40], t232, t261);
     const double t263 = s[17] * t160;
@@ -3229,10 +3229,10 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t284 = MW_FMA(s[17], t255, t283);
     const double t285 = t126 * c1;
     const double t286 = MW_FNMA(t253, s1, t285);
-    const double t287 = t278 / t235;
-    const double t288 = t266 / t235;
-    const double t289 = t284 / t235;
-    const double t290 = t280 / t235;
+    const double t287 = t278 / t235;  /* derivation/unit: length of a normal */
+    const double t288 = t266 / t235;  /* derivation/unit: length of a normal */
+    const double t289 = t284 / t235;  /* derivation/unit: length of a normal */
+    const double t290 = t280 / t235;  /* derivation/unit: length of a normal */
     const double t291 = t129 * t257;
     const double t292 = s[40] * t189;
     const double t293 = MW_FMA(s[17], t216, t292);
@@ -3249,10 +3249,10 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t304 = MW_FMS(s[36], t282, t303);
     const double t305 = s[36] * t258;
     const double t306 = MW_FMA(s[39], t282, t305);
-    const double t307 = t301 / t74;
-    const double t308 = t302 / t74;
-    const double t309 = t304 / t235;
-    const double t310 = t306 / t235;
+    const double t307 = t301 / t74;  /* derivation/unit: length of a normal */
+    const double t308 = t302 / t74;  /* derivation/unit: length of a normal */
+    const double t309 = t304 / t235;  /* derivation/unit: length of a normal */
+    const double t310 = t306 / t235;  /* derivation/unit: length of a normal */
     const double t311 = t128 * t259;
     const double t312 = MW_FMS(t129, t260, t311);
     const double t313 = t268 * t259;
@@ -3292,11 +3292,11 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t347 = MW_FMS(t312, t290, t341);
     const double t348 = MW_FMS(t337, t340, t336);
     const double t349 = t129 * t299;
-    const double t350 = (-1.0) / t342;
+    const double t350 = (-1.0) / t342;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t351 = MW_FMA(t257, t290, t344);
     const double t352 = MW_FMS(t260, t309, t338);
     const double t353 = t299 * t309;
-    const double t354 = (-1.0) / t348;
+    const double t354 = (-1.0) / t348;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t355 = MW_FMA(t300, t289, t353);
     const double t356 = MW_FMS(t259, t308, t345);
     const double t357 = MW_FMA(t300, t308, t346);
@@ -3322,12 +3322,12 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t377 = MW_FMS(t337, t363, t376);
     const double t378 = t159 * s[38];
     const double t379 = MW_FMS(t340, t347, t372);
-    const double t380 = MW_FMA(s[37], t121, t378);
+    const double t380 = MW_FMA(s[37], t121, t378);  /* P_worm_z: contact point on the wheel */
     const double t381 = t80 * s191;
     const double t382 = MW_FMA(t181, c191, t381);
     const double t383 = t80 * c191;
     const double t384 = MW_FNMA(t181, s191, t383);
-    double s385, c385;
+    double s385, c385;  /* of psi_worm */
     cylindrical_worm_zk_zn_seldom_sincos(x[1], &s385, &c385);
     const double t387 = t350 * t366;
     const double t388 = t350 * t368;
@@ -3346,14 +3346,14 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t401 = 0.5 * t394;
     const double t402 = t396 + t397;
     const double t403 = t397 - t396;
-    const double t404 = t202 / t235;
+    const double t404 = t202 / t235;  /* derivation/unit: length of a normal */
     const double t405 = 0.5 * t402;
     const double t406 = sqrt(t399);
     const double t407 = 0.5 * t403;
     const double t408 = t400 + t401;
-    const double t409 = t211 / t235;
+    const double t409 = t211 / t235;  /* derivation/unit: length of a normal */
     const double t410 = t405 * t405;
-    const double t411 = t212 / t235;
+    const double t411 = t212 / t235;  /* derivation/unit: length of a normal */
     const double t412 = t407 * t407;
     const double t413 = t76 * s[35];
     const double t414 = MW_FMA(t408, t408, t410);
@@ -3424,7 +3424,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t479 = t466 - t472;
     const double t480 = -t404;
     const double t481 = -t299;
-    const double t482 = t458 / t474;
+    const double t482 = t458 / t474;  /* derivation/quotient: larger principal curvature of the gap */
     const double t483 = -t388;
     const double t484 = -t396;
     const double t485 = -t408;
@@ -3447,7 +3447,7 @@ static inline void cylindrical_worm_zk_zn_observe(const double *s, const double 
     const double t502 = t492 * t495;
     const double t503 = t477 * t457;
     const double t504 = MW_FMA(t479, t459, t503);
-    const double t505 = t476 / t447;
+    const double t505 = t476 / t447;  /* derivation/quotient: lever arm of the wheel */
     const double t506 = t497 * t500;
     const double t507 = t136 * t444;
     const double t508 = MW_FMS(s[9], t489, t507);

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 425, set_phi 2, R 145, R and J 320, step 403, observe 665.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -703,12 +703,12 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t18 = t14 * (-0.25);
     const double t19 = t16 / s2;
     const double t20 = s4 * s4;
-    const double t21 = c4 * t17;
+    const double t21 = c4 * t17;  /* P_hob_z_t_hob */
     const double t22 = s4 / c4;
     const double t23 = p[0] * s4;
     const double t24 = MW_FMA(t18, t20, t9);
     const double t25 = s2 * t23;
-    const double t26 = 1.0 / p[4];
+    const double t26 = 1.0 / p[4];  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t27 = p[10] * p[11];
     const double t28 = p[10] * c2;
     const double t29 = p[10] * (-4.0);
@@ -733,7 +733,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t48 = t22 * t35;
     const double t49 = t34 * t19;
     const double t50 = p[0] * t46;
-    const double t51 = 1.0 / t44;
+    const double t51 = 1.0 / t44;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t52 = t47 * t26;
     const double t53 = s10 * t48;
     const double t54 = p[0] * s10;
@@ -755,7 +755,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t70 = c2 * t21;
     const double t71 = t66 + t64;
     const double t72 = t16 / s0;
-    const double t73 = t30 + t40;
+    const double t73 = t30 + t40;  /* r_t_hob: distance of the virtual apex from the axis */
     const double t74 = t54 * t68;
     const double t75 = p[0] * c2;
     const double t76 = t36 * t70;
@@ -767,7 +767,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t82 = t57 * t50;
     const double t83 = t65 * t82;
     const double t84 = t75 * t46;
-    const double t85 = MW_FMA(t77, t77, t56);
+    const double t85 = MW_FMA(t77, t77, t56);  /* axes_discriminant: negative where there are no meshing axes */
     const double t86 = t76 * t19;
     const double t87 = t25 * c10;
     const double t88 = MW_FMA(c2, t80, t49);
@@ -785,7 +785,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t100 = t91 * t92;
     const double t101 = c10 * t80;
     const double t102 = MW_FNMA(t89, t58, t96);
-    const double t103 = 1.0 / t98;
+    const double t103 = 1.0 / t98;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t104 = t94 - t99;
     const double t105 = t57 * t97;
     const double t106 = t57 * t98;
@@ -815,11 +815,11 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t130 = p[8] + p[18];
     double s131, c131;
     cylindrical_worm_zn_zn_seldom_sincos(t130, &s131, &c131);
-    const double t133 = t124 * t103;
+    const double t133 = t124 * t103;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t134 = t57 * t133;
     const double t135 = MW_FNMA(t50, t133, t128);
     const double t136 = t93 * t126;
-    const double t137 = t123 + t62;
+    const double t137 = t123 + t62;  /* r_t_worm: distance of the virtual apex from the axis */
     const double t138 = MW_FNMA(t79, t133, t136);
     const double t139 = t77 - t95;
     const double t140 = t77 + t95;
@@ -828,8 +828,8 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t143 = 0.5 * t139;
     const double t144 = 0.5 * t140;
     const double t145 = t103 * t135;
-    const double t146 = t143 / t66;
-    const double t147 = t144 / t66;
+    const double t146 = t143 / t66;  /* axis_1_share: share of the screw that makes the twist a rotation */
+    const double t147 = t144 / t66;  /* axis_2_share: share of the screw that makes the twist a rotation */
     const double t148 = t103 * t138;
     const double t149 = s10 * t50;
     const double t150 = s10 * t66;
@@ -849,7 +849,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t164 = p[11] * c10;
     const double t165 = t158 / t162;
     const double t166 = s38 * t163;
-    const double t167 = t163 * c38;
+    const double t167 = t163 * c38;  /* P_worm_z_t_worm */
     const double t168 = p[6] * c0;
     const double t169 = t127 * t168;
     const double t170 = MW_FMA(s10, t161, t87);
@@ -908,7 +908,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t223 = MW_FNMA(c141, t170, t221);
     const double t224 = t214 + t217;
     const double t225 = MW_FMA(s141, t170, t222);
-    const double t226 = 1.0 / t218;
+    const double t226 = 1.0 / t218;  /* derivation/relative: the same at the reference point of the pinion */
     const double t227 = t220 + t215;
     const double t228 = c2 * s141;
     const double t229 = MW_FMA(t91, t207, t228);
@@ -945,17 +945,17 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t260 = p[6] * 6.283185307179586;
     const double t261 = t127 * t260;
     const double t262 = -t254;
-    const double t263 = MW_FMA(t190, t190, t165);
+    const double t263 = MW_FMA(t190, t190, t165);  /* axis_1_square: squared angular velocity about the axis */
     const double t264 = t252 / t263;
-    const double t265 = MW_FMA(t192, t192, t165);
+    const double t265 = MW_FMA(t192, t192, t165);  /* axis_2_square: squared angular velocity about the axis */
     const double t266 = t253 / t265;
-    const double t267 = 1.0 / t258;
+    const double t267 = 1.0 / t258;  /* derivation/relative: the same at the reference point of the wheel */
     const double t268 = t261 / p[3];
     const double t269 = p[26] / c2;
-    const double t270 = t21 / t66;
+    const double t270 = t21 / t66;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t271 = p[4] * p[10];
     const double t272 = t22 * t271;
-    const double t273 = 1.0 / p[1];
+    const double t273 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t274 = p[10] * 2.0;
     const double t275 = t25 * t274;
     const double t276 = p[10] * (-2.0);
@@ -999,7 +999,7 @@ static inline int cylindrical_worm_zn_zn_setup(const double *p, double *s)
     const double t314 = t26 * t279;
     const double t315 = p[15] * t279;
     const double t316 = t26 * t315;
-    const double t317 = p[3] * t26;
+    const double t317 = p[3] * t26;  /* ratio: T1/T2 */
     const double t318 = t285 * t285;
     const double t319 = t300 * t318;
     const double t320 = p[0] * t285;
@@ -1242,9 +1242,9 @@ static inline void cylindrical_worm_zn_zn_set_phi(double *s, double phi)
  *   derivation/angles. */
 static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x, double *R, double *J)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_zn_zn_sincos(x[3], &s0, &c0);
-    const double t2 = MW_FMA(x[2], s[5], s[6]);
+    const double t2 = MW_FMA(x[2], s[5], s[6]);  /* P_hob_x: blade edge */
     const double t3 = MW_FMS(x[2], s[10], s[11]);
     const double t4 = MW_FMA(t2, s[9], s[13]);
     const double t5 = x[2] * s[16];
@@ -1258,17 +1258,17 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
     cylindrical_worm_zn_zn_sincos(t11, &s12, &c12);
     const double t14 = MW_FNMA(t4, t9, t10);
     const double t15 = t6 * s[17];
-    const double t16 = x[4] + s[142];
+    const double t16 = x[4] + s[142];  /* wheel angle */
     const double t17 = t6 * s[30];
     const double t18 = x[0] * s[0];
-    const double t19 = MW_FMA(x[0], s[1], s[2]);
+    const double t19 = MW_FMA(x[0], s[1], s[2]);  /* P_worm_x: blade edge */
     const double t20 = s[12] * s0;
     const double t21 = s[12] * c0;
     const double t22 = t7 * c0;
     const double t23 = MW_FMS(t2, c0, s[15]);
-    const double t24 = x[0] * s[25];
+    const double t24 = x[0] * s[25];  /* P_worm_z: blade edge */
     const double t25 = MW_FMA(x[1], s[24], t24);
-    const double t26 = x[2] * s[9];
+    const double t26 = x[2] * s[9];  /* P_hob_z: blade edge */
     const double t27 = MW_FMS(t2, s0, t22);
     const double t28 = MW_FMA(s0, t7, t23);
     const double t29 = t3 * t20;
@@ -1278,7 +1278,7 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
     const double t33 = MW_FMS(t20, t4, t30);
     const double t34 = t27 * s[8];
     const double t35 = MW_FMA(s[8], t33, t15);
-    const double t36 = 1.0 / t32;
+    const double t36 = 1.0 / t32;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t37 = MW_FMS(x[2], s[19], t34);
     const double t38 = t32 * s[18];
     const double t39 = MW_FNMA(s[22], t33, t17);
@@ -1293,13 +1293,13 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
     const double t48 = MW_FMS(t19, s12, t45);
     const double t49 = MW_FMS(s[1], s12, t46);
     const double t50 = MW_FMA(s[1], c12, t47);
-    const double t51 = t43 * t36;
+    const double t51 = t43 * t36;  /* psi_hob: screw angle of the hob flank */
     const double t52 = t44 - s[3];
     const double t53 = MW_FMA(t18, s12, t44);
     const double t54 = MW_FMA(t18, s12, t52);
     const double t55 = MW_FMA(t48, s[23], t31);
     const double t56 = MW_FMA(s[23], t49, s[29]);
-    const double t57 = x[3] - t51;
+    const double t57 = x[3] - t51;  /* phi_hob: angle of the hob in cutting */
     const double t58 = MW_FMA(t51, s[21], t26);
     const double t59 = MW_FMS(s[26], t49, s[31]);
     const double t60 = s[27] * t50;
@@ -1323,7 +1323,7 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
     const double t78 = MW_FMS(s[4], t55, s[28]);
     const double t79 = MW_FMA(t54, s[27], t78);
     const double t80 = MW_FNMA(t27, s[22], t79);
-    const double t81 = MW_FNMA(s[8], t58, t80);
+    const double t81 = MW_FNMA(s[8], t58, t80);  /* row 2 of the contact equations */
     const double t82 = MW_FNMA(t66, s73, t71);
     const double t83 = MW_FMA(t28, s73, t72);
     const double t84 = t35 * c73;
@@ -1332,12 +1332,12 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
     const double t87 = MW_FNMA(t55, s[27], t82);
     const double t88 = MW_FNMA(t66, c73, t83);
     const double t89 = MW_FMA(t35, s73, t85);
-    const double t90 = MW_FNMA(t28, c73, t87);
+    const double t90 = MW_FNMA(t28, c73, t87);  /* row 0 of the contact equations */
     const double t91 = MW_FMA(t86, t59, t70);
     const double t92 = MW_FMA(t86, t67, t75);
-    const double t93 = MW_FNMA(s[23], t25, t88);
-    const double t94 = MW_FNMA(t89, t63, t91);
-    const double t95 = MW_FMA(t89, t77, t92);
+    const double t93 = MW_FNMA(s[23], t25, t88);  /* row 1 of the contact equations */
+    const double t94 = MW_FNMA(t89, t63, t91);  /* row 3 of the contact equations */
+    const double t95 = MW_FMA(t89, t77, t92);  /* row 4 of the contact equations */
     R[0] = t90;
     R[1] = t93;
     R[2] = t81;
@@ -1498,9 +1498,9 @@ static inline void cylindrical_worm_zn_zn_eval(const double *s, const double *x,
  *   derivation/angles, derivation/elimination, derivation/step-size. */
 static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
 {
-    double s0, c0;
+    double s0, c0;  /* of psi_fixed_hob */
     cylindrical_worm_zn_zn_sincos(x[3], &s0, &c0);
-    const double t2 = MW_FMA(x[2], s[5], s[6]);
+    const double t2 = MW_FMA(x[2], s[5], s[6]);  /* P_hob_x: blade edge */
     const double t3 = MW_FMS(x[2], s[10], s[11]);
     const double t4 = MW_FMA(t2, s[9], s[13]);
     const double t5 = x[2] * s[16];
@@ -1510,13 +1510,13 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t9 = x[2] * s[14];
     const double t10 = t3 * t8;
     const double t11 = s[141] + x[1];
-    const double t12 = x[4] + s[142];
+    const double t12 = x[4] + s[142];  /* wheel angle */
     const double t13 = t6 * s[17];
     double s14, c14;
     cylindrical_worm_zn_zn_sincos(t11, &s14, &c14);
     const double t16 = MW_FNMA(t4, t9, t10);
     const double t17 = t6 * s[30];
-    const double t18 = x[2] * s[9];
+    const double t18 = x[2] * s[9];  /* P_hob_z: blade edge */
     const double t19 = t3 * s[35];
     const double t20 = s[12] * s0;
     const double t21 = s[12] * c0;
@@ -1543,7 +1543,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t42 = MW_FNMA(s[22], t33, s[45]);
     const double t43 = s0 * s[7];
     const double t44 = MW_FMA(s[8], t37, t13);
-    const double t45 = 1.0 / t36;
+    const double t45 = 1.0 / t36;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t46 = MW_FMS(x[2], s[19], t38);
     const double t47 = t36 * s[18];
     const double t48 = MW_FMA(s[5], c0, t43);
@@ -1571,7 +1571,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t70 = MW_FMA(t50, t48, t63);
     const double t71 = s[22] * t32;
     const double t72 = x[0] * s[0];
-    const double t73 = MW_FMA(x[0], s[1], s[2]);
+    const double t73 = MW_FMA(x[0], s[1], s[2]);  /* P_worm_x: blade edge */
     const double t74 = t66 * s[20];
     const double t75 = s[19] - t64;
     const double t76 = MW_FMA(t47, t75, t69);
@@ -1582,13 +1582,13 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t81 = t73 * c14;
     const double t82 = c14 * t72;
     const double t83 = s[22] * t34;
-    const double t84 = x[0] * s[25];
+    const double t84 = x[0] * s[25];  /* P_worm_z: blade edge */
     const double t85 = MW_FMA(x[1], s[24], t84);
     const double t86 = t78 - t76;
     const double t87 = MW_FMA(s[1], c14, t79);
     const double t88 = MW_FMS(s[1], s14, t80);
     const double t89 = MW_FMS(t73, s14, t82);
-    const double t90 = t74 * t45;
+    const double t90 = t74 * t45;  /* psi_hob: screw angle of the hob flank */
     const double t91 = MW_FMA(t72, s14, t81);
     const double t92 = t81 - s[3];
     const double t93 = t85 * s[26];
@@ -1596,7 +1596,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t95 = MW_FMA(t72, s14, t92);
     const double t96 = s[4] * t87;
     const double t97 = MW_FMA(s[23], t88, s[29]);
-    const double t98 = x[3] - t90;
+    const double t98 = x[3] - t90;  /* phi_hob: angle of the hob in cutting */
     const double t99 = MW_FMA(t90, s[21], t18);
     const double t100 = MW_FMA(t37, t90, t77);
     const double t101 = MW_FMS(s[26], t88, s[31]);
@@ -1609,7 +1609,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t108 = t45 * t100;
     const double t109 = s[27] * t88;
     const double t110 = t45 * t102;
-    const double t111 = 1.0 / t103;
+    const double t111 = 1.0 / t103;  /* derivation/elimination: pivot 3 of the Newton step */
     double s112, c112;
     cylindrical_worm_zn_zn_sincos(t106, &s112, &c112);
     const double t114 = MW_FNMA(t108, s[40], t40);
@@ -1651,7 +1651,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t150 = s[18] * t149;
     const double t151 = s[18] * t110;
     const double t152 = MW_FNMA(t28, s[22], t148);
-    const double t153 = MW_FNMA(s[8], t99, t152);
+    const double t153 = MW_FNMA(s[8], t99, t152);  /* row 2 of the contact equations */
     const double t154 = t36 * c112;
     const double t155 = t44 * c112;
     const double t156 = t37 * s112;
@@ -1682,9 +1682,9 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t181 = MW_FMS(t125, t165, t172);
     const double t182 = MW_FMS(t162, t141, t176);
     const double t183 = t177 - t159;
-    const double t184 = t175 - t158;
-    const double t185 = MW_FNMA(s[23], t85, t183);
-    const double t186 = 1.0 / t178;
+    const double t184 = t175 - t158;  /* row 0 of the contact equations */
+    const double t185 = MW_FNMA(s[23], t85, t183);  /* row 1 of the contact equations */
+    const double t186 = 1.0 / t178;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t187 = c112 * t41;
     const double t188 = MW_FMS(s112, t39, t187);
     const double t189 = s112 * t41;
@@ -1695,8 +1695,8 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t194 = MW_FMA(t163, t131, t145);
     const double t195 = MW_FMA(t101, t188, t136);
     const double t196 = MW_FMA(t131, t188, t137);
-    const double t197 = MW_FNMA(t162, t103, t193);
-    const double t198 = MW_FMA(t162, t125, t194);
+    const double t197 = MW_FNMA(t162, t103, t193);  /* row 3 of the contact equations */
+    const double t198 = MW_FMA(t162, t125, t194);  /* row 4 of the contact equations */
     const double t199 = s112 * t48;
     const double t200 = c112 * t48;
     const double t201 = MW_FNMA(c112, t133, t199);
@@ -1723,7 +1723,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t222 = MW_FMA(t213, t122, t212);
     const double t223 = MW_FNMA(t179, t208, t182);
     const double t224 = MW_FNMA(t197, t208, t198);
-    const double t225 = 1.0 / t217;
+    const double t225 = 1.0 / t217;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t226 = MW_FMA(t214, t122, t216);
     const double t227 = MW_FNMA(t215, t122, t218);
     const double t228 = MW_FMA(t214, t143, t127);
@@ -1746,7 +1746,7 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     const double t245 = MW_FMS(t239, t240, t243);
     const double t246 = MW_FMS(t238, t240, t242);
     const double t247 = MW_FMS(t238, t241, t244);
-    const double t248 = 1.0 / t246;
+    const double t248 = 1.0 / t246;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t249 = t248 * t245;
     const double t250 = t248 * t247;
     const double t251 = MW_FNMA(t222, t249, t227);
@@ -2343,13 +2343,13 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t0 = s[141] + x[1];
     double s1, c1;
     cylindrical_worm_zn_zn_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of psi_fixed_hob */
     cylindrical_worm_zn_zn_seldom_sincos(x[3], &s3, &c3);
-    const double t5 = MW_FMA(x[0], s[1], s[2]);
+    const double t5 = MW_FMA(x[0], s[1], s[2]);  /* P_worm_x: blade edge */
     const double t6 = MW_FMS(x[0], s[54], s[55]);
     const double t7 = MW_FMA(t5, s[25], s[56]);
     const double t8 = MW_FMS(x[2], s[10], s[11]);
-    const double t9 = MW_FMA(x[2], s[5], s[6]);
+    const double t9 = MW_FMA(x[2], s[5], s[6]);  /* P_hob_x: blade edge */
     const double t10 = x[0] * s[49];
     const double t11 = MW_FMA(s[1], t5, t10);
     const double t12 = MW_FMA(t9, s[9], s[13]);
@@ -2360,7 +2360,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t17 = t8 * t16;
     const double t18 = s[12] * t11;
     const double t19 = x[2] * s[14];
-    const double t20 = x[4] + s[142];
+    const double t20 = x[4] + s[142];  /* wheel angle */
     const double t21 = t14 * s[17];
     const double t22 = t14 * s[30];
     const double t23 = t8 * s[35];
@@ -2372,7 +2372,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t29 = s[12] * s1;
     const double t30 = c1 * s[0];
     const double t31 = s[0] * s1;
-    const double t32 = x[2] * s[9];
+    const double t32 = x[2] * s[9];  /* P_hob_z: blade edge */
     const double t33 = x[0] * s[0];
     const double t34 = t24 - t27;
     const double t35 = c1 * t33;
@@ -2389,7 +2389,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t46 = MW_FMS(s1, s[67], t43);
     const double t47 = s1 * s[68];
     const double t48 = MW_FMA(c1, s[67], t47);
-    double s49, c49;
+    double s49, c49;  /* of psi_worm */
     cylindrical_worm_zn_zn_seldom_sincos(x[1], &s49, &c49);
     const double t51 = s[12] * s3;
     const double t52 = s[12] * c3;
@@ -2407,9 +2407,9 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t64 = t58 + t62;
     const double t65 = t61 * s[8];
     const double t66 = MW_FMA(t9, c3, t58);
-    const double t67 = 1.0 / t59;
+    const double t67 = 1.0 / t59;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
     const double t68 = MW_FMA(s[8], t60, t21);
-    const double t69 = sqrt(t63);
+    const double t69 = sqrt(t63);  /* derivation/unit: length of a normal */
     const double t70 = MW_FMS(x[2], s[19], t65);
     const double t71 = t59 * s[18];
     const double t72 = t68 * s[18];
@@ -2451,15 +2451,15 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t108 = s[4] * t104;
     const double t109 = s[27] * t104;
     const double t110 = t59 * s[70];
-    const double t111 = t96 * t67;
+    const double t111 = t96 * t67;  /* psi_hob: screw angle of the hob flank */
     const double t112 = t59 * s[71];
     const double t113 = s[12] * t6;
     const double t114 = t34 - t106;
     const double t115 = s[20] * t107;
-    const double t116 = x[0] * s[25];
+    const double t116 = x[0] * s[25];  /* P_worm_z: blade edge */
     const double t117 = MW_FMA(x[1], s[24], t116);
     const double t118 = s[12] * t7;
-    const double t119 = x[3] - t111;
+    const double t119 = x[3] - t111;  /* phi_hob: angle of the hob in cutting */
     const double t120 = MW_FMA(t111, s[21], t32);
     const double t121 = t61 * s[22];
     const double t122 = t114 - t102;
@@ -2467,10 +2467,10 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t124 = t33 * c49;
     const double t125 = t33 * s49;
     const double t126 = MW_FMS(t5, s49, t124);
-    const double t127 = t44 / t69;
-    const double t128 = t45 / t69;
+    const double t127 = t44 / t69;  /* derivation/unit: length of a normal */
+    const double t128 = t45 / t69;  /* derivation/unit: length of a normal */
     const double t129 = s[18] * t119;
-    const double t130 = t18 / t69;
+    const double t130 = t18 / t69;  /* derivation/unit: length of a normal */
     const double t131 = t20 - t129;
     const double t132 = s[20] * t122;
     const double t133 = MW_FNMA(t111, t79, t132);
@@ -2485,17 +2485,17 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t142 = MW_FMA(t134, s[42], t103);
     const double t143 = 1.0 - t134;
     const double t144 = s[18] * t143;
-    const double t145 = t46 / t69;
+    const double t145 = t46 / t69;  /* derivation/unit: length of a normal */
     const double t146 = MW_FNMA(s[25], t130, t140);
     const double t147 = s[18] * t141;
     const double t148 = MW_FMA(s[21], t141, s[9]);
     const double t149 = MW_FNMA(s[22], t148, t84);
     const double t150 = MW_FMA(s[8], t148, t101);
-    const double t151 = t48 / t69;
+    const double t151 = t48 / t69;  /* derivation/unit: length of a normal */
     const double t152 = MW_FNMA(t127, t146, t38);
     const double t153 = MW_FNMA(t128, t146, t39);
     const double t154 = MW_FMA(t130, t146, s[25]);
-    const double t155 = s[69] / t69;
+    const double t155 = s[69] / t69;  /* derivation/unit: length of a normal */
     double s156, c156;
     cylindrical_worm_zn_zn_seldom_sincos(t129, &s156, &c156);
     const double t158 = t152 * t152;
@@ -2514,7 +2514,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t171 = s137 * t83;
     const double t172 = c137 * t83;
     const double t173 = MW_FMA(t68, t163, t171);
-    const double t174 = sqrt(t166);
+    const double t174 = sqrt(t166);  /* derivation/unit: length of a normal */
     const double t175 = MW_FNMA(s[4], t167, t92);
     const double t176 = MW_FMA(s[27], t167, t93);
     const double t177 = t169 + t173;
@@ -2545,7 +2545,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t202 = t195 - t191;
     const double t203 = c137 * t144;
     const double t204 = MW_FNMA(t135, t203, t201);
-    const double t205 = sqrt(t197);
+    const double t205 = sqrt(t197);  /* derivation/unit: length of a normal */
     const double t206 = c137 * t136;
     const double t207 = MW_FMA(t135, t196, t206);
     const double t208 = t61 * s137;
@@ -2570,9 +2570,9 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t227 = MW_FMA(s[4], t209, t225);
     const double t228 = s[4] * t142;
     const double t229 = MW_FNMA(s[27], t209, t228);
-    const double t230 = t152 / t174;
-    const double t231 = t154 / t174;
-    const double t232 = t153 / t174;
+    const double t230 = t152 / t174;  /* derivation/unit: length of a normal */
+    const double t231 = t154 / t174;  /* derivation/unit: length of a normal */
+    const double t232 = t153 / t174;  /* derivation/unit: length of a normal */
     const double t233 = MW_FMS(s[27], t223, t110);
     const double t234 = MW_FMA(s[4], t223, t112);
     const double t235 = s[26] * t183;
@@ -2597,12 +2597,12 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t254 = t64 * c156;
     const double t255 = MW_FNMA(t135, s156, t254);
     const double t256 = t117 - s[74];
-    const double t257 = t236 / t205;
-    const double t258 = t234 / t205;
-    const double t259 = t186 / t205;
-    const double t260 = t248 / t205;
-    const double t261 = t238 / t205;
-    const double t262 = t250 / t205;
+    const double t257 = t236 / t205;  /* derivation/unit: length of a normal */
+    const double t258 = t234 / t205;  /* derivation/unit: length of a normal */
+    const double t259 = t186 / t205;  /* derivation/unit: length of a normal */
+    const double t260 = t248 / t205;  /* derivation/unit: length of a normal */
+    const double t261 = t238 / t205;  /* derivation/unit: length of a normal */
+    const double t262 = t250 / t205;  /* derivation/unit: length of a normal */
     const double t263 = t130 * t230;
     const double t264 = t128 * t231;
     const double t265 = t127 * t232;
@@ -2656,8 +2656,8 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t313 = MW_FMA(t270, t261, t307);
     const double t314 = MW_FMA(t231, t261, t308);
     const double t315 = t128 * t269;
-    const double t316 = (-1.0) / t309;
-    const double t317 = (-1.0) / t310;
+    const double t316 = (-1.0) / t309;  /* cylindrical_worm/undercut: singular function of a flank */
+    const double t317 = (-1.0) / t310;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t318 = MW_FMA(t127, t268, t315);
     const double t319 = t270 * t293;
     const double t320 = MW_FMS(t295, t297, t319);
@@ -2677,10 +2677,10 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t334 = MW_FMS(t283, t311, t333);
     const double t335 = t253 * t253;
     const double t336 = MW_FMA(t255, t255, t335);
-    const double t337 = t175 / t205;
-    const double t338 = t181 / t205;
+    const double t337 = t175 / t205;  /* derivation/unit: length of a normal */
+    const double t338 = t181 / t205;  /* derivation/unit: length of a normal */
     const double t339 = sqrt(t336);
-    const double t340 = t182 / t205;
+    const double t340 = t182 / t205;  /* derivation/unit: length of a normal */
     const double t341 = MW_FMA(s[8], t120, t121);
     const double t342 = s[28] + t121;
     const double t343 = MW_FMA(s[8], t120, t342);
@@ -2777,7 +2777,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t434 = t424 * t427;
     const double t435 = t414 * t392;
     const double t436 = MW_FMA(t416, t394, t435);
-    const double t437 = t412 / t371;
+    const double t437 = t412 / t371;  /* derivation/quotient: lever arm of the wheel */
     const double t438 = t429 * t432;
     const double t439 = s[24] * t421;
     const double t440 = MW_FNMA(s[25], t251, t439);
@@ -2798,7 +2798,7 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     const double t455 = MW_FNMA(t18, t442, t447);
     const double t456 = MW_FMA(s[4], t448, s[3]);
     const double t457 = s[26] * t450;
-    const double t458 = t398 / t452;
+    const double t458 = t398 / t452;  /* derivation/quotient: larger principal curvature of the gap */
     const double t459 = MW_FMA(t73, t436, t451);
     const double t460 = MW_FMA(s[27], t343, t456);
     const double t461 = s[23] * t450;

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 306, set_phi 14, R 268, R and J 681, step 809, observe 967.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
@@ -2564,8 +2564,8 @@ static inline int face_worm_setup(const double *p, double *s)
     const double t143 = MW_FNMA(t131, t137, t139);
     const double t144 = p[9] - p[8];
     const double t145 = 1.0 / t144;
-    const double t146 = 1.0 / t142;
-    const double t147 = 1.0 / t143;
+    const double t146 = 1.0 / t142;  /* derivation/relative: the same at the reference point of the wheel */
+    const double t147 = 1.0 / t143;  /* derivation/relative: the same at the reference point of the pinion */
     const double t148 = 3.141592653589793 / 2.0;
     const double t149 = p[0] * 0.5;
     const double t150 = p[1] * t149;
@@ -2581,7 +2581,7 @@ static inline int face_worm_setup(const double *p, double *s)
     const double t160 = p[51] / c96;
     const double t161 = p[1] * (-0.5);
     const double t162 = p[3] * t161;
-    const double t163 = 1.0 / p[3];
+    const double t163 = 1.0 / p[3];  /* derivation/step-size: natural size of an unknown */
     const double t164 = p[51] / c0;
     const double t165 = c96 * t162;
     const double t166 = p[18] / c96;
@@ -2939,18 +2939,18 @@ static inline void face_worm_eval(const double *s, const double *x, double *R, d
     double s7, c7;
     face_worm_sincos(t6, &s7, &c7);
     const double t9 = x[2] * s[19];
-    const double t10 = x[5] + s[158];
+    const double t10 = x[5] + s[158];  /* wheel angle */
     double s11, c11;
     face_worm_sincos(t9, &s11, &c11);
-    double s13, c13;
+    double s13, c13;  /* of wheel angle */
     face_worm_sincos(t10, &s13, &c13);
     const double t15 = MW_FMA(x[5], 0.5, s[159]);
     double s16, c16;
     face_worm_sincos(t15, &s16, &c16);
-    double s18, c18;
+    double s18, c18;  /* of theta_worm */
     face_worm_sincos(x[1], &s18, &c18);
     const double t20 = s[157] - x[2];
-    double s21, c21;
+    double s21, c21;  /* of theta_gear */
     face_worm_sincos(x[4], &s21, &c21);
     const double t23 = MW_FMA(x[2], (-0.5), s[156]);
     double s24, c24;
@@ -3104,15 +3104,15 @@ static inline void face_worm_eval(const double *s, const double *x, double *R, d
     const double t172 = s[21] * s16;
     const double t173 = MW_FNMA(c16, t172, t147);
     const double t174 = s26 * s[0];
-    const double t175 = MW_FMA(c26, t174, t143);
+    const double t175 = MW_FMA(c26, t174, t143);  /* row 0 of the contact equations */
     const double t176 = MW_FMA(t166, t150, t169);
     const double t177 = s26 * s[29];
-    const double t178 = MW_FMA(t165, t146, t170);
-    const double t179 = MW_FMA(t165, t155, t171);
-    const double t180 = MW_FMA(c26, t177, t173);
+    const double t178 = MW_FMA(t165, t146, t170);  /* row 3 of the contact equations */
+    const double t179 = MW_FMA(t165, t155, t171);  /* row 4 of the contact equations */
+    const double t180 = MW_FMA(c26, t177, t173);  /* row 1 of the contact equations */
     const double t181 = s11 * s[32];
-    const double t182 = MW_FNMA(c11, t181, t140);
-    const double t183 = MW_FNMA(t167, t151, t176);
+    const double t182 = MW_FNMA(c11, t181, t140);  /* row 2 of the contact equations */
+    const double t183 = MW_FNMA(t167, t151, t176);  /* row 5 of the contact equations */
     R[0] = t175;
     R[1] = t180;
     R[2] = t182;
@@ -3453,10 +3453,10 @@ static inline void face_worm_eval(const double *s, const double *x, double *R, d
  *   derivation/elimination, derivation/step-size. */
 static inline double face_worm_step(const double *s, double *x)
 {
-    const double t0 = x[5] + s[158];
+    const double t0 = x[5] + s[158];  /* wheel angle */
     const double t1 = x[1] * 0.5;
     const double t2 = x[4] * 0.5;
-    double s3, c3;
+    double s3, c3;  /* of wheel angle */
     face_worm_sincos(t0, &s3, &c3);
     double s5, c5;
     face_worm_sincos(t1, &s5, &c5);
@@ -3466,12 +3466,12 @@ static inline double face_worm_step(const double *s, double *x)
     const double t10 = x[2] * s[14];
     double s11, c11;
     face_worm_sincos(t9, &s11, &c11);
-    double s13, c13;
+    double s13, c13;  /* of theta_gear */
     face_worm_sincos(x[4], &s13, &c13);
     double s15, c15;
     face_worm_sincos(t10, &s15, &c15);
     const double t17 = x[2] * s[19];
-    double s18, c18;
+    double s18, c18;  /* of theta_worm */
     face_worm_sincos(x[1], &s18, &c18);
     double s20, c20;
     face_worm_sincos(t17, &s20, &c20);
@@ -3515,7 +3515,7 @@ static inline double face_worm_step(const double *s, double *x)
     const double t59 = s[157] - x[2];
     const double t60 = MW_FMA(s[16], t50, t58);
     const double t61 = s[55] * c5;
-    const double t62 = 1.0 / t54;
+    const double t62 = 1.0 / t54;  /* derivation/elimination: pivot 2 of the Newton step */
     const double t63 = MW_FMS(c5, t61, t57);
     const double t64 = MW_FMA(s[12], t43, t55);
     const double t65 = 0.5 * c5;
@@ -3636,7 +3636,7 @@ static inline double face_worm_step(const double *s, double *x)
     const double t180 = s[55] * c7;
     const double t181 = MW_FMS(c7, t180, t160);
     const double t182 = MW_FMA(s[11], t53, t174);
-    const double t183 = 1.0 / t176;
+    const double t183 = 1.0 / t176;  /* derivation/elimination: pivot 3 of the Newton step */
     const double t184 = MW_FMA(s[4], t53, t149);
     const double t185 = 0.5 * c7;
     const double t186 = s7 * t185;
@@ -3695,7 +3695,7 @@ static inline double face_worm_step(const double *s, double *x)
     const double t239 = MW_FMA(s[10], t204, t238);
     const double t240 = MW_FMS(t77, s3, s[30]);
     const double t241 = t98 + t240;
-    const double t242 = 1.0 / t233;
+    const double t242 = 1.0 / t233;  /* derivation/elimination: pivot 1 of the Newton step */
     const double t243 = MW_FMA(s[15], t198, t237);
     const double t244 = MW_FMA(s[4], t198, t239);
     const double t245 = s[10] * t51;
@@ -3739,7 +3739,7 @@ static inline double face_worm_step(const double *s, double *x)
     const double t283 = MW_FMA(s18, s[67], t282);
     const double t284 = s[8] * s13;
     const double t285 = MW_FMS(s[10], c13, t284);
-    const double t286 = 1.0 / t277;
+    const double t286 = 1.0 / t277;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t287 = t228 * t242;
     const double t288 = s[13] * s13;
     const double t289 = MW_FMA(s[12], c13, t288);
@@ -3892,7 +3892,7 @@ static inline double face_worm_step(const double *s, double *x)
     const double t436 = t343 - t429;
     const double t437 = t225 * t224;
     const double t438 = MW_FMA(t182, t375, t437);
-    const double t439 = MW_FNMA(t182, t225, t408);
+    const double t439 = MW_FNMA(t182, t225, t408);  /* row 5 of the contact equations */
     const double t440 = c15 * t224;
     const double t441 = MW_FMS(s15, t243, t440);
     const double t442 = MW_FNMA(t402, t426, t430);
@@ -3943,9 +3943,9 @@ static inline double face_worm_step(const double *s, double *x)
     const double t487 = MW_FNMA(t466, t465, t478);
     const double t488 = MW_FNMA(t402, t427, t480);
     const double t489 = MW_FNMA(t402, t425, t481);
-    const double t490 = MW_FMA(t388, t348, t483);
+    const double t490 = MW_FMA(t388, t348, t483);  /* row 4 of the contact equations */
     const double t491 = s11 * s11;
-    const double t492 = MW_FMA(t388, t316, t485);
+    const double t492 = MW_FMA(t388, t316, t485);  /* row 3 of the contact equations */
     const double t493 = MW_FNMA(t491, s[27], t100);
     const double t494 = MW_FNMA(t476, t468, t486);
     const double t495 = MW_FNMA(t476, t479, t487);
@@ -3967,13 +3967,13 @@ static inline double face_worm_step(const double *s, double *x)
     const double t511 = MW_FNMA(c11, t138, t507);
     const double t512 = MW_FMS(t504, t495, t508);
     const double t513 = MW_FNMA(t274, s[28], t509);
-    const double t514 = MW_FMA(c83, t363, t510);
-    const double t515 = MW_FMA(c83, t412, t511);
-    const double t516 = 1.0 / t512;
+    const double t514 = MW_FMA(c83, t363, t510);  /* row 0 of the contact equations */
+    const double t515 = MW_FMA(c83, t412, t511);  /* row 1 of the contact equations */
+    const double t516 = 1.0 / t512;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t517 = MW_FNMA(t154, s[21], t513);
     const double t518 = MW_FNMA(t439, t426, t514);
     const double t519 = MW_FNMA(t439, t424, t515);
-    const double t520 = MW_FNMA(c20, t366, t517);
+    const double t520 = MW_FNMA(c20, t366, t517);  /* row 2 of the contact equations */
     const double t521 = MW_FMA(t518, t78, t519);
     const double t522 = MW_FNMA(t439, t287, t520);
     const double t523 = MW_FNMA(t521, t465, t498);
@@ -4967,7 +4967,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t3 = s[157] - x[2];
     double s4, c4;
     face_worm_seldom_sincos(t3, &s4, &c4);
-    double s6, c6;
+    double s6, c6;  /* of theta_worm */
     face_worm_seldom_sincos(x[1], &s6, &c6);
     const double t8 = MW_FMS(x[0], s[33], s[2]);
     const double t9 = MW_FMA(x[0], s[35], s[5]);
@@ -5003,7 +5003,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t39 = MW_FMA(t8, t28, t31);
     const double t40 = MW_FMA(s[17], t32, t34);
     const double t41 = MW_FMA(s[10], t32, t36);
-    const double t42 = x[5] + s[158];
+    const double t42 = x[5] + s[158];  /* wheel angle */
     const double t43 = s1 * t35;
     const double t44 = c1 * t35;
     const double t45 = MW_FMA(x[2], (-0.5), s[156]);
@@ -5038,23 +5038,23 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     double s74, c74;
     face_worm_seldom_sincos(t53, &s74, &c74);
     const double t76 = MW_FMA(t66, t66, t71);
-    const double t77 = sqrt(t76);
+    const double t77 = sqrt(t76);  /* derivation/unit: length of a normal */
     const double t78 = MW_FMS(s[28], t69, t72);
     const double t79 = MW_FMA(s[24], t69, t73);
     const double t80 = x[0] * x[0];
     const double t81 = x[0] * s[5];
     const double t82 = MW_FMA(t80, s[6], t81);
-    double s83, c83;
+    double s83, c83;  /* of theta_gear */
     face_worm_seldom_sincos(x[4], &s83, &c83);
     const double t85 = s14 * s14;
     const double t86 = t85 * s[7];
     const double t87 = t82 * s6;
     const double t88 = s14 * s[9];
-    double s89, c89;
+    double s89, c89;  /* of wheel angle */
     face_worm_seldom_sincos(t42, &s89, &c89);
-    const double t91 = t63 / t77;
-    const double t92 = t62 / t77;
-    const double t93 = t66 / t77;
+    const double t91 = t63 / t77;  /* derivation/unit: length of a normal */
+    const double t92 = t62 / t77;  /* derivation/unit: length of a normal */
+    const double t93 = t66 / t77;  /* derivation/unit: length of a normal */
     const double t94 = MW_FMA(t82, c6, t86);
     const double t95 = MW_FMA(c14, t88, t87);
     const double t96 = x[0] * s[2];
@@ -5142,10 +5142,10 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t178 = MW_FMA(t145, t145, t169);
     const double t179 = s4 * t152;
     const double t180 = MW_FNMA(t155, c4, t179);
-    const double t181 = sqrt(t173);
+    const double t181 = sqrt(t173);  /* derivation/unit: length of a normal */
     const double t182 = (-0.5) * c58;
     const double t183 = s58 * t182;
-    const double t184 = sqrt(t178);
+    const double t184 = sqrt(t178);  /* derivation/unit: length of a normal */
     const double t185 = MW_FMA(s4, t159, t180);
     const double t186 = t111 * t108;
     const double t187 = MW_FMA(t112, t101, t186);
@@ -5198,9 +5198,9 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t234 = MW_FMS(c74, t233, t211);
     const double t235 = MW_FMS(t8, t232, t229);
     const double t236 = 0.5 * c74;
-    const double t237 = t151 / t181;
-    const double t238 = t150 / t181;
-    const double t239 = t149 / t181;
+    const double t237 = t151 / t181;  /* derivation/unit: length of a normal */
+    const double t238 = t150 / t181;  /* derivation/unit: length of a normal */
+    const double t239 = t149 / t181;  /* derivation/unit: length of a normal */
     const double t240 = s74 * t236;
     const double t241 = t240 + t240;
     const double t242 = c83 * t216;
@@ -5252,7 +5252,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t288 = s[14] * t195;
     const double t289 = MW_FMA(t268, t288, t209);
     const double t290 = s[26] + t280;
-    const double t291 = t277 / t77;
+    const double t291 = t277 / t77;  /* derivation/unit: length of a normal */
     const double t292 = c1 * t161;
     const double t293 = MW_FMS(s1, t175, t292);
     const double t294 = s[24] * t228;
@@ -5281,7 +5281,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t317 = MW_FMS(c1, t201, t316);
     const double t318 = s[14] * t231;
     const double t319 = t268 * t318;
-    const double t320 = t314 / t77;
+    const double t320 = t314 / t77;  /* derivation/unit: length of a normal */
     const double t321 = s[24] * t205;
     const double t322 = MW_FMS(s[28], t274, t321);
     const double t323 = s[28] * t205;
@@ -5291,9 +5291,9 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t327 = MW_FMA(s4, t218, t326);
     const double t328 = s4 * t177;
     const double t329 = MW_FNMA(c4, t218, t328);
-    const double t330 = t322 / t77;
+    const double t330 = t322 / t77;  /* derivation/unit: length of a normal */
     const double t331 = t315 - t324;
-    const double t332 = t325 / t77;
+    const double t332 = t325 / t77;  /* derivation/unit: length of a normal */
     const double t333 = s[28] * t228;
     const double t334 = MW_FMA(s[24], t254, t333);
     const double t335 = s[13] * t244;
@@ -5313,9 +5313,9 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t349 = MW_FMA(s4, t264, t347);
     const double t350 = MW_FMS(c4, t264, t348);
     const double t351 = MW_FNMA(t334, t340, t342);
-    const double t352 = t344 / t77;
-    const double t353 = t346 / t77;
-    const double t354 = t350 / t77;
+    const double t352 = t344 / t77;  /* derivation/unit: length of a normal */
+    const double t353 = t346 / t77;  /* derivation/unit: length of a normal */
+    const double t354 = t350 / t77;  /* derivation/unit: length of a normal */
     const double t355 = s83 * s[69];
     const double t356 = MW_FMS(c83, s[71], t355);
     const double t357 = s[24] * t293;
@@ -5338,8 +5338,8 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t374 = MW_FNMA(t79, t340, t366);
     const double t375 = s[28] * t293;
     const double t376 = MW_FMA(s[24], t327, t375);
-    const double t377 = t369 / t77;
-    const double t378 = t371 / t77;
+    const double t377 = t369 / t77;  /* derivation/unit: length of a normal */
+    const double t378 = t371 / t77;  /* derivation/unit: length of a normal */
     const double t379 = s89 * t290;
     const double t380 = MW_FMS(c89, t309, t379);
     const double t381 = s83 * s[48];
@@ -5359,8 +5359,8 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t395 = MW_FMA(t376, t237, t388);
     const double t396 = t70 * t239;
     const double t397 = MW_FMA(t78, t238, t396);
-    const double t398 = t391 / t184;
-    const double t399 = t393 / t184;
+    const double t398 = t391 / t184;  /* derivation/unit: length of a normal */
+    const double t399 = t393 / t184;  /* derivation/unit: length of a normal */
     const double t400 = MW_FMA(t79, t237, t397);
     const double t401 = t312 * t351;
     const double t402 = t331 * t351;
@@ -5390,7 +5390,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t426 = MW_FNMA(t338, t340, t419);
     const double t427 = t416 * t417;
     const double t428 = t287 * t291;
-    const double t429 = t422 / t184;
+    const double t429 = t422 / t184;  /* derivation/unit: length of a normal */
     const double t430 = MW_FMA(t420, t406, t425);
     const double t431 = MW_FMA(t308, t330, t428);
     const double t432 = MW_FMS(t423, t426, t427);
@@ -5399,9 +5399,9 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t435 = MW_FNMA(t340, t332, t431);
     const double t436 = t287 * t320;
     const double t437 = MW_FMA(t308, t352, t436);
-    const double t438 = (-1.0) / t430;
+    const double t438 = (-1.0) / t430;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t439 = MW_FMA(t237, t332, t434);
-    const double t440 = (-1.0) / t432;
+    const double t440 = (-1.0) / t432;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t441 = t239 * t320;
     const double t442 = MW_FMS(t238, t352, t441);
     const double t443 = MW_FNMA(t340, t353, t437);
@@ -5459,7 +5459,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t495 = t440 * t493;
     const double t496 = t440 * t492;
     const double t497 = t490 - t485;
-    double s498, c498;
+    double s498, c498;  /* of psi_worm */
     face_worm_seldom_sincos(x[2], &s498, &c498);
     const double t500 = MW_FMA(t420, t484, t491);
     const double t501 = MW_FMA(t438, t500, t487);
@@ -5501,11 +5501,11 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t537 = t533 + t535;
     const double t538 = MW_FMA(s[12], t464, t533);
     const double t539 = MW_FMA(t528, s[81], t532);
-    const double t540 = t154 / t184;
+    const double t540 = t154 / t184;  /* derivation/unit: length of a normal */
     const double t541 = MW_FMA(x[3], s[25], t537);
-    const double t542 = t153 / t184;
+    const double t542 = t153 / t184;  /* derivation/unit: length of a normal */
     const double t543 = MW_FMA(c58, t215, t539);
-    const double t544 = t145 / t184;
+    const double t544 = t145 / t184;  /* derivation/unit: length of a normal */
     const double t545 = MW_FMA(s[24], t522, s[80]);
     const double t546 = MW_FMA(s[28], t536, t545);
     const double t547 = MW_FMA(s[24], t536, s[83]);
@@ -5572,7 +5572,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t608 = t598 * t601;
     const double t609 = t228 * t576;
     const double t610 = MW_FMA(t93, t593, t602);
-    const double t611 = t604 / t577;
+    const double t611 = t604 / t577;  /* derivation/quotient: larger principal curvature of the gap */
     const double t612 = t228 * t589;
     const double t613 = MW_FNMA(t68, t592, t609);
     const double t614 = MW_FMS(t293, t592, t612);
@@ -5610,7 +5610,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     const double t646 = t331 * t635;
     const double t647 = MW_FMA(t599, t634, t639);
     const double t648 = t105 * t641;
-    const double t649 = t610 / t618;
+    const double t649 = t610 / t618;  /* derivation/quotient: lever arm of the wheel */
     const double t650 = MW_FMA(t312, t638, t646);
     const double t651 = MW_FMA(t555, c89, s[54]);
     const double t652 = MW_FMA(t555, s89, s[50]);

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 247, set_phi 7, R 144, R and J 381, step 452, observe 694.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
@@ -699,8 +699,8 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     spherical_concave_convex_seldom_sincos(p[22], &s32, &c32);
     const double t34 = s0 * t5;
     const double t35 = s0 * t6;
-    const double t36 = 1.0 / t34;
-    const double t37 = 1.0 / t35;
+    const double t36 = 1.0 / t34;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
+    const double t37 = 1.0 / t35;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t38 = p[9] / c0;
     const double t39 = p[16] / c0;
     const double t40 = s0 * t12;
@@ -713,8 +713,8 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     const double t47 = c0 * t42;
     const double t48 = s0 * t40;
     const double t49 = t48 + t47;
-    const double t50 = 1.0 / t29;
-    const double t51 = 1.0 / t31;
+    const double t50 = 1.0 / t29;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_pinion */
+    const double t51 = 1.0 / t31;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_wheel */
     const double t52 = p[0] * s0;
     const double t53 = t2 * s0;
     const double t54 = t24 / c0;
@@ -785,14 +785,14 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     const double t119 = MW_FNMA(t95, t109, t112);
     const double t120 = MW_FMA(t42, c96, t114);
     const double t121 = MW_FMS(t53, c96, t115);
-    const double t122 = 1.0 / p[1];
+    const double t122 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t123 = t116 - t118;
     const double t124 = t117 + t119;
-    const double t125 = 1.0 / t45;
-    const double t126 = 1.0 / t46;
+    const double t125 = 1.0 / t45;  /* derivation/step-size: natural size of an unknown */
+    const double t126 = 1.0 / t46;  /* derivation/step-size: natural size of an unknown */
     const double t127 = t68 * t123;
     const double t128 = t68 * t124;
-    const double t129 = p[6] / p[13];
+    const double t129 = p[6] / p[13];  /* ratio: T1/T2 */
     const double t130 = MW_SIGN(t87);
     const double t131 = t120 * t127;
     const double t132 = t87 * t130;
@@ -809,7 +809,7 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     const double t143 = c99 * t74;
     const double t144 = s99 * t74;
     const double t145 = t56 + t136;
-    const double t146 = 1.0 / t138;
+    const double t146 = 1.0 / t138;  /* derivation/relative: the same at the reference point of the pinion */
     const double t147 = t63 + t140;
     const double t148 = c0 * c99;
     const double t149 = MW_FNMA(t67, t144, t148);
@@ -853,7 +853,7 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     const double t187 = t21 * c32;
     const double t188 = t52 * t53;
     const double t189 = t21 * c92;
-    const double t190 = 1.0 / t182;
+    const double t190 = 1.0 / t182;  /* derivation/relative: the same at the reference point of the wheel */
     const double t191 = s92 * t169;
     const double t192 = c92 * t169;
     const double t193 = s32 * s92;
@@ -1030,9 +1030,9 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     spherical_concave_convex_sincos(t0, &s2, &c2);
     double s4, c4;
     spherical_concave_convex_sincos(t1, &s4, &c4);
-    double s6, c6;
+    double s6, c6;  /* of theta_pinion */
     spherical_concave_convex_sincos(x[1], &s6, &c6);
-    double s8, c8;
+    double s8, c8;  /* of theta_wheel */
     spherical_concave_convex_sincos(x[3], &s8, &c8);
     const double t10 = MW_FMS(x[0], s[1], s[11]);
     const double t11 = MW_FMS(x[2], s[1], s[2]);
@@ -1060,7 +1060,7 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     const double t33 = s[20] * t31;
     const double t34 = MW_FNMA(t15, t23, t32);
     const double t35 = t34 * s[18];
-    const double t36 = t35 / c6;
+    const double t36 = t35 / c6;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t37 = MW_FMA(c8, t11, s[3]);
     const double t38 = c8 * s[26];
     const double t39 = s8 * s[26];
@@ -1068,7 +1068,7 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     const double t41 = MW_FMA(s[4], t40, s[5]);
     const double t42 = MW_FNMA(c8, t16, t41);
     const double t43 = t42 * s[9];
-    const double t44 = t43 / c8;
+    const double t44 = t43 / c8;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t45 = t36 + s[97];
     const double t46 = MW_FMA(t36, s[19], t19);
     double s47, c47;
@@ -1106,7 +1106,7 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     const double t79 = MW_FMA(s[23], t71, t76);
     const double t80 = MW_FNMA(s[22], t71, t78);
     const double t81 = MW_FNMA(t11, s8, t77);
-    const double t82 = MW_FMA(c4, t21, t81);
+    const double t82 = MW_FMA(c4, t21, t81);  /* row 2 of the contact equations */
     const double t83 = MW_FMA(t50, s51, t70);
     const double t84 = t50 * c51;
     const double t85 = c51 * t38;
@@ -1118,12 +1118,12 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     const double t91 = MW_FNMA(t69, s[23], t87);
     const double t92 = t72 * t90;
     const double t93 = t90 * t66;
-    const double t94 = MW_FMA(t40, c51, t89);
-    const double t95 = MW_FNMA(t40, s51, t91);
+    const double t94 = MW_FMA(t40, c51, t89);  /* row 0 of the contact equations */
+    const double t95 = MW_FNMA(t40, s51, t91);  /* row 1 of the contact equations */
     const double t96 = MW_FMS(t79, t88, t92);
     const double t97 = MW_FMS(t88, t73, t93);
-    const double t98 = MW_FMA(t80, t39, t96);
-    const double t99 = MW_FMA(t39, t74, t97);
+    const double t98 = MW_FMA(t80, t39, t96);  /* row 3 of the contact equations */
+    const double t99 = MW_FMA(t39, t74, t97);  /* row 4 of the contact equations */
     R[0] = t94;
     R[1] = t95;
     R[2] = t82;
@@ -1131,9 +1131,9 @@ static inline void spherical_concave_convex_eval(const double *s, const double *
     R[4] = t99;
     if (J == NULL) return;
     const double t100 = c8 * s[33];
-    const double t101 = (-1.0) / t100;
+    const double t101 = (-1.0) / t100;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t102 = c6 * s[31];
-    const double t103 = (-1.0) / t102;
+    const double t103 = (-1.0) / t102;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t104 = 0.5 * s2;
     const double t105 = t20 * t104;
     const double t106 = 0.5 * c2;
@@ -1330,7 +1330,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t0 = x[3] * 0.5;
     double s1, c1;
     spherical_concave_convex_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_wheel */
     spherical_concave_convex_sincos(x[3], &s3, &c3);
     const double t5 = x[1] * 0.5;
     double s6, c6;
@@ -1339,7 +1339,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t9 = s1 * s1;
     const double t10 = MW_FNMA(x[2], s[6], s[7]);
     const double t11 = s[8] * t10;
-    double s12, c12;
+    double s12, c12;  /* of theta_pinion */
     spherical_concave_convex_sincos(x[1], &s12, &c12);
     const double t14 = MW_FMA(c3, t8, s[3]);
     const double t15 = MW_FMA(t9, s[0], t14);
@@ -1347,7 +1347,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t17 = MW_FMS(x[0], s[1], s[11]);
     const double t18 = MW_FNMA(x[0], s[6], s[17]);
     const double t19 = c3 * s[33];
-    const double t20 = (-1.0) / t19;
+    const double t20 = (-1.0) / t19;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t21 = MW_FMA(s[4], t15, s[5]);
     const double t22 = s[13] * t10;
     const double t23 = c3 * s[30];
@@ -1371,7 +1371,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t41 = t8 * s3;
     const double t42 = s3 * s[26];
     const double t43 = s[40] * c1;
-    const double t44 = t36 / c3;
+    const double t44 = t36 / c3;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t45 = MW_FMS(c6, t35, t40);
     const double t46 = t39 + t39;
     const double t47 = MW_FMS(s[0], t37, t41);
@@ -1391,7 +1391,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t61 = s[1] * c12;
     const double t62 = s12 * s[25];
     const double t63 = MW_FMA(t31, s[10], t55);
-    const double t64 = (-1.0) / t57;
+    const double t64 = (-1.0) / t57;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t65 = MW_FMA(c12, s[29], t60);
     const double t66 = MW_FMS(s[10], t46, t59);
     const double t67 = MW_FMS(c6, t33, t59);
@@ -1411,9 +1411,9 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     double s81, c81;
     spherical_concave_convex_sincos(t73, &s81, &c81);
     const double t83 = t77 * s[18];
-    const double t84 = t83 / c12;
+    const double t84 = t83 / c12;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t85 = t65 * t64;
-    const double t86 = 1.0 / t85;
+    const double t86 = 1.0 / t85;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t87 = MW_FMS(t42, t75, t52);
     const double t88 = t87 * t20;
     const double t89 = c12 * s[12];
@@ -1443,7 +1443,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t113 = c81 * t38;
     const double t114 = MW_FMA(s[4], s81, t113);
     const double t115 = s[4] * c81;
-    const double t116 = 1.0 / t108;
+    const double t116 = 1.0 / t108;  /* derivation/elimination: pivot 5 of the Newton step */
     const double t117 = MW_FMS(s81, t38, t115);
     const double t118 = c81 * t42;
     const double t119 = s81 * t42;
@@ -1466,7 +1466,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t136 = MW_FNMA(s[12], t129, t70);
     const double t137 = MW_FMA(s[20], t129, t71);
     const double t138 = MW_FMS(t63, c98, t130);
-    const double t139 = 1.0 / t131;
+    const double t139 = 1.0 / t131;  /* derivation/elimination: pivot 6 of the Newton step */
     const double t140 = MW_FMA(s[12], t135, t62);
     const double t141 = MW_FMS(s[20], t135, t68);
     const double t142 = t63 * s98;
@@ -1525,10 +1525,10 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t195 = MW_FNMA(t172, t185, t173);
     const double t196 = MW_FMA(t117, t189, t167);
     const double t197 = MW_FNMA(t133, t185, t153);
-    const double t198 = t109 + t190;
+    const double t198 = t109 + t190;  /* row 0 of the contact equations */
     const double t199 = s12 * t168;
     const double t200 = t192 - t161;
-    const double t201 = 1.0 / t195;
+    const double t201 = 1.0 / t195;  /* derivation/elimination: pivot 7 of the Newton step */
     const double t202 = MW_FNMA(t42, t193, t196);
     const double t203 = c12 * t168;
     const double t204 = MW_FNMA(s[23], t170, t199);
@@ -1542,7 +1542,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t212 = s98 * s[12];
     const double t213 = s12 * t212;
     const double t214 = MW_FNMA(t154, s[23], t175);
-    const double t215 = MW_FNMA(t15, s81, t214);
+    const double t215 = MW_FNMA(t15, s81, t214);  /* row 1 of the contact equations */
     const double t216 = t114 * t208;
     const double t217 = s98 * s[28];
     const double t218 = c98 * s[23];
@@ -1565,7 +1565,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t235 = MW_FNMA(t225, t125, t200);
     const double t236 = MW_FMA(t42, t226, t228);
     const double t237 = t231 * t139;
-    const double t238 = MW_FMA(c1, t49, t230);
+    const double t238 = MW_FMA(c1, t49, t230);  /* row 2 of the contact equations */
     const double t239 = c12 * t206;
     const double t240 = MW_FNMA(s[22], t171, t239);
     const double t241 = s12 * t206;
@@ -1597,8 +1597,8 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t267 = MW_FMA(t42, t254, t259);
     const double t268 = MW_FMA(t38, t242, t261);
     const double t269 = t256 * t201;
-    const double t270 = MW_FMA(t42, t242, t264);
-    const double t271 = MW_FMA(t149, t42, t265);
+    const double t270 = MW_FMA(t42, t242, t264);  /* row 4 of the contact equations */
+    const double t271 = MW_FMA(t149, t42, t265);  /* row 3 of the contact equations */
     const double t272 = MW_FNMA(t244, t269, t245);
     const double t273 = MW_FNMA(t133, t232, t266);
     const double t274 = MW_FNMA(t133, t237, t268);
@@ -1616,7 +1616,7 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     const double t286 = MW_FMS(t280, t279, t283);
     const double t287 = MW_FMS(t282, t279, t284);
     const double t288 = MW_FMS(t280, t281, t285);
-    const double t289 = 1.0 / t286;
+    const double t289 = 1.0 / t286;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t290 = t289 * t287;
     const double t291 = t289 * t288;
     const double t292 = MW_FNMA(t244, t290, t255);
@@ -2178,7 +2178,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t0 = x[1] * 0.5;
     double s1, c1;
     spherical_concave_convex_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_pinion */
     spherical_concave_convex_seldom_sincos(x[1], &s3, &c3);
     const double t5 = MW_FMS(x[0], s[1], s[11]);
     const double t6 = MW_FNMA(x[0], s[6], s[17]);
@@ -2186,9 +2186,9 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     double s8, c8;
     spherical_concave_convex_seldom_sincos(t7, &s8, &c8);
     const double t10 = s1 * s1;
-    double s11, c11;
+    double s11, c11;  /* of theta_wheel */
     spherical_concave_convex_seldom_sincos(x[3], &s11, &c11);
-    const double t13 = 1.0 / c3;
+    const double t13 = 1.0 / c3;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t14 = MW_FMA(t5, c3, s[15]);
     const double t15 = MW_FMA(t10, s[10], t14);
     const double t16 = c3 * s[8];
@@ -2226,7 +2226,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t48 = s3 * s[26];
     const double t49 = t43 + t43;
     const double t50 = MW_FMS(s[10], t42, t37);
-    const double t51 = t38 * t13;
+    const double t51 = t38 * t13;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t52 = t31 * t13;
     const double t53 = MW_FMS(c1, t47, t46);
     const double t54 = MW_FMS(c1, t44, t37);
@@ -2244,7 +2244,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t66 = s[18] * t58;
     double s67, c67;
     spherical_concave_convex_seldom_sincos(t59, &s67, &c67);
-    const double t69 = 1.0 / c11;
+    const double t69 = 1.0 / c11;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t70 = MW_FMA(c11, t20, s[3]);
     const double t71 = MW_FMA(t33, s[0], t70);
     const double t72 = MW_FMA(t51, s3, t66);
@@ -2270,11 +2270,11 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t92 = s[9] * t84;
     const double t93 = s[1] * s11;
     const double t94 = t86 * s[9];
-    double s95, c95;
+    double s95, c95;  /* of phi_gen_pinion: turn of the pinion in generation */
     spherical_concave_convex_seldom_sincos(t51, &s95, &c95);
     const double t97 = s[4] * s67;
     const double t98 = s67 * t17;
-    const double t99 = t94 * t69;
+    const double t99 = t94 * t69;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t100 = t27 - t99;
     const double t101 = MW_FMS(c67, t17, t97);
     const double t102 = MW_FMA(s[4], c67, t98);
@@ -2306,7 +2306,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t128 = s[22] * t125;
     const double t129 = s[23] * t125;
     const double t130 = MW_FMA(t99, s11, t92);
-    const double t131 = sqrt(t124);
+    const double t131 = sqrt(t124);  /* derivation/unit: length of a normal */
     const double t132 = MW_FMA(s[23], t126, t128);
     const double t133 = MW_FNMA(s[22], t126, t129);
     const double t134 = t91 * t69;
@@ -2353,23 +2353,23 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t175 = MW_FMA(s[23], t164, t169);
     const double t176 = s[23] * t158;
     const double t177 = MW_FNMA(s[22], t164, t176);
-    double s178, c178;
+    double s178, c178;  /* of phi_gen_wheel: turn of the wheel in generation */
     spherical_concave_convex_seldom_sincos(t99, &s178, &c178);
-    const double t180 = t117 / t131;
-    const double t181 = t109 / t131;
-    const double t182 = t118 / t131;
+    const double t180 = t117 / t131;  /* derivation/unit: length of a normal */
+    const double t181 = t109 / t131;  /* derivation/unit: length of a normal */
+    const double t182 = t118 / t131;  /* derivation/unit: length of a normal */
     const double t183 = s[4] * c121;
     const double t184 = MW_FMS(s121, t75, t183);
     const double t185 = c121 * t75;
     const double t186 = MW_FMA(s[4], s121, t185);
-    const double t187 = t168 / t131;
-    const double t188 = t165 / t131;
+    const double t187 = t168 / t131;  /* derivation/unit: length of a normal */
+    const double t188 = t165 / t131;  /* derivation/unit: length of a normal */
     const double t189 = t184 * t184;
-    const double t190 = t172 / t131;
-    const double t191 = t175 / t131;
+    const double t190 = t172 / t131;  /* derivation/unit: length of a normal */
+    const double t191 = t175 / t131;  /* derivation/unit: length of a normal */
     const double t192 = MW_FMA(t186, t186, t189);
-    const double t193 = t174 / t131;
-    const double t194 = t177 / t131;
+    const double t193 = t174 / t131;  /* derivation/unit: length of a normal */
+    const double t194 = t177 / t131;  /* derivation/unit: length of a normal */
     const double t195 = MW_FMA(t80, t80, t192);
     const double t196 = s121 * t135;
     const double t197 = s121 * t134;
@@ -2378,7 +2378,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t200 = MW_FMA(t136, t197, t199);
     const double t201 = s121 * t88;
     const double t202 = t180 * t132;
-    const double t203 = sqrt(t195);
+    const double t203 = sqrt(t195);  /* derivation/unit: length of a normal */
     const double t204 = MW_FNMA(t71, t198, t201);
     const double t205 = c121 * t135;
     const double t206 = t136 * t196;
@@ -2427,17 +2427,17 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t249 = sqrt(t242);
     const double t250 = s[20] * t54;
     const double t251 = MW_FNMA(t244, s[12], t250);
-    const double t252 = sqrt(t248);
+    const double t252 = sqrt(t248);  /* derivation/unit: length of a normal */
     const double t253 = t15 * s95;
     const double t254 = MW_FMA(t60, c95, t253);
-    const double t255 = t220 / t203;
-    const double t256 = t235 / t203;
-    const double t257 = t237 / t203;
-    const double t258 = t236 / t203;
-    const double t259 = t75 / t203;
-    const double t260 = t186 / t203;
-    const double t261 = t184 / t203;
-    const double t262 = t80 / t203;
+    const double t255 = t220 / t203;  /* derivation/unit: length of a normal */
+    const double t256 = t235 / t203;  /* derivation/unit: length of a normal */
+    const double t257 = t237 / t203;  /* derivation/unit: length of a normal */
+    const double t258 = t236 / t203;  /* derivation/unit: length of a normal */
+    const double t259 = t75 / t203;  /* derivation/unit: length of a normal */
+    const double t260 = t186 / t203;  /* derivation/unit: length of a normal */
+    const double t261 = t184 / t203;  /* derivation/unit: length of a normal */
+    const double t262 = t80 / t203;  /* derivation/unit: length of a normal */
     const double t263 = t71 * s178;
     const double t264 = MW_FMA(t136, c178, t263);
     const double t265 = s[1] * s3;
@@ -2464,9 +2464,9 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t286 = sqrt(t278);
     const double t287 = sqrt(t280);
     const double t288 = t238 / t284;
-    const double t289 = t226 / t252;
-    const double t290 = t225 / t252;
-    const double t291 = t224 / t252;
+    const double t289 = t226 / t252;  /* derivation/unit: length of a normal */
+    const double t290 = t225 / t252;  /* derivation/unit: length of a normal */
+    const double t291 = t224 / t252;  /* derivation/unit: length of a normal */
     const double t292 = t239 / t285;
     const double t293 = t181 * t282;
     const double t294 = s[58] * t275;
@@ -2559,8 +2559,8 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t381 = MW_FMA(t337, t258, t378);
     const double t382 = MW_FMA(t290, t258, t379);
     const double t383 = MW_FMS(t338, t259, t375);
-    const double t384 = (-1.0) / t376;
-    const double t385 = (-1.0) / t377;
+    const double t384 = (-1.0) / t376;  /* cylindrical_worm/undercut: singular function of a flank */
+    const double t385 = (-1.0) / t377;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t386 = t361 * t351;
     const double t387 = MW_FMS(t363, t372, t386);
     const double t388 = t361 * t360;
@@ -2652,7 +2652,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t474 = sqrt(t468);
     const double t475 = MW_FNMA(t93, t435, t473);
     const double t476 = -t454;
-    const double t477 = t402 / t410;
+    const double t477 = t402 / t410;  /* derivation/quotient: lever arm of the wheel */
     const double t478 = s[4] * s95;
     const double t479 = MW_FMS(t17, c95, t478);
     const double t480 = s[4] * s178;
@@ -2670,7 +2670,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t492 = MW_FNMA(t48, t459, t486);
     const double t493 = MW_FNMA(t82, t491, s[56]);
     const double t494 = MW_FMA(t80, t471, t488);
-    const double t495 = x[4] + s[98];
+    const double t495 = x[4] + s[98];  /* wheel angle */
     const double t496 = s[51] - x[0];
     const double t497 = s[57] - x[2];
     const double t498 = t492 * s[46];
@@ -2678,7 +2678,7 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     const double t500 = t453 - t469;
     const double t501 = t453 + t469;
     const double t502 = t474 + t469;
-    const double t503 = t463 / t502;
+    const double t503 = t463 / t502;  /* derivation/quotient: larger principal curvature of the gap */
     const double t504 = t500 - t503;
     const double t505 = t503 + t501;
     o[0] = t275;

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 249, set_phi 7, R 144, R and J 377, step 447, observe 693.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
@@ -699,8 +699,8 @@ static inline int spherical_convex_convex_setup(const double *p, double *s)
     spherical_convex_convex_seldom_sincos(p[22], &s32, &c32);
     const double t34 = s0 * t5;
     const double t35 = s0 * t6;
-    const double t36 = 1.0 / t34;
-    const double t37 = 1.0 / t35;
+    const double t36 = 1.0 / t34;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
+    const double t37 = 1.0 / t35;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t38 = p[9] / c0;
     const double t39 = p[16] / c0;
     const double t40 = s0 * t12;
@@ -713,8 +713,8 @@ static inline int spherical_convex_convex_setup(const double *p, double *s)
     const double t47 = c0 * t42;
     const double t48 = s0 * t40;
     const double t49 = t48 + t47;
-    const double t50 = 1.0 / t29;
-    const double t51 = 1.0 / t31;
+    const double t50 = 1.0 / t29;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_pinion */
+    const double t51 = 1.0 / t31;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_wheel */
     const double t52 = p[0] * s0;
     const double t53 = t2 * s0;
     const double t54 = t24 / c0;
@@ -785,14 +785,14 @@ static inline int spherical_convex_convex_setup(const double *p, double *s)
     const double t119 = MW_FNMA(t95, t109, t112);
     const double t120 = MW_FMA(t42, c96, t114);
     const double t121 = MW_FMS(t53, c96, t115);
-    const double t122 = 1.0 / p[1];
+    const double t122 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
     const double t123 = t116 - t118;
     const double t124 = t117 + t119;
-    const double t125 = 1.0 / t45;
-    const double t126 = 1.0 / t46;
+    const double t125 = 1.0 / t45;  /* derivation/step-size: natural size of an unknown */
+    const double t126 = 1.0 / t46;  /* derivation/step-size: natural size of an unknown */
     const double t127 = t68 * t123;
     const double t128 = t68 * t124;
-    const double t129 = p[6] / p[13];
+    const double t129 = p[6] / p[13];  /* ratio: T1/T2 */
     const double t130 = MW_SIGN(t87);
     const double t131 = t120 * t127;
     const double t132 = t87 * t130;
@@ -809,7 +809,7 @@ static inline int spherical_convex_convex_setup(const double *p, double *s)
     const double t143 = c99 * t74;
     const double t144 = s99 * t74;
     const double t145 = t56 + t136;
-    const double t146 = 1.0 / t138;
+    const double t146 = 1.0 / t138;  /* derivation/relative: the same at the reference point of the pinion */
     const double t147 = t63 + t140;
     const double t148 = c0 * c99;
     const double t149 = MW_FNMA(t67, t144, t148);
@@ -853,7 +853,7 @@ static inline int spherical_convex_convex_setup(const double *p, double *s)
     const double t187 = p[7] * 2.0;
     const double t188 = c0 * c32;
     const double t189 = c0 * s32;
-    const double t190 = 1.0 / t182;
+    const double t190 = 1.0 / t182;  /* derivation/relative: the same at the reference point of the wheel */
     const double t191 = t21 * c32;
     const double t192 = t52 * t53;
     const double t193 = t21 * c92;
@@ -1033,9 +1033,9 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     spherical_convex_convex_sincos(t0, &s2, &c2);
     double s4, c4;
     spherical_convex_convex_sincos(t1, &s4, &c4);
-    double s6, c6;
+    double s6, c6;  /* of theta_pinion */
     spherical_convex_convex_sincos(x[1], &s6, &c6);
-    double s8, c8;
+    double s8, c8;  /* of theta_wheel */
     spherical_convex_convex_sincos(x[3], &s8, &c8);
     const double t10 = MW_FMS(x[0], s[1], s[13]);
     const double t11 = MW_FMS(x[2], s[1], s[2]);
@@ -1068,7 +1068,7 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     const double t38 = MW_FMA(t31, s[21], s[22]);
     const double t39 = MW_FNMA(t15, t23, t36);
     const double t40 = t39 * s[17];
-    const double t41 = t40 / c6;
+    const double t41 = t40 / c6;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t42 = MW_FMA(c8, t11, s[3]);
     const double t43 = c8 * s[27];
     const double t44 = s8 * s[27];
@@ -1076,7 +1076,7 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     const double t46 = MW_FMA(s[4], t45, s[5]);
     const double t47 = MW_FNMA(c8, t16, t46);
     const double t48 = t47 * s[9];
-    const double t49 = t48 / c8;
+    const double t49 = t48 / c8;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t50 = t41 + s[98];
     const double t51 = MW_FMA(t41, s[18], t19);
     double s52, c52;
@@ -1110,7 +1110,7 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     const double t80 = MW_FNMA(s[24], t74, t77);
     const double t81 = MW_FMA(s[23], t74, t78);
     const double t82 = MW_FNMA(t11, s8, t79);
-    const double t83 = MW_FMA(c4, t21, t82);
+    const double t83 = MW_FMA(c4, t21, t82);  /* row 2 of the contact equations */
     const double t84 = MW_FMA(t55, s56, t73);
     const double t85 = t55 * c56;
     const double t86 = c56 * t43;
@@ -1118,15 +1118,15 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     const double t88 = MW_FMA(t67, s[23], t85);
     const double t89 = MW_FMS(s56, t43, t87);
     const double t90 = MW_FMA(s[4], s56, t86);
-    const double t91 = MW_FMA(t45, c56, t84);
+    const double t91 = MW_FMA(t45, c56, t84);  /* row 0 of the contact equations */
     const double t92 = MW_FNMA(t72, s[24], t88);
     const double t93 = t75 * t90;
     const double t94 = t90 * t59;
-    const double t95 = MW_FNMA(t45, s56, t92);
+    const double t95 = MW_FNMA(t45, s56, t92);  /* row 1 of the contact equations */
     const double t96 = MW_FMS(t80, t89, t93);
     const double t97 = MW_FMA(t89, t70, t94);
-    const double t98 = MW_FMA(t81, t44, t96);
-    const double t99 = MW_FMS(t44, t71, t97);
+    const double t98 = MW_FMA(t81, t44, t96);  /* row 3 of the contact equations */
+    const double t99 = MW_FMS(t44, t71, t97);  /* row 4 of the contact equations */
     R[0] = t91;
     R[1] = t95;
     R[2] = t83;
@@ -1134,9 +1134,9 @@ static inline void spherical_convex_convex_eval(const double *s, const double *x
     R[4] = t99;
     if (J == NULL) return;
     const double t100 = c8 * s[34];
-    const double t101 = (-1.0) / t100;
+    const double t101 = (-1.0) / t100;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t102 = c6 * s[32];
-    const double t103 = (-1.0) / t102;
+    const double t103 = (-1.0) / t102;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t104 = 0.5 * c2;
     const double t105 = s[33] * s2;
     const double t106 = s2 * t105;
@@ -1329,7 +1329,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t0 = x[3] * 0.5;
     double s1, c1;
     spherical_convex_convex_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_wheel */
     spherical_convex_convex_sincos(x[3], &s3, &c3);
     const double t5 = MW_FMS(x[2], s[1], s[2]);
     const double t6 = MW_FNMA(x[2], s[6], s[7]);
@@ -1339,14 +1339,14 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     spherical_convex_convex_sincos(t8, &s9, &c9);
     const double t11 = s1 * s1;
     const double t12 = x[4] + s[97];
-    double s13, c13;
+    double s13, c13;  /* of theta_pinion */
     spherical_convex_convex_sincos(x[1], &s13, &c13);
     const double t15 = MW_FMA(c3, t5, s[3]);
     const double t16 = MW_FMA(t11, s[0], t15);
     const double t17 = MW_FMS(x[0], s[1], s[13]);
     const double t18 = MW_FNMA(x[0], s[6], s[16]);
     const double t19 = c3 * s[34];
-    const double t20 = (-1.0) / t19;
+    const double t20 = (-1.0) / t19;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t21 = MW_FMA(s[4], t16, s[5]);
     const double t22 = s[10] * t6;
     const double t23 = c3 * s[31];
@@ -1371,7 +1371,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t42 = MW_FMS(s[0], t35, t28);
     const double t43 = s9 * t41;
     const double t44 = s[10] * t18;
-    const double t45 = t37 / c3;
+    const double t45 = t37 / c3;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t46 = MW_FMA(c3, t5, t39);
     const double t47 = c3 * s[27];
     const double t48 = s[4] * t42;
@@ -1389,7 +1389,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t60 = s[1] * c13;
     const double t61 = s13 * s[25];
     const double t62 = MW_FMA(t34, s[12], t54);
-    const double t63 = (-1.0) / t56;
+    const double t63 = (-1.0) / t56;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t64 = MW_FMA(c13, s[30], t59);
     const double t65 = MW_FMA(s9, t51, t58);
     const double t66 = MW_FMS(s[12], t50, t58);
@@ -1409,11 +1409,11 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     double s80, c80;
     spherical_convex_convex_sincos(t72, &s80, &c80);
     const double t82 = t76 * s[17];
-    const double t83 = t82 / c13;
+    const double t83 = t82 / c13;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t84 = MW_FMS(t30, t74, t48);
     const double t85 = t84 * t20;
     const double t86 = t64 * t63;
-    const double t87 = 1.0 / t86;
+    const double t87 = 1.0 / t86;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t88 = s[21] * t57;
     const double t89 = s13 * s[27];
     const double t90 = s[4] * t66;
@@ -1446,7 +1446,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t117 = s80 * t42;
     const double t118 = MW_FMS(t109, t85, t117);
     const double t119 = c80 * t42;
-    const double t120 = 1.0 / t112;
+    const double t120 = 1.0 / t112;  /* derivation/elimination: pivot 5 of the Newton step */
     const double t121 = MW_FMA(t106, t85, t119);
     const double t122 = s[4] * c80;
     const double t123 = MW_FMS(s80, t47, t122);
@@ -1469,7 +1469,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t140 = MW_FMA(c102, t99, t134);
     const double t141 = t99 * s102;
     const double t142 = MW_FMS(t62, c102, t141);
-    const double t143 = 1.0 / t135;
+    const double t143 = 1.0 / t135;  /* derivation/elimination: pivot 6 of the Newton step */
     const double t144 = MW_FNMA(s[21], t139, t61);
     const double t145 = MW_FMA(s[19], t139, t67);
     const double t146 = t114 * t129;
@@ -1490,7 +1490,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t161 = MW_FMA(c102, s[38], t159);
     const double t162 = s[24] * t138;
     const double t163 = MW_FMA(s[23], t144, t162);
-    const double t164 = t113 + t155;
+    const double t164 = t113 + t155;  /* row 0 of the contact equations */
     const double t165 = s102 * t66;
     const double t166 = c102 * t66;
     const double t167 = t158 + t161;
@@ -1518,7 +1518,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t189 = MW_FMS(t123, t182, t173);
     const double t190 = t146 * t143;
     const double t191 = MW_FNMA(t147, s[24], t148);
-    const double t192 = MW_FNMA(t16, s80, t191);
+    const double t192 = MW_FNMA(t16, s80, t191);  /* row 1 of the contact equations */
     const double t193 = t125 * t187;
     const double t194 = s102 * s[29];
     const double t195 = MW_FMS(t30, t183, t189);
@@ -1532,13 +1532,13 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t203 = t178 * t126;
     const double t204 = MW_FNMA(t156, t127, t202);
     const double t205 = MW_FMA(t175, t127, t203);
-    const double t206 = 1.0 / t197;
+    const double t206 = 1.0 / t197;  /* derivation/elimination: pivot 7 of the Newton step */
     const double t207 = t199 - t28;
     const double t208 = t201 * t143;
     const double t209 = MW_FMA(t47, t163, t204);
     const double t210 = s[23] * t165;
     const double t211 = s[24] * t165;
-    const double t212 = MW_FMA(c1, t36, t207);
+    const double t212 = MW_FMA(c1, t36, t207);  /* row 2 of the contact equations */
     const double t213 = MW_FNMA(s[24], t168, t210);
     const double t214 = MW_FMA(s[23], t168, t211);
     const double t215 = t123 * t178;
@@ -1557,7 +1557,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t228 = MW_FMA(t47, t221, t205);
     const double t229 = MW_FMS(s[23], t186, t226);
     const double t230 = MW_FMA(t30, t223, t188);
-    const double t231 = MW_FMS(t30, t221, t219);
+    const double t231 = MW_FMS(t30, t221, t219);  /* row 4 of the contact equations */
     const double t232 = s[19] * t138;
     const double t233 = MW_FMA(t123, t227, t193);
     const double t234 = t125 * t232;
@@ -1579,7 +1579,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t250 = t163 * t87;
     const double t251 = t167 - t250;
     const double t252 = MW_FMA(t110, t250, t214);
-    const double t253 = MW_FMA(t163, t30, t246);
+    const double t253 = MW_FMA(t163, t30, t246);  /* row 3 of the contact equations */
     const double t254 = MW_FNMA(t237, t128, t247);
     const double t255 = MW_FMA(t238, t128, t249);
     const double t256 = MW_FMA(t30, t244, t248);
@@ -1610,7 +1610,7 @@ static inline double spherical_convex_convex_step(const double *s, double *x)
     const double t281 = MW_FMS(t273, t277, t279);
     const double t282 = MW_FMS(t275, t277, t278);
     const double t283 = MW_FMS(t275, t272, t280);
-    const double t284 = 1.0 / t282;
+    const double t284 = 1.0 / t282;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t285 = t284 * t281;
     const double t286 = t284 * t283;
     const double t287 = MW_FNMA(t267, t285, t269);
@@ -2174,7 +2174,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t0 = x[1] * 0.5;
     double s1, c1;
     spherical_convex_convex_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_pinion */
     spherical_convex_convex_seldom_sincos(x[1], &s3, &c3);
     const double t5 = MW_FMS(x[0], s[1], s[13]);
     const double t6 = MW_FNMA(x[0], s[6], s[16]);
@@ -2182,9 +2182,9 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     double s8, c8;
     spherical_convex_convex_seldom_sincos(t7, &s8, &c8);
     const double t10 = s1 * s1;
-    double s11, c11;
+    double s11, c11;  /* of theta_wheel */
     spherical_convex_convex_seldom_sincos(x[3], &s11, &c11);
-    const double t13 = 1.0 / c3;
+    const double t13 = 1.0 / c3;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t14 = MW_FMA(t5, c3, s[14]);
     const double t15 = MW_FMA(t10, s[12], t14);
     const double t16 = c3 * s[8];
@@ -2222,7 +2222,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t48 = c3 * s[43];
     const double t49 = t43 + t43;
     const double t50 = MW_FMS(s[12], t42, t37);
-    const double t51 = t38 * t13;
+    const double t51 = t38 * t13;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t52 = t31 * t13;
     const double t53 = MW_FMS(t46, t34, t45);
     const double t54 = MW_FMA(s1, t46, t37);
@@ -2240,7 +2240,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t66 = s[17] * t58;
     double s67, c67;
     spherical_convex_convex_seldom_sincos(t59, &s67, &c67);
-    const double t69 = 1.0 / c11;
+    const double t69 = 1.0 / c11;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t70 = MW_FMA(c11, t20, s[3]);
     const double t71 = MW_FMA(t33, s[0], t70);
     const double t72 = MW_FMA(s3, t51, t66);
@@ -2264,12 +2264,12 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t90 = s[9] * t84;
     const double t91 = s[9] * t83;
     const double t92 = s[1] * s11;
-    double s93, c93;
+    double s93, c93;  /* of phi_gen_pinion: turn of the pinion in generation */
     spherical_convex_convex_seldom_sincos(t51, &s93, &c93);
     const double t95 = s[4] * s67;
     const double t96 = s67 * t17;
     const double t97 = t86 * s[9];
-    const double t98 = t97 * t69;
+    const double t98 = t97 * t69;  /* phi_gen_wheel: turn of the wheel in generation */
     const double t99 = c67 * t28;
     const double t100 = s67 * t52;
     const double t101 = MW_FMS(c67, t17, t95);
@@ -2301,7 +2301,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t127 = s[23] * t124;
     const double t128 = s[24] * t124;
     const double t129 = MW_FMA(t98, s11, t91);
-    const double t130 = sqrt(t123);
+    const double t130 = sqrt(t123);  /* derivation/unit: length of a normal */
     const double t131 = MW_FNMA(s[24], t125, t127);
     const double t132 = MW_FMA(s[23], t125, t128);
     const double t133 = t90 * t69;
@@ -2348,23 +2348,23 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t174 = s[19] * t158;
     const double t175 = s[40] * t158;
     const double t176 = MW_FMA(s[24], t159, t175);
-    double s177, c177;
+    double s177, c177;  /* of phi_gen_wheel: turn of the wheel in generation */
     spherical_convex_convex_seldom_sincos(t98, &s177, &c177);
-    const double t179 = t117 / t130;
-    const double t180 = t109 / t130;
-    const double t181 = t118 / t130;
+    const double t179 = t117 / t130;  /* derivation/unit: length of a normal */
+    const double t180 = t109 / t130;  /* derivation/unit: length of a normal */
+    const double t181 = t118 / t130;  /* derivation/unit: length of a normal */
     const double t182 = s[4] * c120;
     const double t183 = MW_FMS(s120, t74, t182);
     const double t184 = c120 * t74;
     const double t185 = MW_FMA(s[4], s120, t184);
-    const double t186 = t174 / t130;
-    const double t187 = t172 / t130;
+    const double t186 = t174 / t130;  /* derivation/unit: length of a normal */
+    const double t187 = t172 / t130;  /* derivation/unit: length of a normal */
     const double t188 = t183 * t183;
-    const double t189 = t171 / t130;
-    const double t190 = t164 / t130;
+    const double t189 = t171 / t130;  /* derivation/unit: length of a normal */
+    const double t190 = t164 / t130;  /* derivation/unit: length of a normal */
     const double t191 = MW_FMA(t185, t185, t188);
-    const double t192 = t176 / t130;
-    const double t193 = t173 / t130;
+    const double t192 = t176 / t130;  /* derivation/unit: length of a normal */
+    const double t193 = t173 / t130;  /* derivation/unit: length of a normal */
     const double t194 = MW_FMA(t79, t79, t191);
     const double t195 = s120 * t134;
     const double t196 = s120 * t133;
@@ -2373,7 +2373,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t199 = MW_FMA(t135, t196, t198);
     const double t200 = s120 * t87;
     const double t201 = t179 * t131;
-    const double t202 = sqrt(t194);
+    const double t202 = sqrt(t194);  /* derivation/unit: length of a normal */
     const double t203 = MW_FNMA(t71, t197, t200);
     const double t204 = c120 * t134;
     const double t205 = t135 * t195;
@@ -2422,17 +2422,17 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t248 = sqrt(t241);
     const double t249 = t54 * s[19];
     const double t250 = MW_FNMA(s[21], t243, t249);
-    const double t251 = sqrt(t247);
+    const double t251 = sqrt(t247);  /* derivation/unit: length of a normal */
     const double t252 = t15 * s93;
     const double t253 = MW_FMA(t60, c93, t252);
-    const double t254 = t219 / t202;
-    const double t255 = t234 / t202;
-    const double t256 = t236 / t202;
-    const double t257 = t235 / t202;
-    const double t258 = t74 / t202;
-    const double t259 = t185 / t202;
-    const double t260 = t183 / t202;
-    const double t261 = t79 / t202;
+    const double t254 = t219 / t202;  /* derivation/unit: length of a normal */
+    const double t255 = t234 / t202;  /* derivation/unit: length of a normal */
+    const double t256 = t236 / t202;  /* derivation/unit: length of a normal */
+    const double t257 = t235 / t202;  /* derivation/unit: length of a normal */
+    const double t258 = t74 / t202;  /* derivation/unit: length of a normal */
+    const double t259 = t185 / t202;  /* derivation/unit: length of a normal */
+    const double t260 = t183 / t202;  /* derivation/unit: length of a normal */
+    const double t261 = t79 / t202;  /* derivation/unit: length of a normal */
     const double t262 = t71 * s177;
     const double t263 = MW_FMA(t135, c177, t262);
     const double t264 = s[1] * s3;
@@ -2459,9 +2459,9 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t285 = sqrt(t277);
     const double t286 = sqrt(t279);
     const double t287 = t237 / t283;
-    const double t288 = t225 / t251;
-    const double t289 = t224 / t251;
-    const double t290 = t223 / t251;
+    const double t288 = t225 / t251;  /* derivation/unit: length of a normal */
+    const double t289 = t224 / t251;  /* derivation/unit: length of a normal */
+    const double t290 = t223 / t251;  /* derivation/unit: length of a normal */
     const double t291 = t238 / t284;
     const double t292 = t180 * t281;
     const double t293 = s[59] * t274;
@@ -2554,8 +2554,8 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t380 = MW_FMA(t336, t257, t377);
     const double t381 = MW_FMA(t289, t257, t378);
     const double t382 = MW_FMS(t337, t258, t374);
-    const double t383 = (-1.0) / t375;
-    const double t384 = (-1.0) / t376;
+    const double t383 = (-1.0) / t375;  /* cylindrical_worm/undercut: singular function of a flank */
+    const double t384 = (-1.0) / t376;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t385 = t360 * t350;
     const double t386 = MW_FMS(t362, t371, t385);
     const double t387 = t360 * t359;
@@ -2647,7 +2647,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t473 = sqrt(t467);
     const double t474 = MW_FNMA(t92, t434, t472);
     const double t475 = -t453;
-    const double t476 = t401 / t409;
+    const double t476 = t401 / t409;  /* derivation/quotient: lever arm of the wheel */
     const double t477 = s[4] * s93;
     const double t478 = MW_FMS(t17, c93, t477);
     const double t479 = s[4] * s177;
@@ -2665,7 +2665,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t491 = MW_FMA(t47, t458, t485);
     const double t492 = MW_FNMA(t81, t490, s[57]);
     const double t493 = MW_FMA(t79, t470, t487);
-    const double t494 = x[4] + s[99];
+    const double t494 = x[4] + s[99];  /* wheel angle */
     const double t495 = s[52] - x[0];
     const double t496 = s[58] - x[2];
     const double t497 = t491 * s[47];
@@ -2673,7 +2673,7 @@ static inline void spherical_convex_convex_observe(const double *s, const double
     const double t499 = t452 - t468;
     const double t500 = t452 + t468;
     const double t501 = t473 + t468;
-    const double t502 = t462 / t501;
+    const double t502 = t462 / t501;  /* derivation/quotient: larger principal curvature of the gap */
     const double t503 = t499 - t502;
     const double t504 = t502 + t500;
     o[0] = t274;

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 229, set_phi 7, R 116, R and J 270, step 304, observe 547.
- * Equations (hash 88b1dba990d9aa9d8341071395e0a8336667b76ba6b8d366b8d97f4879a0423e):
+ * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact
@@ -681,8 +681,8 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     spherical_convex_spur_seldom_sincos(p[21], &s27, &c27);
     const double t29 = s0 * t5;
     const double t30 = s0 * t6;
-    const double t31 = 1.0 / t29;
-    const double t32 = 1.0 / t30;
+    const double t31 = 1.0 / t29;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t32 = 1.0 / t30;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
     const double t33 = p[9] / c0;
     const double t34 = s0 * t12;
     const double t35 = s0 / c0;
@@ -692,9 +692,9 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     const double t39 = c0 * t16;
     const double t40 = c0 * t37;
     const double t41 = s0 * t34;
-    const double t42 = 1.0 / t24;
+    const double t42 = 1.0 / t24;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_pinion */
     const double t43 = t41 + t40;
-    const double t44 = 1.0 / t26;
+    const double t44 = 1.0 / t26;  /* derivation/explicit: slope of the equation of meshing in phi_fillet_wheel */
     const double t45 = p[0] * s0;
     const double t46 = t14 / p[7];
     const double t47 = t2 * s0;
@@ -748,9 +748,9 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     const double t95 = p[15] * 2.0;
     const double t96 = t95 / c0;
     const double t97 = 3.141592653589793 / 2.0;
-    const double t98 = 1.0 / p[1];
-    const double t99 = 1.0 / t46;
-    const double t100 = 1.0 / t14;
+    const double t98 = 1.0 / p[1];  /* derivation/step-size: natural size of an unknown */
+    const double t99 = 1.0 / t46;  /* derivation/step-size: natural size of an unknown */
+    const double t100 = 1.0 / t14;  /* derivation/step-size: natural size of an unknown */
     const double t101 = t84 * c85;
     const double t102 = t84 * s85;
     const double t103 = c0 * c85;
@@ -765,7 +765,7 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     const double t112 = MW_FNMA(t81, t102, t106);
     const double t113 = MW_FMA(t47, s85, t107);
     const double t114 = MW_FMS(t47, c85, t108);
-    const double t115 = p[6] / p[13];
+    const double t115 = p[6] / p[13];  /* ratio: T1/T2 */
     const double t116 = t109 - t111;
     const double t117 = t110 + t112;
     const double t118 = MW_SIGN(t73);
@@ -788,7 +788,7 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     const double t135 = c88 * t70;
     const double t136 = s88 * t70;
     const double t137 = c0 * c88;
-    const double t138 = 1.0 / t130;
+    const double t138 = 1.0 / t130;  /* derivation/relative: the same at the reference point of the wheel */
     const double t139 = s88 * t82;
     const double t140 = c88 * t82;
     const double t141 = MW_FNMA(t63, t136, t137);
@@ -831,7 +831,7 @@ static inline int spherical_convex_spur_setup(const double *p, double *s)
     const double t178 = c27 * t47;
     const double t179 = p[12] + t10;
     const double t180 = t156 * t156;
-    const double t181 = 1.0 / t173;
+    const double t181 = 1.0 / t173;  /* derivation/relative: the same at the reference point of the pinion */
     const double t182 = p[8] * 0.5;
     const double t183 = p[14] * 0.5;
     const double t184 = t47 * t84;
@@ -994,7 +994,7 @@ static inline void spherical_convex_spur_eval(const double *s, const double *x, 
     const double t0 = x[1] * 0.5;
     double s1, c1;
     spherical_convex_spur_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_pinion */
     spherical_convex_spur_sincos(x[1], &s3, &c3);
     const double t5 = MW_FMS(x[0], s[0], s[11]);
     const double t6 = MW_FNMA(x[0], s[4], s[14]);
@@ -1029,7 +1029,7 @@ static inline void spherical_convex_spur_eval(const double *s, const double *x, 
     const double t35 = s3 * s[26];
     const double t36 = MW_FNMA(t6, t22, t28);
     const double t37 = t36 * s[15];
-    const double t38 = t37 / c3;
+    const double t38 = t37 / c3;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t39 = s[2] * s18;
     const double t40 = t15 * c18;
     const double t41 = s[2] * c18;
@@ -1064,11 +1064,11 @@ static inline void spherical_convex_spur_eval(const double *s, const double *x, 
     const double t70 = t67 * t42;
     const double t71 = MW_FNMA(t63, s[22], t64);
     const double t72 = MW_FMS(s[21], t63, x[3]);
-    const double t73 = -t61;
-    const double t74 = MW_FMS(t69, t43, t70);
-    const double t75 = MW_FMA(t56, s[22], t72);
-    const double t76 = MW_FMA(t7, c18, t68);
-    const double t77 = MW_FNMA(t7, s18, t71);
+    const double t73 = -t61;  /* row 4 of the contact equations */
+    const double t74 = MW_FMS(t69, t43, t70);  /* row 3 of the contact equations */
+    const double t75 = MW_FMA(t56, s[22], t72);  /* row 2 of the contact equations */
+    const double t76 = MW_FMA(t7, c18, t68);  /* row 0 of the contact equations */
+    const double t77 = MW_FNMA(t7, s18, t71);  /* row 1 of the contact equations */
     R[0] = t76;
     R[1] = t77;
     R[2] = t75;
@@ -1076,7 +1076,7 @@ static inline void spherical_convex_spur_eval(const double *s, const double *x, 
     R[4] = t73;
     if (J == NULL) return;
     const double t78 = c3 * s[30];
-    const double t79 = (-1.0) / t78;
+    const double t79 = (-1.0) / t78;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t80 = 0.5 * c1;
     const double t81 = s[31] * s1;
     const double t82 = s1 * t81;
@@ -1217,7 +1217,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t0 = x[1] * 0.5;
     double s1, c1;
     spherical_convex_spur_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_pinion */
     spherical_convex_spur_sincos(x[1], &s3, &c3);
     const double t5 = MW_FMA(x[2], s[0], s[1]);
     const double t6 = MW_FMS(x[0], s[0], s[11]);
@@ -1237,7 +1237,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t20 = MW_FMA(t16, s[10], t19);
     const double t21 = c3 * s[6];
     const double t22 = c3 * s[30];
-    const double t23 = (-1.0) / t22;
+    const double t23 = (-1.0) / t22;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t24 = c3 * s[29];
     const double t25 = MW_FMA(t20, s[2], s[13]);
     const double t26 = MW_FMA(c3, s[28], t24);
@@ -1263,7 +1263,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t46 = c3 * s[17];
     const double t47 = s[19] * c3;
     const double t48 = s3 * s[25];
-    const double t49 = t41 / c3;
+    const double t49 = t41 / c3;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t50 = s[17] * t44;
     const double t51 = s[19] * t44;
     const double t52 = s[2] * t43;
@@ -1274,7 +1274,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t57 = t37 * s[17];
     const double t58 = MW_FMA(t37, s[19], s[20]);
     const double t59 = t26 * t23;
-    const double t60 = 1.0 / t59;
+    const double t60 = 1.0 / t59;  /* derivation/elimination: pivot 5 of the Newton step */
     const double t61 = s[0] * c17;
     const double t62 = s[0] * s17;
     const double t63 = t5 * c17;
@@ -1289,7 +1289,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t72 = MW_FMA(t15, s17, t63);
     const double t73 = MW_FNMA(t5, s17, t64);
     const double t74 = MW_FMA(t49, s[16], t12);
-    const double t75 = 1.0 / t67;
+    const double t75 = 1.0 / t67;  /* derivation/elimination: pivot 4 of the Newton step */
     const double t76 = MW_FMS(s[12], t49, t12);
     const double t77 = MW_FMS(t76, t48, t52);
     double s78, c78;
@@ -1297,7 +1297,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t80 = t77 * t23;
     const double t81 = t68 * t75;
     const double t82 = MW_FMA(t73, t81, t72);
-    const double t83 = 1.0 / t82;
+    const double t83 = 1.0 / t82;  /* derivation/elimination: pivot 6 of the Newton step */
     const double t84 = s78 * t54;
     const double t85 = c78 * s[23];
     const double t86 = c78 * t32;
@@ -1330,9 +1330,9 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t113 = s78 * s[27];
     const double t114 = MW_FMA(s[17], t93, t113);
     const double t115 = MW_FMA(c78, t42, t46);
-    const double t116 = MW_FNMA(t5, s17, t112);
+    const double t116 = MW_FNMA(t5, s17, t112);  /* row 1 of the contact equations */
     const double t117 = t110 + t98;
-    const double t118 = t63 + t108;
+    const double t118 = t63 + t108;  /* row 0 of the contact equations */
     const double t119 = MW_FMA(c78, t46, t42);
     const double t120 = s78 * t42;
     const double t121 = t70 * t119;
@@ -1371,12 +1371,12 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t154 = t70 * t153;
     const double t155 = t101 * t70;
     const double t156 = MW_FMA(t69, t148, t147);
-    const double t157 = MW_FMS(t109, t69, t155);
+    const double t157 = MW_FMS(t109, t69, t155);  /* row 3 of the contact equations */
     const double t158 = t150 * t83;
     const double t159 = t92 * s[36];
     const double t160 = MW_FMS(s[21], t95, t159);
     const double t161 = MW_FMS(s[21], t104, x[3]);
-    const double t162 = MW_FMA(t93, s[22], t161);
+    const double t162 = MW_FMA(t93, s[22], t161);  /* row 2 of the contact equations */
     const double t163 = MW_FMA(t133, t146, t157);
     const double t164 = MW_FMS(t144, t146, t156);
     const double t165 = MW_FMA(t144, t158, t136);
@@ -1398,7 +1398,7 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     const double t181 = t175 * t168;
     const double t182 = MW_FMS(t164, t166, t180);
     const double t183 = MW_FMS(t163, t166, t181);
-    const double t184 = 1.0 / t182;
+    const double t184 = 1.0 / t182;  /* derivation/elimination: determinant of the last two pivots of the Newton step */
     const double t185 = t184 * t179;
     const double t186 = t184 * t183;
     const double t187 = MW_FNMA(t145, t185, t133);
@@ -1840,7 +1840,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t0 = x[1] * 0.5;
     double s1, c1;
     spherical_convex_spur_seldom_sincos(t0, &s1, &c1);
-    double s3, c3;
+    double s3, c3;  /* of theta_pinion */
     spherical_convex_spur_seldom_sincos(x[1], &s3, &c3);
     const double t5 = MW_FMS(x[0], s[0], s[11]);
     const double t6 = MW_FNMA(x[0], s[4], s[14]);
@@ -1853,19 +1853,19 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t13 = MW_SIGN(x[3]);
     const double t14 = MW_FNMA(x[3], t13, s[52]);
     const double t15 = MW_FNMA(s[6], t9, t10);
-    const double t16 = x[4] + s[97];
+    const double t16 = x[4] + s[97];  /* wheel angle */
     const double t17 = s[49] - x[0];
     const double t18 = s[53] - x[2];
-    const double t19 = t15 * s[7];
+    const double t19 = t15 * s[7];  /* phi_gen_wheel: turn of the wheel in generation */
     const double t20 = MW_FMA(t15, s[9], t12);
     const double t21 = s1 * s1;
     const double t22 = 0.5 * c1;
     const double t23 = s[31] * s1;
     const double t24 = c1 * s[18];
     const double t25 = t11 - t19;
-    double s26, c26;
+    double s26, c26;  /* of phi_gen_wheel: turn of the wheel in generation */
     spherical_convex_spur_seldom_sincos(t19, &s26, &c26);
-    const double t28 = 1.0 / c3;
+    const double t28 = 1.0 / c3;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
     const double t29 = MW_FMA(t5, c3, s[12]);
     const double t30 = MW_FMA(t21, s[10], t29);
     const double t31 = c3 * s[6];
@@ -1887,7 +1887,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t47 = s1 * t23;
     const double t48 = s1 * t22;
     const double t49 = MW_FMS(t24, t22, t47);
-    const double t50 = t43 * t28;
+    const double t50 = t43 * t28;  /* phi_gen_pinion: turn of the pinion in generation */
     const double t51 = t48 + t48;
     const double t52 = MW_FMS(s[16], t45, s[23]);
     const double t53 = t5 * s3;
@@ -1931,9 +1931,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t91 = MW_FMA(s40, s[55], t90);
     const double t92 = c40 * s[55];
     const double t93 = t83 + t86;
-    const double t94 = sqrt(t87);
+    const double t94 = sqrt(t87);  /* derivation/unit: length of a normal */
     const double t95 = MW_FMS(s40, s[54], t92);
-    double s96, c96;
+    double s96, c96;  /* of phi_gen_pinion: turn of the pinion in generation */
     spherical_convex_spur_seldom_sincos(t50, &s96, &c96);
     const double t98 = s[2] * s66;
     const double t99 = s66 * t32;
@@ -1963,7 +1963,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t123 = t113 + t119;
     const double t124 = MW_FMA(t116, t116, t118);
     const double t125 = MW_FMA(s[17], t114, t46);
-    const double t126 = t91 / t94;
+    const double t126 = t91 / t94;  /* derivation/unit: length of a normal */
     const double t127 = c66 * t57;
     const double t128 = MW_FNMA(t30, t120, t127);
     const double t129 = s[21] * t123;
@@ -1975,7 +1975,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t135 = MW_FMA(t30, t121, t134);
     const double t136 = t59 * t120;
     const double t137 = MW_FNMA(s[22], t122, t129);
-    const double t138 = sqrt(t130);
+    const double t138 = sqrt(t130);  /* derivation/unit: length of a normal */
     const double t139 = MW_FMA(s[21], t122, t131);
     const double t140 = t128 - t133;
     const double t141 = MW_FMS(c66, t84, t136);
@@ -1986,7 +1986,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t146 = MW_FMS(t32, t121, t145);
     const double t147 = MW_FNMA(s[19], t140, t63);
     const double t148 = MW_FMA(s[17], t140, t65);
-    const double t149 = t95 / t94;
+    const double t149 = t95 / t94;  /* derivation/unit: length of a normal */
     const double t150 = MW_FMA(s[2], t121, t144);
     const double t151 = MW_FNMA(s[2], t120, t146);
     const double t152 = t32 * t103;
@@ -2015,9 +2015,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t175 = t30 * s66;
     const double t176 = MW_FMA(c66, t59, t175);
     const double t177 = t60 * s[17];
-    const double t178 = t73 / t94;
+    const double t178 = t73 / t94;  /* derivation/unit: length of a normal */
     const double t179 = sqrt(t172);
-    const double t180 = t71 / t94;
+    const double t180 = t71 / t94;  /* derivation/unit: length of a normal */
     const double t181 = MW_FNMA(s[19], t174, t177);
     const double t182 = t30 * s96;
     const double t183 = MW_FMA(t59, c96, t182);
@@ -2025,15 +2025,15 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t185 = t176 * s[21];
     const double t186 = MW_FNMA(t181, s[22], t185);
     const double t187 = t176 * s[22];
-    const double t188 = t116 / t138;
-    const double t189 = t108 / t138;
-    const double t190 = t117 / t138;
-    const double t191 = t165 / t138;
-    const double t192 = t167 / t138;
-    const double t193 = t169 / t138;
-    const double t194 = t158 / t138;
-    const double t195 = t170 / t138;
-    const double t196 = t168 / t138;
+    const double t188 = t116 / t138;  /* derivation/unit: length of a normal */
+    const double t189 = t108 / t138;  /* derivation/unit: length of a normal */
+    const double t190 = t117 / t138;  /* derivation/unit: length of a normal */
+    const double t191 = t165 / t138;  /* derivation/unit: length of a normal */
+    const double t192 = t167 / t138;  /* derivation/unit: length of a normal */
+    const double t193 = t169 / t138;  /* derivation/unit: length of a normal */
+    const double t194 = t158 / t138;  /* derivation/unit: length of a normal */
+    const double t195 = t170 / t138;  /* derivation/unit: length of a normal */
+    const double t196 = t168 / t138;  /* derivation/unit: length of a normal */
     const double t197 = MW_FMA(s[21], t181, t187);
     const double t198 = t30 * c96;
     const double t199 = MW_FNMA(t59, s96, t198);
@@ -2105,7 +2105,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t265 = s[33] * s26;
     const double t266 = MW_FMS(t184, t258, t262);
     const double t267 = MW_FNMA(t184, t259, t263);
-    const double t268 = sqrt(t260);
+    const double t268 = sqrt(t260);  /* derivation/unit: length of a normal */
     const double t269 = t241 * t258;
     const double t270 = s[45] - t214;
     const double t271 = s[0] * c26;
@@ -2116,7 +2116,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t276 = s[51] - t224;
     const double t277 = s[32] * s26;
     const double t278 = MW_FMA(t20, t264, t277);
-    const double t279 = t243 / t255;
+    const double t279 = t243 / t255;  /* derivation/quotient: lever arm of the wheel */
     const double t280 = s[2] * s96;
     const double t281 = MW_FMS(t32, c96, t280);
     const double t282 = s[0] * s26;
@@ -2144,9 +2144,9 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t304 = -t93;
     const double t305 = -t88;
     const double t306 = t302 * s[50];
-    const double t307 = t238 / t268;
-    const double t308 = t237 / t268;
-    const double t309 = t236 / t268;
+    const double t307 = t238 / t268;  /* derivation/unit: length of a normal */
+    const double t308 = t237 / t268;  /* derivation/unit: length of a normal */
+    const double t309 = t236 / t268;  /* derivation/unit: length of a normal */
     const double t310 = t189 * t307;
     const double t311 = t190 * t309;
     const double t312 = t188 * t308;
@@ -2187,7 +2187,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t347 = t318 * t126;
     const double t348 = MW_FMA(t308, t149, t341);
     const double t349 = MW_FMA(t319, t149, t347);
-    const double t350 = (-1.0) / t342;
+    const double t350 = (-1.0) / t342;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t351 = t326 * t345;
     const double t352 = t345 * t333;
     const double t353 = t345 * t344;
@@ -2201,7 +2201,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t361 = t320 * t348;
     const double t362 = t307 * t348;
     const double t363 = t307 * t349;
-    const double t364 = (-1.0) / t359;
+    const double t364 = (-1.0) / t359;  /* cylindrical_worm/undercut: singular function of a flank */
     const double t365 = t320 * t349;
     const double t366 = t350 * t361;
     const double t367 = t350 * t363;
@@ -2233,7 +2233,7 @@ static inline void spherical_convex_spur_observe(const double *s, const double *
     const double t393 = t384 - t391;
     const double t394 = t384 + t391;
     const double t395 = t392 + t391;
-    const double t396 = t388 / t395;
+    const double t396 = t388 / t395;  /* derivation/quotient: larger principal curvature of the gap */
     const double t397 = t393 - t396;
     const double t398 = t396 + t394;
     o[0] = t203;

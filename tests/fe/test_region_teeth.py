@@ -1,0 +1,113 @@
+"""Teeth that the regions of flanks and fillets make: bevel and hypoid gears, and others that have sizes beside them."""
+
+import json
+
+import numpy as np
+import pytest
+from on_flank import distance_from_flank
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.fe import loaded
+from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
+from meshwright.fe.compliance import tooth_compliance
+from meshwright.fe.grading import MeshDensity
+from meshwright.fe.loaded import loaded_contact
+from meshwright.fe.model import Load
+from meshwright.fe.region_teeth import region_teeth
+from meshwright.fe.solids import gear_pair, teeth_of
+from tests.quick import quick
+
+LOAD = Load(50e3, "wheel")
+
+
+@pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate")))
+def pair(request):
+    drive = Drive.load(request.param)
+    return drive, gear_pair(drive)
+
+
+def test_half_spaces_give_hertz_and_bear_the_torque(pair):
+    """Rigid teeth of bevel gears: Hertz pressure within 1 %, the moment of all pressures is the torque."""
+    _, gear = pair
+    found = loaded_contact(gear, 0.0, 1, LOAD, None)
+    origin, axis = gear.wheel.axis
+    moment = 0.0
+    for one in found.pairs:
+        arms = np.cross(one.grid.points - origin, one.contact.touch.normal) @ axis
+        moment += one.grid.area * float(one.pressures @ arms)
+        if one.force > 0.0:
+            assert one.peak_pressure == pytest.approx(one.hertz.peak_pressure, rel=0.01)
+    assert abs(moment) == pytest.approx(LOAD.torque, rel=1e-9)
+
+
+def test_nodes_lie_on_the_generated_flanks(pair):
+    """To 1e-9 mm, of positive elements in three teeth side by side."""
+    drive, gear = pair
+    for name in ("pinion", "wheel"):
+        member = getattr(gear, name)
+        order = tooth_order(member, 0.0, (-1, 0, 1))
+        body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], MeshDensity())
+        assert body.mesh.smallest_jacobian() > 0.2
+        grid = drive.surface(name, (9, 17))
+        starts = grid.values[np.isfinite(grid.points).all(axis=1)]
+        nodes = body.mesh.nodes[body.nodes(order.index(0), f"flank_{member.working}")]
+        assert distance_from_flank(drive.flank(name), nodes, starts).max() < 1e-9
+
+
+@pytest.mark.parametrize("member", quick(("pinion", "wheel"), "pinion"))
+def test_regions_and_sizes_make_the_same_tooth(member):
+    """Helical gears have both: fillet and flank of either side in common sections, cuts and bore, to 1e-6 mm."""
+    drive = Drive.load("helical-crowned").with_(design={f"{m}_{k}_um": 0.0 for m, k in (
+        ("pinion", "lead_crowning"), ("pinion", "profile_crowning"), ("pinion", "tip_relief"), ("wheel", "tip_relief"),
+    )})  # fmt: skip
+    rim = 11.25
+    by_sizes, by_regions = teeth_of(drive, member, rim), region_teeth(drive, member, rim)
+    assert by_sizes.working == by_regions.working
+    one, other = by_sizes.at(0.0), by_regions.at(0.0)
+    assert other.faces == pytest.approx(one.faces, abs=1e-9)
+    values, shares = np.linspace(*one.faces, 5), np.tile(np.linspace(0.0, 1.0, 7), (5, 1))
+    for name in ("left", "right"):
+        for part in ("fillet", "flank"):
+            places = [getattr(form.side(name), part).rail(values).at(shares) for form in (one, other)]
+            assert places[1] == pytest.approx(places[0], abs=1e-5)
+            assert places[1][:, [0, -1]] == pytest.approx(places[0][:, [0, -1]], abs=1e-6)
+    for cut in ("left_cut", "right_cut"):
+        assert getattr(other, cut)(values) == pytest.approx(getattr(one, cut)(values), abs=1e-6)
+
+
+@pytest.mark.validate
+def test_compliance_of_bevel_teeth_is_that_of_finer_meshes(pair):
+    """Extrapolated from the usual meshes and from half as fine again: 4 % of the largest entry at most between them."""
+    _, gear = pair
+    usual, finer = (tooth_compliance(gear.pinion, 0, per_patch).own for per_patch in (1, 2))
+    assert np.abs(usual - finer).max() < 0.04 * np.abs(finer).max()
+
+
+@pytest.mark.validate
+def test_forces_do_not_depend_on_the_cells(pair, monkeypatch):
+    """31 and 51 cells a side: the wheel's lag under load within 0.5 %."""
+    _, gear = pair
+    usual = loaded_contact(gear, 0.0, 3, LOAD, None).rotation
+    monkeypatch.setattr(loaded, "_CELLS", 51)
+    assert loaded_contact(gear, 0.0, 3, LOAD, None).rotation == pytest.approx(usual, rel=5e-3)
+
+
+@pytest.mark.validate
+def test_a_hypoid_pair_under_load(capsys):
+    """Shares add up to the whole; teeth are softer than half-spaces; more torque, more lag."""
+    words = ["loaded", "bevel-hypoid", "--phi-deg=0,8", "--json", "-", "--pairs", "3"]
+    lags = []
+    for torque in ("50", "200"):
+        assert main([*words, "--torque-nm", torque]) == 0
+        points = json.loads(capsys.readouterr().out)["points"]
+        for point in points:
+            assert sum(one["share"] for one in point["pairs"]) == pytest.approx(1.0)
+        errors = [[p[f"{key}_transmission_error_arcsec"] for key in ("unloaded", "loaded")] for p in points]
+        lags.append([abs(one - other) for one, other in errors])
+    assert all(less < more < 4.0 * less for less, more in zip(*lags, strict=True))
+
+
+def test_a_bevel_pair_that_touches_along_lines_is_refused(capsys):
+    assert main(["loaded", "bevel-crown-pair", "--torque-nm", "20"]) == 2
+    assert "along a line" in capsys.readouterr().err
