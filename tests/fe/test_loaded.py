@@ -9,7 +9,6 @@ from test_solver_chain import linear_field, macneal_harder_patch
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
-from meshwright.fe import loaded
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
@@ -218,19 +217,14 @@ def test_a_rotation_that_is_not_small_is_said_to_be_so(capsys):
     assert "rotation_not_small" in capsys.readouterr().out
 
 
-def test_a_contact_cut_off_by_an_edge_is_named(concave, monkeypatch):
-    """Where the contact leaves a tip half of the ellipse is missing, and the pressure peaks at the edge: less since the
-    edge is free than it would on half-spaces that go on beyond it.
-    """
+def test_a_contact_cut_off_by_an_edge_is_named(concave):
+    """Where the contact leaves a tip half of the ellipse is missing, and the pressure peaks at the edge."""
     found = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None)
     cut, whole = found.pairs
     assert cut.cut_off and cut.peaks_at_edge and cut.edges == ("tip of the pinion",)
-    assert cut.peak_pressure > 1.5 * cut.hertz.peak_pressure
+    assert cut.peak_pressure > 2.0 * cut.hertz.peak_pressure
     assert not whole.cut_off and not whole.peaks_at_edge and whole.edges == ()
     assert whole.peak_pressure == pytest.approx(whole.hertz.peak_pressure, rel=2e-3)
-    monkeypatch.setattr(loaded, "free_edge_displacements", lambda *_: None)
-    held = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None).pairs[0]
-    assert held.peak_pressure > 2.0 * held.hertz.peak_pressure and held.force > cut.force
 
 
 @pytest.mark.validate

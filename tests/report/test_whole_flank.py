@@ -5,13 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.tri import LinearTriInterpolator, Triangulation
-from scipy.spatial import cKDTree
 
 from meshwright import Drive, cli
-from meshwright.contact.placement import placements_at
-from meshwright.cycle.pairs import Mesh
-from meshwright.cycle.rigid import RigidTeeth
-from meshwright.cycle.transmission import envelopes
 from meshwright.report import whole_figure
 from meshwright.report.figures import pictures
 from meshwright.report.whole_flank import whole_flanks
@@ -102,62 +97,6 @@ def test_the_composite_pattern_holds_every_single_patch(name, analysed):
             inside += values.count()
     assert inside > 200
     assert np.nanmin(whole.running - whole.alone) > -1e-7
-
-
-def _brute_force_gaps(drive, stands, vertices, normals, angles):
-    """Least distances (V,) along the normals of points of the wheel to the pinion, each a dense cloud of points beside
-    the other with planes through them, at pinion angles (A,) of one pair and where the drive ``stands``.
-    """
-    description = drive.design.description
-    mate = drive.surface("pinion", (161, 161))
-    known = np.isfinite(mate.points).all(axis=1)
-    points, planes = mate.points[known], mate.normals[known]
-    spacing = np.sqrt(np.ptp(points[:, 2]) * np.ptp(np.hypot(*points[:, :2].T))) / 160
-    solutions = np.tile(drive.trace(np.zeros(1))[0], (len(angles), 1))
-    solutions[:, description["error"]] = stands
-    placed = placements_at(drive, angles, solutions).matrices
-    least, near = np.full(len(vertices), np.inf), cKDTree(points)
-    for own, other in zip(placed["wheel"], placed["pinion"], strict=True):
-        motion = np.linalg.inv(other) @ own
-        at, along = vertices @ motion[:3, :3].T + motion[:3, 3], normals @ motion[:3, :3].T
-        _, first = near.query(at)
-        beside = at + along * np.einsum("vi,vi->v", along, points[first] - at)[:, None]
-        _, first = near.query(beside)
-        off = points[first] - at
-        across = np.linalg.norm(off - along * np.einsum("vi,vi->v", off, along)[:, None], axis=1)
-        facing = np.einsum("vi,vi->v", planes[first], along)
-        gap = np.einsum("vi,vi->v", off, planes[first]) / facing
-        met = (across < 1.5 * spacing) & (facing < -0.98)
-        least = np.fmin(least, np.where(met, gap, np.inf))
-    return least
-
-
-@pytest.mark.validate
-@pytest.mark.parametrize("degrees", [0.0, 0.08])
-def test_the_composite_pattern_is_what_a_brute_force_gap_prints_at_the_first_contact_of_all_pairs(degrees):
-    """Helical pair, aligned and so far out of line that the end of a face touches before every tangency: no point of
-    the wheel stands inside the pinion, and the points within the compound are the same.
-    """
-    drive = Drive.load("helical-crowned").with_(misalignment={"horizontal_deg": degrees})
-    mesh = Mesh.of(drive)
-    teeth = RigidTeeth.of(mesh)
-    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
-    whole = whole_flanks(drive, np.linspace(low, high, 60), None, teeth.between)["wheel"]
-    room = 0.5 * (high - low)
-    angles = np.linspace(low - room, high + room, 241)
-    expected = _brute_force_gaps(drive, teeth.transmitted(angles), whole.points, whole.normals, angles)
-    tangencies = envelopes(mesh, angles)
-    ahead = np.nanmax(mesh.sense * (teeth.transmitted(angles) - np.fmax(tangencies.upper, tangencies.lower)))
-    assert (ahead > 1e-5) == (degrees > 0.0)
-    inner = np.setdiff1d(np.arange(len(whole.points)), np.unique(whole.edges))
-    assert np.nanmin(whole.running) > -1e-5
-    near = inner[(expected[inner] < 0.012) & np.isfinite(whole.running[inner])]
-    assert len(near) > 100
-    assert whole.running[near] == pytest.approx(expected[near], abs=1.5e-4)
-    for thickness in (0.003, 0.006, 0.012):
-        sure = inner[np.abs(expected[inner] - thickness) > 1.5e-4]
-        printed = np.nan_to_num(whole.running[sure], nan=np.inf) < thickness
-        assert printed.any() and np.array_equal(printed, expected[sure] < thickness)
 
 
 def test_a_thicker_compound_is_named(analysed):

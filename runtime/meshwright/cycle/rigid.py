@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
@@ -74,45 +73,14 @@ class RigidTeeth:
         values = np.array([self.leader(float(angle))[1] for angle in angles])
         return self.mesh.sense * np.where(np.isfinite(values), values, np.nan)
 
-    def between(self, angles):
-        """As :meth:`transmitted`, between :data:`SAMPLES` places a pitch at which first contact is sought: (N,).
-
-        Of each pair the error is interpolated, and the leading one taken: a transfer has its corner.
-        """
-        own, ahead = self._sampled
-        pitch, found = self.mesh.drive.pitch(), np.full(np.shape(angles), -math.inf)
-        if len(own):
-            angles = np.asarray(angles, dtype=float)
-            first = math.ceil((angles.min() - own[-1]) / pitch - 1e-9)
-            last = math.floor((angles.max() - own[0]) / pitch + 1e-9)
-            for number in range(first, last + 1):
-                at = angles - number * pitch
-                found = np.maximum(found, np.interp(at, own, ahead, left=-math.inf, right=-math.inf))
-        return self.mesh.sense * np.where(np.isfinite(found), found, np.nan)
-
-    @cached_property
-    def _sampled(self):
-        """Own angles of a pair, ascending, and sense times its errors there, (S,) both: while it may lead."""
-        for angle in self._angles:
-            self.leader(float(angle))
-        pitch, on_grid = self.mesh.drive.pitch(), set(map(float, self._angles))
-        found = {angle - number * pitch: value for (number, angle), value in self.known.items()
-                 if angle in on_grid and math.isfinite(value)}  # fmt: skip
-        own = np.array(sorted(found))
-        return own, np.array([found[angle] for angle in own])
-
-    @property
-    def _angles(self):
-        start = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
-        return start + np.arange(SAMPLES + 1) / SAMPLES * self.mesh.drive.pitch()
-
     def peak_to_peak(self):
         """Largest less smallest transmitted error of one pitch, rad; NaN if there is an angle at which no pair touches.
 
         Sampled; the transfers between samples are located, and the extremes of the pairs about the extreme samples.
         """
         pitch = self.mesh.drive.pitch()
-        angles = self._angles
+        start = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
+        angles = start + np.arange(SAMPLES + 1) / SAMPLES * pitch
         leaders = [self.leader(float(angle)) for angle in angles]
         values = np.array([value for _, value in leaders])
         if not np.isfinite(values).all():

@@ -55,10 +55,8 @@ class Envelopes:
     edge_contact: np.ndarray
 
 
-def transmission_error(mesh, teeth=None):
-    """:class:`TransmissionError` of a :class:`~meshwright.cycle.pairs.Mesh`; ``teeth`` its :class:`RigidTeeth`, if they
-    are known.
-    """
+def transmission_error(mesh):
+    """:class:`TransmissionError` of a :class:`~meshwright.cycle.pairs.Mesh`."""
     window, nothing = mesh.window, math.nan
     vertex, transfers = _vertex(mesh), _transfers(mesh)
     if not window.complete:
@@ -66,7 +64,7 @@ def transmission_error(mesh, teeth=None):
     low, high = sorted((window.begin.angle, window.end.angle))
     pair = mesh.errors(_critical(mesh, low, high, vertex))
     upper, lower = _ranges(mesh, (low, high), vertex, transfers)
-    teeth = RigidTeeth.of(mesh) if teeth is None else teeth
+    teeth = RigidTeeth.of(mesh)
     rigid = math.nan if teeth is None else teeth.peak_to_peak()
     if not math.isfinite(rigid):
         rigid = _ranges(mesh, (low, high), vertex, transfers, edge_paths(mesh))[0 if mesh.sense > 0 else 1]

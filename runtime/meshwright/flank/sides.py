@@ -127,13 +127,6 @@ class RegionSide:
         """The flank in sections, up to where it meets the fillet."""
         return self.at(values)[0]
 
-    def fillet_lines(self, values: Floats) -> Lines:
-        """The fillet in sections, up to where it meets the flank. Raises UsageError without one."""
-        fillet = self.at(values)[1]
-        if fillet is None:
-            raise UsageError(f"the {self.flank.region.flank.body['name']} has no fillet: its tool has a sharp tip")
-        return fillet
-
     def breaks(self) -> Floats:
         """As :class:`Side` says."""
         at = np.linspace(*self.reach, 4 * len(self.flank.along))[1:-1]

@@ -9,13 +9,12 @@ from meshwright.contact.contact_line import ContactLine, contact_line
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
 from meshwright.contact.placement import placements
-from meshwright.contact.results import ARCSEC, TCA, impossible
+from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import FirstContacts
 from meshwright.cycle.pairs import Mesh
-from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.transmission import (
     ROUND_OFF,
     Envelopes,
@@ -43,9 +42,6 @@ LINE_REACH, LINES_PER_PITCH = 12, 12
 #: Contours of the contact pattern along the path, and directions in each.
 CONTOURS, DIRECTIONS = 9, 96
 
-#: Rigid teeth touch with an edge where they transmit another error than the tangencies do, by more than this, rad.
-AT_EDGE = 0.05 * ARCSEC
-
 #: Tooth orders of the Fourier components.
 ORDERS = 8
 
@@ -55,29 +51,20 @@ class Running:
     """All pairs of the drive together.
 
     ``envelopes`` run over the window, ``pitch`` over one pitch in its middle, with the number of ``teeth`` in contact
-    and the ``separations`` (K, N), mm, of the pairs ``pitch.numbers``; ``rigid`` (N,) is the error that rigid teeth
-    transmit at these angles, whose edges may touch before any tangency and go on where a flank has ended, ``at_edge``
-    whether they do anywhere; ``first`` finds it, if the blank bounds the flanks. ``amplitudes`` are those of the
-    transmitted error by tooth order, rad; ``backlash`` is a wheel angle, rad.
+    and the ``separations`` (K, N), mm, of the pairs ``pitch.numbers``; ``rigid`` is the pitch once more for rigid
+    teeth, whose edges go on where a flank has ended. ``amplitudes`` are those of the transmitted error by tooth order,
+    rad; ``backlash`` is a wheel angle, rad.
     """
 
     mesh: Mesh
     error: TransmissionError
     envelopes: Envelopes
     pitch: Envelopes
-    rigid: np.ndarray
-    at_edge: bool
-    first: RigidTeeth | None
+    rigid: Envelopes
     teeth: np.ndarray
     separations: np.ndarray
     amplitudes: np.ndarray
     backlash: float
-
-    def stands(self, angles):
-        """The transmission error (N,) that the drive has at pinion angles (N,) with rigid teeth, rad."""
-        if self.first is not None:
-            return self.first.between(angles)
-        return self.transmitted(envelopes(self.mesh, angles))
 
     def transmitted(self, found):
         """The transmitted one of the envelopes ``found``, rad: (N,)."""
@@ -172,8 +159,7 @@ def analyse(drive, step, friction=None, marking=None, sizes=None):
     matrices = _matrices(drive, tca)
     patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
     step("whole flanks")
-    alone = np.where(np.isfinite(first.errors), first.errors, tca.error)
-    whole = whole_flanks(drive, angles, alone, None if running is None else running.stands)
+    whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
     sensitivities = []
     for parameter in misalignments(drive.design):
         step(f"misalignment {parameter['key']}")
@@ -228,27 +214,16 @@ def _running(mesh, angles):
     pitch = mesh.drive.pitch()
     middle = 0.5 * (angles[0] + angles[-1])
     over_pitch = envelopes(mesh, middle + np.linspace(-0.5, 0.5, 97) * pitch)
-    teeth = RigidTeeth.of(mesh)
-    rigid = np.full(len(over_pitch.angles), np.nan) if teeth is None else teeth.between(over_pitch.angles)
     separations = np.full(over_pitch.pairs.shape, np.nan)
     for column, angle in enumerate(over_pitch.angles):
         for pair in mesh.pairs(angle):
             separations[over_pitch.numbers.index(pair.number), column] = pair.separation
-    error = transmission_error(mesh, teeth)
-    flanks = over_pitch.upper if error.envelope == "upper" else over_pitch.lower
-    at_edge = bool(np.nanmax(np.abs(rigid - flanks), initial=0.0) > AT_EDGE)
-    if not np.isfinite(rigid).all():
-        edges = envelopes(mesh, over_pitch.angles, edge_paths(mesh))
-        rigid, at_edge = edges.upper if error.envelope == "upper" else edges.lower, bool(edges.edge_contact.any())
-        teeth = None
     return Running(
         mesh=mesh,
-        error=error,
+        error=transmission_error(mesh),
         envelopes=envelopes(mesh, angles),
         pitch=over_pitch,
-        rigid=rigid,
-        at_edge=at_edge,
-        first=teeth,
+        rigid=envelopes(mesh, over_pitch.angles, edge_paths(mesh)),
         teeth=np.array([mesh.teeth_in_contact(angle) for angle in over_pitch.angles]),
         separations=separations,
         amplitudes=fourier(mesh, ORDERS)[0],

@@ -80,7 +80,7 @@ def _whole_pattern(member, analysis):
     if np.isfinite(analysis.whole[member].alone).any():
         shown += (
             f"; filled where the mate comes nearer than a marking compound of {text_of(1000.0 * analysis.marking)} µm: "
-            "dark in the running drive, where the pair that touches first carries; light where only a pair alone does"
+            "dark in the running drive, whose leading pair carries; light where only a pair that carries alone does"
         )
     return Picture(
         f"whole-{member}",
@@ -163,8 +163,8 @@ def _drive_error(analysis):
         axes.plot(angles, (transmitted - zero) / ARCSEC, color=style.WHEEL, linewidth=2.2, label="transmitted")
         axes.set_ylabel("relative error, arcsec")
     values = [running.transmitted(running.pitch)]
-    if running.at_edge:
-        values.append(running.rigid)
+    if running.rigid.edge_contact.any():
+        values.append(running.transmitted(running.rigid))
         zoom.plot(angles, (values[-1] - zero) / ARCSEC, "--", color=style.WARN, linewidth=1.2)
         whole.plot([], [], "--", color=style.WARN, linewidth=1.2, label="with edges")
     whole.plot([], [], color=style.SOFT, linewidth=0.8, label="other pairs")

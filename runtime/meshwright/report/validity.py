@@ -7,9 +7,8 @@ VALIDITY = (
     "Contact ellipses are where the quadratic approximation of the gap equals the separation of the design; the "
     "separation is the total normal distance between the bodies.",
     "A limit of the blank that the design does not give is not applied; a window that nothing limits has no end.",
-    "The wheel follows the pair that leads. An edge may touch before any tangency, or go on to touch where a flank has "
-    "ended at a tip or a face: that is in the curve of rigid teeth and in the composite pattern, not in the other "
-    "numbers.",
+    "The wheel follows the pair that leads. Where a flank has ended at a tip or a face, its edge may go on to touch: "
+    "that is in the curve of rigid teeth only, not in the other numbers.",
     "A misalignment is applied alone, on top of those of the design, and its effect is a central difference: "
     "proportional effects may be scaled, peak-to-peak values may not.",
 )

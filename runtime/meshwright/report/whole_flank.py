@@ -7,7 +7,6 @@ Source: F. L. Litvin and A. Fuentes, Gear Geometry and Applied Theory, 2nd ed. (
 """
 
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -19,9 +18,8 @@ from meshwright.flank.region import solved
 from meshwright.report.projection import Projection
 
 #: Cells of the lattice over a flank; positions at which the mate is met first, over the contact of a pair and this
-#: share of it to either side; angles there at which it is told where the drive stands; narrowing of the steps about the
-#: nearest position, and how often.
-CELLS, POSITIONS, BEYOND, STANDINGS = (18, 18), 41, 0.5, 481
+#: share of it to either side; narrowing of the steps about the nearest position, and how often.
+CELLS, POSITIONS, BEYOND = (18, 18), 41, 0.5
 NARROWER, NARROWED = 5.0, 3
 
 #: Newton steps to the mate, mm: longest, done; how many; and how far a flank may be off, as a share of its size.
@@ -37,9 +35,8 @@ class WholeFlank:
     mm, of ``triangles`` (T, 3), and its border: ``edges`` (B, 2) of vertices on the limits named by ``limits`` (B,).
 
     Distances to the mate, mm, at the vertices (V,), NaN where it never comes: ``ease_off`` from the mate's conjugate,
-    0 at the contact of the reference angle; ``alone`` while the pair carries, ``running`` in the drive, where the pair
-    carries that touches first, with a tangency, an edge or a corner. They are not sought on a thread of several turns,
-    which no compound marks.
+    0 at the contact of the reference angle; ``alone`` while the pair carries, ``running`` while the drive's leading
+    pair does. They are not sought on a thread of several turns, which no compound marks.
     """
 
     points: np.ndarray
@@ -52,15 +49,13 @@ class WholeFlank:
     running: np.ndarray
 
 
-def whole_flanks(drive, angles, alone=None, running=None):
+def whole_flanks(drive, angles, transmitted=None):
     """The :class:`WholeFlank` of each member by name, of pairs in contact at ascending pinion ``angles`` (N,), rad.
 
-    ``alone`` (N,), rad, is the transmission error there of a pair that carries alone, by default that of its tangency;
-    ``running``, of pinion angles (M,), rad, that of the drive: with it no place of any two flanks overlaps, and the
-    places that stand close to the mate are those that a compound prints. By default ``alone``. A member whose flank is
-    empty or cannot be bounded has none; none at all where there is no contact.
+    ``transmitted`` (N,), rad, is the transmission error of the drive there, by default that of the pair. A member
+    whose flank is empty or cannot be bounded has none; none at all where there is no contact.
     """
-    contacts = _Contacts.of(drive, angles, alone, running)
+    contacts = _Contacts.of(drive, angles, transmitted)
     if contacts is None:
         return {}
     found = {}
@@ -89,32 +84,30 @@ def _whole(drive, member, triangles, names, contacts):
 
 @dataclass(frozen=True)
 class _Contacts:
-    """Contacts of the right-hand drive at ascending ``angles`` (N,): ``unknowns`` (N, nx); ``reference``, the error of
-    uniform motion, rad; ``alone`` and ``running``, where pair and drive stand at the angles (M,) of each: (angles,
-    errors), rad.
+    """Contacts of the right-hand drive at ascending ``angles`` (N,): ``unknowns`` (N, nx), transmission errors of the
+    pair and of the drive (N,), rad; ``reference`` the error that uniform motion has.
     """
 
     angles: np.ndarray
     unknowns: np.ndarray
+    errors: np.ndarray
+    transmitted: np.ndarray
     reference: float
-    alone: tuple[np.ndarray, np.ndarray]
-    running: tuple[np.ndarray, np.ndarray]
 
     @classmethod
-    def of(cls, drive, angles, alone, running):
+    def of(cls, drive, angles, transmitted):
         mirror = drive.design.mirror.sign
         order = np.argsort(mirror * angles)
         turned = (mirror * angles)[order]
         unknowns, _ = drive.trace(turned)
         errors = unknowns[:, drive.design.description["error"]]
+        driven = errors if transmitted is None else mirror * transmitted[order]
         known = np.isfinite(unknowns).all(axis=1)
         if not known.any():
             return None
-        middle = errors[known][np.argmin(np.abs(turned[known] - drive.design.reference_angle))]
-        driven = errors if alone is None else mirror * alone[order]
         driven = np.where(np.isfinite(driven), driven, errors)
-        one = turned[known], driven[known]
-        return cls(turned[known], unknowns[known], float(middle), one, _standing(running, one, mirror))
+        middle = errors[known][np.argmin(np.abs(turned[known] - drive.design.reference_angle))]
+        return cls(turned[known], unknowns[known], errors[known], driven[known], float(middle))
 
     def near(self, angles):
         """Numbers of the contacts nearest to angles."""
@@ -122,18 +115,6 @@ class _Contacts:
         if len(self.angles) == 1:
             return np.zeros(np.shape(angles), dtype=int)
         return np.where(angles - self.angles[after - 1] < self.angles[after] - angles, after - 1, after)
-
-
-def _standing(running, alone, mirror):
-    """Where the drive stands over the contact of a pair and beyond it on either side; as ``alone`` if nothing says."""
-    if running is None:
-        return alone
-    low, high = alone[0][0], alone[0][-1]
-    room = BEYOND * (high - low)
-    angles = np.linspace(low - room, high + room, STANDINGS)
-    errors = mirror * running(mirror * angles)
-    known = np.isfinite(errors)
-    return (angles[known], errors[known]) if known.any() else alone
 
 
 @dataclass(frozen=True)
@@ -170,45 +151,51 @@ class _Rays:
         low, high = self.contacts.angles[0], self.contacts.angles[-1]
         room = BEYOND * (high - low) + 1e-12
         positions = np.linspace(low - room, high + room, POSITIONS)
+        inside = (positions > low - 1e-12) & (positions < high + 1e-12)
         count = len(self.points)
-        first = self._met(np.tile(np.arange(count), POSITIONS), np.repeat(positions, count))
-        free, turning, _ = self._narrowed(first, positions, lambda met, angles: met.distance, positions[[0, -1]])
-        alone, running = (
-            self._narrowed(first, positions, partial(self._printed, standing), standing[0][[0, -1]])[2]
-            for standing in (self.contacts.alone, self.contacts.running)
-        )
-        # beyond its contact a pair alone comes at least as near as in the drive
-        return np.where(turning, free, np.nan), np.fmin(alone, running), running
+        vertices = np.tile(np.arange(count), POSITIONS)
+        angles = np.repeat(positions, count)
+        first = self._met(vertices, angles)
+        printed = [self._printed(first, angles, errors).reshape(POSITIONS, count)[inside]
+                   for errors in (self.contacts.errors, self.contacts.transmitted)]  # fmt: skip
+        printed = [np.fmin.reduce(p) if len(p) else np.full(count, np.nan) for p in printed]
+        distance = first.distance.reshape(POSITIONS, count)
+        step = positions[1] - positions[0]
+        free, *_ = self._narrowed(first, positions, distance, step, (positions[0], positions[-1]))
+        within = np.where(inside[:, None], distance, np.nan)
+        _, *more = self._narrowed(first, positions, within, step, (low, high))
+        return free, *(np.fmin(a, b) for a, b in zip(printed, more, strict=True))
 
-    def _narrowed(self, first, positions, value, bounds):
-        """About the position within ``bounds`` at which ``value``, of :class:`_Met` and angles, is least: the value
-        (V,) at the end of ever finer steps, whether it turns there, and the least one met on the way.
+    def _narrowed(self, first, positions, distance, step, bounds):
+        """The least distance (V,) about the nearest of the positions, not a number where the mate is still coming
+        nearer at the bounds or is lost; and the least printed ones met on the way.
         """
-        count, step = len(self.points), positions[1] - positions[0]
-        end, turns, least = np.full(count, np.nan), np.zeros(count, dtype=bool), np.full(count, np.nan)
-        values = value(first, np.repeat(positions, count)).reshape(POSITIONS, count)
-        values[(positions < bounds[0] - 1e-12) | (positions > bounds[1] + 1e-12)] = np.nan
-        vertices = np.flatnonzero(np.isfinite(values).any(axis=0))
-        if not len(vertices):
-            return end, turns, least
-        best = np.nanargmin(values[:, vertices], axis=0)
+        count = len(self.points)
+        vertices = np.flatnonzero(np.isfinite(distance).any(axis=0))
+        best = np.nanargmin(distance[:, vertices], axis=0)
         angle, q = positions[best], first.q.reshape(POSITIONS, count, -1)[best, vertices]
-        met_least = values[best, vertices]
+        printed = [np.full(count, np.nan), np.full(count, np.nan)]
         for _ in range(NARROWED):
             about = np.array([np.clip(angle + s * step, *bounds) for s in (-1.0, 0.0, 1.0)])
             met = [self._met(vertices, a, q) for a in about]
-            found = np.array([value(m, a) for m, a in zip(met, about, strict=True)])
-            met_least = np.fmin(met_least, np.fmin.reduce(found))
-            angle, turning = _lowest(about, found)
+            self._note(printed, vertices, met, about)
+            angle, turning = _lowest(about, np.array([m.distance for m in met]))
             q = np.where(np.isfinite(met[1].distance)[:, None], met[1].q, q)
             step /= NARROWER
-        end[vertices] = value(self._met(vertices, angle, q), angle)
-        turns[vertices], least[vertices] = turning, np.fmin(met_least, end[vertices])
-        return end, turns, least
+        met = self._met(vertices, angle, q)
+        self._note(printed, vertices, [met], [angle])
+        least = np.full(count, np.nan)
+        least[vertices] = np.where(turning, met.distance, np.nan)
+        return least, *printed
 
-    def _printed(self, standing, met, angles):
-        """Distances to the mate inside its limits, the wheel where it stands, not a number where nothing says where."""
-        turned = np.interp(angles, *standing, left=np.nan, right=np.nan) - self.contacts.reference
+    def _note(self, printed, vertices, met, angles):
+        for values, errors in zip(printed, (self.contacts.errors, self.contacts.transmitted), strict=True):
+            for one, at in zip(met, angles, strict=True):
+                values[vertices] = np.fmin(values[vertices], self._printed(one, at, errors))
+
+    def _printed(self, met, angles, errors):
+        """Distances to the mate inside its limits, the wheel turned by the errors of the contacts."""
+        turned = np.interp(angles, self.contacts.angles, errors) - self.contacts.reference
         return np.where(met.margin >= 0.0, met.distance + met.slope * turned, np.nan)
 
     def _met(self, vertices, angles, start=None):
