@@ -85,6 +85,7 @@ def test_a_changed_instruction_of_casadi_is_refused():
         (r"(certified_equations_output\[\] = { )(\d+),(\d+)", r"\g<1>\3,\2", "table equations"),
         (r"(certified_rule_7_constant\[\] = {) { 0\.785", r"\1 { 0.786", "within its radius"),
         (r"(certified_observed_input\[\] = { )(\d+),(\d+)", r"\g<1>\3,\2", "table observed"),
+        (r"(certified_along_input\[\] = { )(\d+),(\d+)", r"\g<1>\3,\2", "table along"),
         (r"3\.061616997868383e-17", "3.1e-17", "within its radius"),
         (r"2\.9486522708701687e-19", "2.8e-19", "the unit of"),
     ],

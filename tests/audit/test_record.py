@@ -131,10 +131,11 @@ def test_a_new_tool_brings_its_own_provenance():
     """
     objects = record.ledger().objects
     plan = schedule(catalogue()["spherical_spur_spur"]())
+    drive = plan.drive
 
     def with_wheel_on(statement):
-        wheel = replace(plan.drive.wheel, surface=plan.drive.wheel.surface.on(statement))
-        return provenance(objects, replace(plan, drive=replace(plan.drive, wheel=wheel)))["equations_of"]
+        plan.drive = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(statement)))
+        return provenance(objects, plan)["equations_of"]
 
     used = with_wheel_on("helicoids/zc-limit")
     assert all("helicoids/zc-limit" in used[name] for name in ("flank_wheel", "eval", "step", "observe"))
