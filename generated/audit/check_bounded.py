@@ -506,7 +506,7 @@ def tables_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
     check_factors(drive)
     main = text[text.index(f"static const mw_certified {prefix} = ") :]
     order = [m[7] for m in CODE_OF.finditer(main)]
-    names = ("setup", "instant", "equations", "observed")
+    names = ("setup", "instant", "equations", "observed", "along")
     require(order == [f"{prefix}_{name}" for name in names], "tables: other order")
     slots, design = map(int, re.search(r"= {\s*(\d+), (\d+),", main).groups())
     for name in names:
@@ -537,7 +537,7 @@ def check_factors(drive: Drive) -> None:
 
 
 def check_table(drive: Drive, table: Table, name: str, slots: int, design: int, rng: Random) -> None:
-    """One of the four functions of a contact, beside the C function."""
+    """One of the five functions of a contact, beside the C function."""
     seen, _ = drive.run("observe", rng, "x", drive.unknowns)
     setup, instant = seen.earlier.earlier, seen.earlier
     parameters = [seen.inputs[f"p[{k}]"] for k in range(len(drive.parameters))]
@@ -547,6 +547,13 @@ def check_table(drive: Drive, table: Table, name: str, slots: int, design: int, 
         kept, unset = [setup.value(f"s[{k}]") for k in range(design)], [Number(0)] * (slots - design)
         arguments = [*kept, *unset, seen.inputs["phi"]]
         expected = [instant.value(f"s[{k}]") for k in range(design, slots)]
+    elif name == "along":
+        count = len(drive.unknowns)
+        speed = {f"v[{k}]": Number(rng.randrange(1, CODE.PRIME)) for k in range(count + 1)}
+        way = Machine(seen.inputs | speed, drive.function("along"), setup, seen.circle)
+        kept, unset = [setup.value(f"s[{k}]") for k in range(design)], [Number(0)] * (slots - design)
+        arguments = [*kept, *unset, seen.inputs["phi"], *(seen.inputs[f"x[{k}]"] for k in range(count)), *speed.values()]
+        expected = [way.value(f"{order}[{k}]") for order in ("d1", "d2") for k in range(count)]
     else:
         unknowns = [seen.inputs[f"x[{k}]"] for k in range(len(drive.unknowns))]
         arguments = [*((setup if k < design else instant).value(f"s[{k}]") for k in range(slots)), *unknowns]

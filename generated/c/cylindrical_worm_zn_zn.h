@@ -61,7 +61,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 2
+#define MW_MODEL_ABI 3
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -213,7 +213,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 2
+#if MW_MODEL_ABI != 3
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -223,7 +223,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zn_zn_NO 62
 #define cylindrical_worm_zn_zn_ND 7
 #define cylindrical_worm_zn_zn_NSTART 2
-#define cylindrical_worm_zn_zn_ABI 2
+#define cylindrical_worm_zn_zn_ABI 3
 #define cylindrical_worm_zn_zn_SPEC_HASH "30ade35c45826c9a2cca80f274c34316bb9e701f7f190638a9616b441d3547ef"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 2
+ABI = 3
 
 
 class Info(ctypes.Structure):
