@@ -552,7 +552,8 @@ def check_table(drive: Drive, table: Table, name: str, slots: int, design: int, 
         speed = {f"v[{k}]": Number(rng.randrange(1, CODE.PRIME)) for k in range(count + 1)}
         way = Machine(seen.inputs | speed, drive.function("along"), setup, seen.circle)
         kept, unset = [setup.value(f"s[{k}]") for k in range(design)], [Number(0)] * (slots - design)
-        arguments = [*kept, *unset, seen.inputs["phi"], *(seen.inputs[f"x[{k}]"] for k in range(count)), *speed.values()]
+        unknowns = [seen.inputs[f"x[{k}]"] for k in range(count)]
+        arguments = [*kept, *unset, seen.inputs["phi"], *unknowns, *speed.values()]
         expected = [way.value(f"{order}[{k}]") for order in ("d1", "d2") for k in range(count)]
     else:
         unknowns = [seen.inputs[f"x[{k}]"] for k in range(len(drive.unknowns))]
