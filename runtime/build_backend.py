@@ -4,6 +4,7 @@ import json
 import runpy
 import shutil
 import sysconfig
+import warnings
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -52,6 +53,13 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     options = {**settings, "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
     with _record(generated / "audit"):
         return build_meta.build_wheel(wheel_directory, options, metadata_directory)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    """An editable installation, without setuptools' general warning that it is one."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message=r"\s*Editable installation")
+        return build_meta.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
 @contextmanager

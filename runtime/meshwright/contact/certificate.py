@@ -196,8 +196,9 @@ def certify_many(drive, angles, solutions, width=0):
     design = drive.design
     in_lanes = ffi.NULL if width == 1 else proofs(design.description["name"], design.places)
     library().mw_certify_many(
-        lanes, in_lanes, drive.enclosed.model, pointer(drive.enclosed.state.copy(), "mw_wide[]"), pointer(phi, "mw_wide[]"),
-        pointer(x), len(phi), pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"),
+        lanes, in_lanes, drive.enclosed.model, pointer(drive.enclosed.state.copy(), "mw_wide[]"),
+        pointer(phi, "mw_wide[]"), pointer(x), len(phi),
+        pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"),
     )  # fmt: skip
     radius = errors["radius"] * (1.0 + 1e-12)
     low, high = np.nextafter(errors["mid"] - radius, -np.inf), np.nextafter(errors["mid"] + radius, np.inf)
