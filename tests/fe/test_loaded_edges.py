@@ -144,7 +144,7 @@ def test_forces_and_error_do_not_depend_on_the_cells(gear, monkeypatch):
 
 
 def test_nothing_is_added_far_from_edges(gear):
-    """To cells more than a patch from tip and faces; beside a face each sinks further by its image, most at the face."""
+    """To cells over a patch from tip and faces; beside a face each sinks further by its image, most at the face."""
     ticks = np.linspace(-0.2, 0.2, 5)
     centres = np.stack([axis.ravel() for axis in np.meshgrid(ticks, ticks, indexing="ij")], axis=1)
 
