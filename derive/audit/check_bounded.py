@@ -14,8 +14,8 @@ Modulo a prime of 61 bits drawn at random, at random inputs, on both flanks:
              systems of a design, edges; but for the principal curvatures of the gap, which follow from its form
 
   tables     the tables of the certified functions, each constant within its radius: setup, instant, equations with
-             Jacobian, observation, derivatives along a path, flanks, placement, rules and design systems are those of C and
-             description
+             Jacobian, observation, derivatives along a path, flanks, placement, rules and design systems are those of
+             C and description
 
 Needs check.py, check_code.py and check_description.py beside it.
 """
