@@ -17,7 +17,8 @@
 
 enum {
     MOST_PARTS = 60000, MOST_LISTED = 120000, /* of the pinion's flank; that are kept in mind */
-    DEEPEST = 56, DEEPEST_EDGE = 14,          /* halvings */
+    DEEPEST = 32, DEEPEST_EDGE = 14,          /* halvings */
+    MOST_OPEN = 64,                           /* parts of the wheel's flank that may stay open, in search of an overlap */
     CELLS = 48,                               /* across the wheel's flank and along it, where its pieces are told apart */
     MOST_MET = 160,                           /* parts of the pinion's flank whose box is looked at as one */
     NEWTON_STEPS = 8, FULL_STEPS = 3, NARROWING_STEPS = 40,
@@ -48,7 +49,7 @@ typedef struct search {
     int margins[2], set[2][32];               /* limits of each flank and whether the design sets them */
     mw_ball turn[9], move[3], cosine, sine;   /* of the pinion's points and of the wheel's, into the frame of the search */
     double sense, slack, reach, view[4];
-    int parts, effort;
+    int parts, effort, open;
     unsigned char cell[CELLS][CELLS];         /* 0: outside or of another piece */
     part *part;
     int *list;
@@ -468,16 +469,21 @@ static void mark_piece(search *h, const range *whole, const double *contact)
     }
 }
 
+/* Remember a part that stays open; last: nothing more can be looked at. */
+static int left_open(search *h, const range *box, int last)
+{
+    remember(h->found, box, NULL, NULL);
+    h->found->reason = MW_REASON_EFFORT;
+    h->open += last ? MOST_OPEN + 1 : 1;
+    return OPEN;
+}
+
 /* Settle a part of the wheel's flank, against the pinion's parts listed from `from` to `to`. whole: both flanks. */
 static int settled(search *h, const range *box, const range (*whole)[2], int from, int to, int depth)
 {
     mwc_sheet q[2];
     place w;
-    if (++h->found->parts > h->effort || depth > DEEPEST) {
-        remember(h->found, box, NULL, NULL);
-        h->found->reason = MW_REASON_EFFORT;
-        return OPEN;
-    }
+    if (++h->found->parts > h->effort || depth > DEEPEST) return left_open(h, box, h->found->parts > h->effort);
     if (!marked(h, box, whole[1])) return SETTLED;
     over(q, box);
     on_flank(h, 1, q, &w, NULL);
@@ -485,11 +491,7 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     const bounds there = bounds_of(h, w.x);
     int end = to;
     for (int k = from; k < to && end >= 0; k++) end = list_parts(h, h->list[k], &there, end, whole[0]);
-    if (end < 0) {
-        remember(h->found, box, NULL, NULL);
-        h->found->reason = MW_REASON_EFFORT;
-        return OPEN;
-    }
+    if (end < 0) return left_open(h, box, 1);
     if (end == to) return SETTLED;
     if (end - to <= MOST_MET) {
         const int verdict = looked_at(h, box, h->list + to, end - to, whole[0]);
@@ -498,7 +500,9 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     range first[2], second[2];
     halved(box, longer(box, whole[1]), first, second);
     const int verdict = settled(h, first, whole, to, end, depth + 1);
-    return verdict == SETTLED ? settled(h, second, whole, to, end, depth + 1) : verdict;
+    if (verdict == REFUTED || h->open > MOST_OPEN) return verdict;
+    const int other = settled(h, second, whole, to, end, depth + 1);
+    return other == SETTLED ? verdict : other;
 }
 
 /* Whether a line of a flank, from box[side].low to high, surely lies outside the blank. */
@@ -675,7 +679,7 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     c->depth = 0.0;
     const int verdict = settled(h, whole[1], (const range (*)[2])whole, 0, 1, 0);
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
-    if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED;
+    if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED, c->reason = MW_REASON_NONE;
     if (verdict != SETTLED) c->depth = NAN;
     return c->outcome;
 }
