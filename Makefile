@@ -140,7 +140,7 @@ coverage: setup build
 # line for each.
 compilers: setup build sanitizers emulators
 	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_compilers.py
-	$(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
+	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
 test-fe: setup build solver
