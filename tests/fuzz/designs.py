@@ -17,6 +17,7 @@ import time
 import traceback
 import warnings
 from collections import Counter
+from functools import partial
 from mmap import mmap
 from pathlib import Path
 
@@ -105,7 +106,7 @@ def _quiet(chance, seed, folder, analyse, deep):
     return "analysed"
 
 
-def _batch(seeds, share, deep, at, out):
+def _batch(seeds, at, out, share, deep):
     """In a child process: each seed's outcome; the parent reads from ``at`` how far it came."""
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
     warnings.simplefilter("error", RuntimeWarning)
@@ -127,25 +128,28 @@ def _batch(seeds, share, deep, at, out):
     out.write(json.dumps({"counted": counted, "failures": failures, "slowest": slowest}))
 
 
-def _forked(seeds, share, deep):
+def forked(seeds, batch, hang):
     """Counts and failures of a batch, the seeds still to do after one at which the process died, and the slowest: its
     seconds of processor time, its seed.
+
+    ``batch(seeds, at, out)`` notes the seed it is at in the eight bytes ``at`` and ends with writing counts, failures
+    and, where it takes them, those of the slowest to ``out``, as JSON; a design may take ``hang`` seconds.
     """
     at = mmap(-1, 8)
     with tempfile.TemporaryFile("w+") as out:
         child = os.fork()
         if child == 0:
-            _batch(seeds, share, deep, at, out)
+            batch(seeds, at, out)
             out.flush()
             os._exit(0)
         status = os.waitpid(child, 0)[1]
         if status == 0:
             out.seek(0)
             done = json.load(out)
-            return Counter(done["counted"]), done["failures"], [], tuple(done["slowest"])
+            return Counter(done["counted"]), done["failures"], [], tuple(done.get("slowest", (0.0, seeds[0])))
     last = struct.unpack("q", at[:8])[0]
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
-    why = f"took more than {HANG:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
+    why = f"took more than {hang:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
     before, after = [s for s in seeds if s < last], [s for s in seeds if s > last]
     open_ = [part for part in (before, after) if part]
     return Counter({"failed": 1}), [{"seed": last, "error": why}], open_, (0.0, last)
@@ -159,7 +163,8 @@ def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
         while open_:
             wanted, left = analyse - total["analysed"], count - sum(total.values())
             share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
-            counted, failed, again, slow = _forked(open_.pop(), share, deep)
+            batch = partial(_batch, share=share, deep=deep)
+            counted, failed, again, slow = forked(open_.pop(), batch, HANG)
             total += counted
             failures += failed
             open_ += again
