@@ -29,6 +29,9 @@ ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 #: Which of the known contacts, by distance in angle, the search starts from until one leads to the angle asked for.
 STARTS = (0, 1, 2, 4, 8, 16, 32)
 
+#: Searches that come to the angle and find places, but no extreme of them, before it is given up.
+SEARCHES = 2
+
 #: Steps from the aligned drive.
 LEAD = 12
 
@@ -97,6 +100,20 @@ def first_contacts(drive, angles, result=None):
     if search is not None:
         found = search.at(mirror.sign * np.asarray(angles))
     return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
+
+
+def first_contact_of(mesh):
+    """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
+    path = mesh.window.path
+    search = None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
+    if search is None:
+        return None
+
+    def contacts(angles):
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        return _gathered(mesh.drive, angles, search.at(mesh.mirror * angles), "")
+
+    return contacts
 
 
 def pair_errors(mesh):
@@ -228,12 +245,13 @@ class _Search:
         """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from
         others.
         """
-        order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
+        order, searches = np.argsort(np.abs(self.solved_at - angle), kind="stable"), 0
         for known in order[[i for i in STARTS if i < len(order)]]:
             found = self._from(known, compiled, state, angle, here)
             if found.status >= 0:
                 return found
-            if found.status == library().MW_NO_CONTACT:
+            searches += found.met > 0
+            if found.status == library().MW_NO_CONTACT or searches == SEARCHES:
                 break
         return None
 
