@@ -225,6 +225,10 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
         assert min(shown) > 1000 and browser.value(PIXELS + "()") == [0, 0]
         assert browser.value(PIXELS + "('pinion')")[0] >= shown[0] and browser.value(PIXELS + "('pinion')")[1] == 0
         assert browser.value(PIXELS + "('wheel')")[1] >= shown[1] and browser.value(PIXELS + "('wheel')")[0] == 0
+        key, zoom = "element('view').dispatchEvent(new KeyboardEvent('keydown', {key: '+'}))", "solids.view.camera.zoom"
+        assert browser.value(zoom) == 1 and browser.value(f"{key}, {zoom}") > 1.1
+        browser.value("element('view-reset').click()")
+        assert browser.value(zoom) == 1
         assert not browser.complaints
     finally:
         browser.close()

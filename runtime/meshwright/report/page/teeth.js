@@ -354,9 +354,9 @@ class TeethView {
   /* Mouse and fingers are the controls' own; keys turn and zoom. */
   _listen() {
     const turn = 0.08, keys = {
-      ArrowLeft: () => this.controls.rotateLeft(turn), ArrowRight: () => this.controls.rotateLeft(-turn),
-      ArrowUp: () => this.controls.rotateUp(turn), ArrowDown: () => this.controls.rotateUp(-turn),
-      "+": () => this.controls.dollyIn(1.15), "-": () => this.controls.dollyOut(1.15),
+      ArrowLeft: () => this.controls.rotateLeft(-turn), ArrowRight: () => this.controls.rotateLeft(turn),
+      ArrowUp: () => this.controls.rotateUp(-turn), ArrowDown: () => this.controls.rotateUp(turn),
+      "+": () => this.controls.dollyOut(1.15), "-": () => this.controls.dollyIn(1.15),
     };
     this.holder.addEventListener("keydown", (event) => {
       if (!keys[event.key]) return;
