@@ -23,7 +23,7 @@ SLACK = 1e-6
 NEIGHBOURS = 1
 
 #: How far back the wheel is turned, in wheel pitches; parts of the wheel's flank that are looked at, most.
-REACH, EFFORT = 0.5, 12_000
+REACH, EFFORT = 0.5, 15_000
 
 #: Contacts at so many angles over so many pitches to either side of the middle show where the flanks are. Parameters go
 #: on beyond the flanks by this share, and where nothing ends a flank, beyond its contacts by so many natural sizes.
