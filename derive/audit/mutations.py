@@ -704,8 +704,11 @@ def table(outcomes: dict[tuple[str, ...], tuple[str, str]]) -> list[dict]:
 
 
 def measured() -> dict:
-    """The table as last measured, with its sums."""
+    """The tables as last measured, with their sums."""
     kept = json.loads(MEASURED.read_text(encoding="utf-8"))
+    edits = kept["edits"]
+    names = [name for name in edits["rows"][0] if name != "file"]
+    edits |= {name: sum(row[name] for row in edits["rows"]) for name in names}
     return kept | {key: sum(row[key] for row in kept["rows"]) for key in (REFUSED, SURVIVED, EQUAL)}
 
 
@@ -729,9 +732,14 @@ def main(arguments: list[str]) -> int:
     print({by: sum(row[by] for row in rows) for by in (REFUSED, SURVIVED, EQUAL)})
     if options.write:
         survivors = [list(key) for key, (by, _) in outcomes.items() if by == SURVIVED]
-        kept = {"drives": len({key[0] for key in outcomes}), "rows": rows, "survivors": survivors}
-        replace_text(MEASURED, json.dumps(kept, indent=1, ensure_ascii=False) + "\n")
+        keep(drives=len({key[0] for key in outcomes}), rows=rows, survivors=survivors)
     return 0
+
+
+def keep(**found: object) -> None:
+    """Replace a part of what was last measured."""
+    kept = json.loads(MEASURED.read_text(encoding="utf-8")) | found
+    replace_text(MEASURED, json.dumps(kept, indent=1, ensure_ascii=False) + "\n")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,11 @@ HALF_TANGENTS = tuple(
     Fraction(*pair)
     for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7))
 )
-LENGTHS = tuple(map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)))
+#: So many that the symbols of a statement have values of their own: where two were equal, a determinant could vanish.
+LENGTHS = tuple(
+    map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89, 97, 101,
+                   103, 107, 109, 113, 127, 131, 137, 139, 149, 151, 157, 163, 167, 173))
+)  # fmt: skip
 SCALE = 10**30
 THRESHOLD = Fraction(1, 10**9)
 

@@ -70,3 +70,6 @@ def test_the_measured_table_adds_up():
     assert kept[SURVIVED] == len(kept["survivors"])
     assert kept[REFUSED] >= 0.97 * (kept[REFUSED] + kept[SURVIVED])
     assert kept[EQUAL] >= 0
+    edits = kept["edits"]
+    assert edits["survivor"] == len(edits["survivors"])
+    assert edits["refused"] >= 0.97 * (edits["refused"] + edits["survivor"])
