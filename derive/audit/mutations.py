@@ -1,7 +1,8 @@
 """What the checkers of generated files notice: one change of a generated file at a time, counted by stage and function.
 
-``python -m derive.audit.mutations [DRIVE…] [--each N] [--log FILE] [--write]`` changes each function of every drive
-``N`` times (scalar C, lanes, sensitivities, bounded flanks, certified tables, CasADi, description) and prints a table.
+``python -m derive.audit.mutations [DRIVE…] [--each N] [--sample M] [--log FILE] [--write]`` changes each function of
+every drive ``N`` times (scalar C, lanes, sensitivities, bounded flanks, certified tables, CasADi, description), or
+``M`` of these a drive, and prints a table.
 With a log, what stands in it is not run again, and the table is that of the whole log; ``--write`` keeps it in
 ``measured.json`` beside this module, from where the page of validation takes it. A changed function is put before those
 checks alone that may read it; hashes are left out. A change that is not noticed counts as equal where the function,
@@ -716,13 +717,14 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m derive.audit.mutations", description=__doc__)
     parser.add_argument("drives", nargs="*", metavar="DRIVE", help="default: all that are generated")
     parser.add_argument("--each", type=int, default=1, help="changes a function")
+    parser.add_argument("--sample", type=int, help="of these so many a drive, at random; default: all")
     parser.add_argument("--log", type=Path, help="a line of JSON a change; what stands there is not run again")
     parser.add_argument("--stage", action="append", choices=STAGES, help="these alone")
     parser.add_argument("--write", action="store_true", help=f"replace {MEASURED.name}")
     options = parser.parse_args(arguments)
     drives = options.drives or sorted(path.stem for path in (GENERATED / "descriptions").glob("*.json"))
     outcomes = _logged(options.log)
-    for outcome in measure(drives, options.each, options.log, tuple(options.stage or STAGES)):
+    for outcome in measure(drives, options.each, options.log, tuple(options.stage or STAGES), options.sample):
         outcomes[outcome.mutant.key] = outcome.by, outcome.reason
         if outcome.by != REFUSED:
             print(outcome.by, *outcome.mutant.key, flush=True)

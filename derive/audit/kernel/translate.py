@@ -100,7 +100,7 @@ class Term:
 
 ONE = ("Int", 1)
 #: Characters of the longest cofactors that a theorem hands over.
-LONGEST = 400_000
+LONGEST = 100_000
 #: Products of terms that the translator may take to compare denominators.
 WORK = 10**7
 
