@@ -8,11 +8,13 @@ LEAN   := $(VENV)/.lean
 
 SHIP    := runtime/meshwright/_generated
 OBJECTS := $(VENV)/objects
+PUBLISHED := recess-action-full
 compiled = $1 runtime/meshwright/base/compile.py generated $(SHIP) $$($1 -m derive.packaged) --objects $(OBJECTS)
+shown = $(compiled) --now $$($1 -m derive.packaged $(PUBLISHED))
 CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels
-.PHONY: precompiled fuzz benchmark coverage compilers sanitizers emulators
+.PHONY: precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # What can be made.
 help:
@@ -23,11 +25,10 @@ setup: $(READY)
 
 $(READY): pyproject.toml
 	test -x $(PY) || $(PYTHON) -m venv $(VENV)
-	$(PY) -m pip install --quiet --upgrade pip
-	$(PY) -m pip install --quiet --editable '.[derive,plot,fe,sweep,test]'
+	$(PY) -m pip install --quiet --no-compile --editable '.[derive,plot,fe,sweep,test]'
 	touch $@ $(LEAN)
 
-# What deriving, compiling and solving need, a third of all: modules are compiled when they are first imported.
+# What deriving, compiling and solving need, a third of all. Modules are compiled when they are first imported.
 $(LEAN): pyproject.toml
 	test -x $(PY) || $(PYTHON) -m venv $(VENV)
 	test $(READY) -nt pyproject.toml || $(PY) -m pip install --quiet --no-compile --editable '.[derive]'
@@ -66,23 +67,28 @@ coq:
 		|| echo "coqc not found and not installable here: the proofs are not put to Coq's kernel"
 
 # The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
-# with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them.
+# with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them. What is not built is compiled
+# when it is first used.
 build: $(LEAN)
 	@$(call compiled,$(PY))
 	@test -z "$(DRIVES)" || $(PY) -m derive $(DRIVES) --into $(SHIP)
 
+# The same from what is committed, by the system's Python, while packages are being installed; and the published drive alone.
 precompiled:
 	@$(call compiled,$(PYTHON))
+
+preshown:
+	@$(call shown,$(PYTHON))
 
 # Regenerate into a temporary folder and fail on any byte of difference.
 check: setup
 	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site -x benchmark $$folder generated && rm -r $$folder
 
-# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed is compiled
-# meanwhile: build then compiles what has changed.
+# Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed of it is
+# compiled meanwhile, and compiled again only if regenerating has changed it; other drives are compiled when first used.
 run:
-	$(MAKE) --no-print-directory --jobs 2 generate precompiled
-	$(MAKE) --no-print-directory build
+	$(MAKE) --no-print-directory --jobs 2 generate preshown
+	@$(call shown,$(PY))
 	$(PY) tests/published.py
 
 # Style, names, docstrings and types, each with tools of the package registry alone.
@@ -95,7 +101,9 @@ $(LINT): $(READY)
 	touch $@
 
 # Set up, build, derive a second time and compare, and run the tests but for the longer ones.
-test: setup build check solver cmake
+test:
+	$(MAKE) --no-print-directory --jobs 3 check precompiled solver
+	$(MAKE) --no-print-directory build cmake
 	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadfile
 
 # Certified contacts that other programs can be tested against: generated/benchmark.

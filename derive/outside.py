@@ -78,7 +78,7 @@ def write(page, name, record, folder, log, source=None):
         replace_text(folder / _place(path), text)
     replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
     with log("compile", name), tempfile.TemporaryDirectory() as objects:
-        build.drives([name], folder, compiler.package(), Path(objects))
+        build.drives([name], folder, compiler.package(), Path(objects), parts=(build.DRIVE,))
 
 
 def _place(path):

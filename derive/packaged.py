@@ -1,6 +1,7 @@
 """Which drives a checkout holds and the package ships: those that a packaged design uses.
 
-Read from the designs and from the table of families; as a program, it prints them. Needs the standard library alone.
+Read from the designs and from the table of families; as a program, it prints them, or those of the designs that its
+arguments name. Needs the standard library alone.
 """
 
 import json
@@ -12,9 +13,12 @@ ROOT = Path(__file__).resolve().parent.parent
 DESIGNS = ROOT / "runtime" / "meshwright" / "designs"
 
 
-def packaged(families, designs=DESIGNS):
-    """Names of the drives that the designs of a folder use, in the order of the table (:mod:`derive.emit.families`)."""
-    used = {_drive_of(families, path) for path in designs.glob("*.toml")}
+def packaged(families, names=()):
+    """Names of the drives that packaged designs use, in the order of the table (:mod:`derive.emit.families`): all
+    designs, or those named.
+    """
+    designs = [DESIGNS / f"{name}.toml" for name in names] or DESIGNS.glob("*.toml")
+    used = {_drive_of(families, path) for path in designs}
     drives = (entry["name"] for family in families["families"].values() for entry in family["drives"])
     return [name for name in drives if name in used]
 
@@ -44,4 +48,4 @@ def _word(design, place, defaults):
 
 if __name__ == "__main__":
     table = json.loads((ROOT / "generated" / "families.json").read_text(encoding="utf-8"))
-    sys.stdout.write(" ".join(packaged(table)) + "\n")
+    sys.stdout.write(" ".join(packaged(table, sys.argv[1:])) + "\n")

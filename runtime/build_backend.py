@@ -4,6 +4,7 @@ import json
 import runpy
 import shutil
 import sysconfig
+import warnings
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -45,13 +46,20 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     generated = ROOT / "generated"
     families = json.loads((generated / "families.json").read_text(encoding="utf-8"))
     drives = _program("derive/packaged.py").packaged(families)
-    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects")]
+    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects"), "--proofs"]
     if settings.pop("libraries", None) != "built" and _program("runtime/meshwright/base/compile.py").main(arguments):
         raise SystemExit("the libraries do not compile: see above")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     options = {**settings, "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
     with _record(generated / "audit"):
         return build_meta.build_wheel(wheel_directory, options, metadata_directory)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    """An editable installation, without setuptools' general warning that it is one."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message=r"\s*Editable installation")
+        return build_meta.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
 @contextmanager

@@ -153,6 +153,23 @@ def test_a_first_worm_pair_stands_at_the_centre_distance_asked_for(tmp_path, mon
     assert design.sizes["wheel_pitch_radius_mm"] == pytest.approx(80.0, abs=1e-12)
 
 
+@pytest.mark.parametrize(("teeth", "undercut"), [(17, True), (18, False)])
+def test_new_says_where_a_tool_undercuts(tmp_path, monkeypatch, capsys, teeth, undercut):
+    """A spur gear without profile shift whose rack's line ends a module below the pitch line: from 2/sin²20° = 17.1."""
+    monkeypatch.chdir(tmp_path)
+    plain = [f"--set=design.pinion_{kind}_crowning_um=0" for kind in ("lead", "profile")]
+    assert main(["new", "cylindrical-gears", "--m", "2", "--z", f"{teeth}:60", *plain, "--out", "first.toml"]) == 0
+    assert ("the tool undercuts the flank of the pinion" in capsys.readouterr().out) == undercut
+
+
+def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, capsys):
+    """Settings of a spiral bevel pair do not make a hypoid one because an offset is given."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]) == 0
+    shown = capsys.readouterr().out
+    assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: no_contact" in shown
+
+
 REFUSED = {
     "new cylindrical-wurm --m 4 --z 2:40": "did you mean 'cylindrical-worm'",
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",

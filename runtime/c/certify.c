@@ -490,21 +490,21 @@ static void certify_alone(const mw_model *m, problem *p, mw_wide phi, const doub
     *error = mwc_of_wide(c.x[m->error]);
 }
 
-size_t mw_certify_many(const mw_lane_set *set, const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, size_t n,
-                       unsigned char *unique, mw_ball *errors)
+size_t mw_certify_many(const mw_lane_set *set, const mw_proofs *proofs, const mw_model *m, const mw_wide *s, const mw_wide *phi,
+                       const double *x, size_t n, unsigned char *unique, mw_ball *errors)
 {
     const size_t nx = mwi_usable(m) ? (size_t)m->nx : 0, lanes = set ? (size_t)set->lanes : 1;
     double own[2 * MWC_ARGUMENTS * MW_MAX_LANES], d[MW_MAX_UNKNOWNS];
     size_t k = 0, count = 0;
     problem p;
-    int possible = posed(m, s, &p) == MW_REASON_NONE;
+    int possible = posed(m, s, &p) == MW_REASON_NONE && (!proofs || strcmp(proofs->drive, m->drive) == 0);
     for (size_t i = 0; i < n; i++) unique[i] = 0, errors[i] = mwc_make(nx ? x[i * nx + (size_t)m->error] : NAN, HUGE_VAL);
     if (!possible || n == 0 || turned(m, phi[0], &p) != MW_REASON_NONE) return 0;
-    const mw_lane_model *in_lanes = set ? m->kernels->lanes[set->set] : NULL;
+    const mw_enclosing *in_lanes = set && proofs ? proofs->lanes[set->set] : NULL;
     for (size_t i = 0; i < nx; i++) d[i] = p.sizes[i] * MWC_FIRST_BOX;
     if (in_lanes)
         for (; k + lanes <= n; k += lanes)
-            set->certify(&in_lanes->enclosing, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
+            set->certify(in_lanes, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (; k < n; k++)
         certify_one(&m->kernels->enclosing, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (size_t i = 0; i < n; i++) {

@@ -54,7 +54,6 @@ typedef struct mw_lane_model {
     void (*setup)(const double *p, double *s, double *valid);
     void (*set_phi)(double *s, const double *phi);
     void (*step)(const double *s, double *x, double *size);
-    mw_enclosing enclosing;
 } mw_lane_model;
 
 /* The instruction sets for which lanes are compiled: that of the compiler's default target, and on x86-64 two wider. */
@@ -72,5 +71,12 @@ typedef struct mw_kernels {
     mw_enclosing enclosing;
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;
+
+/* A drive's equations with error bounds in lanes: an object of its own, because few programs certify many points and it
+ * takes longer to compile than all else. NULL for an instruction set that was not compiled. */
+typedef struct mw_proofs {
+    const char *drive;           /* as in its model table */
+    const mw_enclosing *lanes[MW_INSTRUCTION_SETS];
+} mw_proofs;
 
 #endif

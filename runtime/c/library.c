@@ -1,18 +1,22 @@
 /* The drives that are built into this library: those of the header MW_DRIVES, a list MW_DRIVE_LIST(X) of their names.
  * Without it there is none, and every drive is an object of its own (see drive/drive.c).  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
+#include "kernels.h"
 #include "meshwright.h"
+#include "mw_certify.h"
 #ifdef MW_DRIVES
 #include MW_DRIVES
 #else
 #define MW_DRIVE_LIST(X)
 #endif
 
-#define MW_DECLARED(drive) const mw_model *mw_drive_##drive(void);
+#define MW_DECLARED(drive) const mw_model *mw_drive_##drive(void); const mw_proofs *mw_proofs_##drive(void);
 MW_DRIVE_LIST(MW_DECLARED)
 
 #define MW_LISTED(drive) mw_drive_##drive,
 static const mw_model *(*const drives[])(void) = { MW_DRIVE_LIST(MW_LISTED) NULL };
+#define MW_LISTED_PROOFS(drive) mw_proofs_##drive,
+static const mw_proofs *(*const proofs[])(void) = { MW_DRIVE_LIST(MW_LISTED_PROOFS) NULL };
 
 int mw_model_count(void)
 {
@@ -28,5 +32,12 @@ const mw_model *mw_find(const char *drive)
 {
     for (int i = 0; i < mw_model_count(); i++)
         if (strcmp(mw_model_at(i)->drive, drive) == 0) return mw_model_at(i);
+    return NULL;
+}
+
+const mw_proofs *mw_proofs_of(const mw_model *m)
+{
+    for (int i = 0; i < mw_model_count(); i++)
+        if (mw_model_at(i) == m) return proofs[i]();
     return NULL;
 }

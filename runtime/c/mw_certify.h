@@ -71,10 +71,12 @@ int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const doubl
 
 /* Certify n points of one design at once, by plain doubles with radii: phi[n], x[n*nx]; unique[n] is 1 where the equations have
  * one solution within 2^-24 natural sizes of x, errors[n] then holds its transmission error. What doubles do not show is left
- * to mw_certify. set: as of mw_lanes, or NULL for one point after the other. Returns how many are unique. */
+ * to mw_certify. set: as of mw_lanes, and proofs: the drive's, of mw_proofs_of or mw_proofs_<drive>() of an object of its own;
+ * one point after the other where either is NULL. Returns how many are unique: none if the proofs are another drive's. */
 struct mw_lane_set;
-size_t mw_certify_many(const struct mw_lane_set *set, const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x,
-                       size_t n, unsigned char *unique, mw_ball *errors);
+struct mw_proofs;
+size_t mw_certify_many(const struct mw_lane_set *set, const struct mw_proofs *proofs, const mw_model *m, const mw_wide *s,
+                       const mw_wide *phi, const double *x, size_t n, unsigned char *unique, mw_ball *errors);
 
 /* A fold (crossing = 0) or crossing of branches of contact. unique: the equations have exactly one singular point within box
  * of the angle, rad, and likewise of the unknowns; it lies within angle and x. Of a crossing that is said of the equations
@@ -115,6 +117,9 @@ mw_ball mw_piece_at(const mw_piece *piece, const mw_polynomial *of, double angle
 
 /* Bounds of a polynomial over the angles from one to another, [low, high]: by halving down to 2^-depth of the piece. */
 void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from, double to, int depth, double *bounds);
+
+/* What proves many contacts of a drive that is built into this library; NULL for any other. */
+const struct mw_proofs *mw_proofs_of(const mw_model *m);
 
 /* Both for n points: phi[n], x[n*nx], line[n], d[n*nx], c[n]. Return the number of those that are shown to be unique. */
 size_t mw_certify_points(const mw_model *m, const mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from meshwright import Drive
-from meshwright.base.library import ffi, library, record
+from meshwright.base.library import ffi, library, proofs, record
 from meshwright.contact.certified_path import certified_path
 from tests.benchmarks.timing import best
 
@@ -36,7 +36,8 @@ def points(drive, angles, solutions, width):
     phi = np.zeros(n, record("mw_wide"))
     phi["hi"], x = angles[:n], np.ascontiguousarray(solutions[:n])
     unique, errors = np.zeros(n, np.uint8), np.zeros(n, record("mw_ball"))
-    arguments = (lanes, enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x), n)
+    in_lanes = ffi.NULL if width == 1 else proofs(drive.design.description["name"], drive.design.places)
+    arguments = (lanes, in_lanes, enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x), n)
     outputs = (pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"))
     seconds = best(lambda: lib.mw_certify_many(*arguments, *outputs), repeats=30)
     assert unique.all() and errors["radius"].max() < 1e-11

@@ -39,10 +39,11 @@ def test_the_library_builds_for_arm64(tmp_path):
     target = ("-target", "aarch64-linux-gnu", "-std=c99", "-O1", "-shared", "-fPIC")
     options = (*c.STRICT, *c.EXACT, f"-I{c.GENERATED}", f"-I{c.RUNTIME}")
     objects = []
-    for unit in build.DRIVE_UNITS:
-        objects.append(tmp_path / f"{c.Path(unit).stem}.o")
-        compiled = (*target[:-2], "-fPIC", *options, "-DMW_DRIVE=face_worm", "-c", c.RUNTIME / unit)
-        c.run(*c.CLANG, "cc", *compiled, "-o", objects[-1])
+    for part in build.PARTS:
+        for unit in part.units:
+            objects.append(tmp_path / f"{c.Path(unit).stem}{part.ending}.o")
+            compiled = (*target[:-2], "-fPIC", *options, "-DMW_DRIVE=face_worm", *part.defines, "-c", c.RUNTIME / unit)
+            c.run(*c.CLANG, "cc", *compiled, "-o", objects[-1])
     c.run(*c.CLANG, "cc", *target, *options, *sorted(c.RUNTIME.glob("*.c")), *objects, "-o", library, "-lm")
     content = library.read_bytes()
     assert b"mw_drive_face_worm" in content

@@ -224,7 +224,7 @@ static void certificates(reader *r, fuzzed *f)
     size_t count = 0, shown = 0;
     const size_t points = mw_certify_points(m, s, phi, x, line, n, c);
     for (size_t k = 0; k < n; k++) must_be_sound(r, m, c + k, c[k].outcome), shown += c[k].outcome == MW_UNIQUE;
-    const size_t lanes = mw_certify_many(mw_lanes(widths[byte(r) % 6]), m, s, phi, x, n, unique, errors);
+    const size_t lanes = mw_certify_many(mw_lanes(widths[byte(r) % 6]), mw_proofs_of(m), m, s, phi, x, n, unique, errors);
     for (size_t k = 0; k < n; k++) {
         count += unique[k];
         if (unique[k] && !(errors[k].radius < 1.0)) fail("an error without bounds");
@@ -352,7 +352,7 @@ static void without_proofs(reader *r, fuzzed *f, const mw_model *other)
     refused += mw_certify(other, s, phi, x, 0, &c) == MW_UNKNOWN && c.reason == MW_REASON_ARITHMETIC;
     refused += mw_certify_box(other, s, phi, x, x, &c) == MW_UNKNOWN && c.reason == MW_REASON_ARITHMETIC;
     refused += mw_certify_points(other, s, &phi, x, &line, 1, &c) == 0 && mw_certify_boxes(other, s, &phi, x, x, 1, &c) == 0;
-    refused += mw_certify_many(mw_lanes(2), other, s, &phi, x, 1, &unique, &error) == 0 && !unique;
+    refused += mw_certify_many(mw_lanes(2), mw_proofs_of(f->m), other, s, &phi, x, 1, &unique, &error) == 0 && !unique;
     refused += mw_certify_piece(other, s, 0.1, 0.2, nodes, piece) == MW_UNKNOWN && piece->reason == MW_REASON_ARITHMETIC;
     refused += mw_pieces_join(other, piece, piece, 0.2) == 0;
     refused += mw_certify_branch(other, s, 0, 0.1, x, &found) == MW_UNKNOWN && found.reason == MW_REASON_ARITHMETIC;

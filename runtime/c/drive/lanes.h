@@ -2,10 +2,8 @@
 #include "kernels.h"
 #include "names.h"
 #include MW_GENERATED(_lanes)
-#include MW_GENERATED(_certify)
 
 extern const mw_lane_model MW_OF(MW_LANE_SET);
 const mw_lane_model MW_OF(MW_LANE_SET) = {
-    MW_LANE_NAME(MW_OF(_setup_lanes)), MW_LANE_NAME(MW_OF(_set_phi_lanes)), MW_LANE_NAME(MW_OF(_step_lanes)),
-    { MWC_LANE_NAME(MW_OF(_enclose_instant)), MWC_LANE_NAME(MW_OF(_enclose)) }
+    MW_LANE_NAME(MW_OF(_setup_lanes)), MW_LANE_NAME(MW_OF(_set_phi_lanes)), MW_LANE_NAME(MW_OF(_step_lanes))
 };

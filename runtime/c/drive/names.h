@@ -7,8 +7,10 @@
 #define MW_QUOTE2(text) #text
 #define MW_QUOTE(text) MW_QUOTE2(text)
 
-/* of a drive "pair", MW_OF(_model) is pair_model and MW_GENERATED(_lanes) "pair_lanes.h" */
+/* of a drive "pair", MW_OF(_model) is pair_model, MW_PROOFS_OF(_lanes_avx2) pair_proofs_lanes_avx2, and
+ * MW_GENERATED(_lanes) "pair_lanes.h" */
 #define MW_OF(suffix) MW_PASTE(MW_DRIVE, suffix)
+#define MW_PROOFS_OF(set) MW_PASTE(MW_OF(_proofs), set)
 #define MW_GENERATED(suffix) MW_QUOTE(MW_OF(suffix).h)
 
 #endif

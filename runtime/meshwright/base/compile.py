@@ -6,9 +6,11 @@ then a folder of drives, in this form::
     <drive>.json, <drive>.casadi …          description, CasADi functions
     include/<drive>.h, _lanes.h, …          generated C
     <drive>.so, <drive>.stamp               shared object, and from what it was made
+    <drive>_proofs.so, …                    what proves many contacts at once (:data:`PROOFS`)
 
-The package's own folder holds beside that the table of families, the core library, its headers and, in ``source/``,
-what each drive is compiled from.
+Either object may be missing: it is then compiled when it is first asked for (:mod:`meshwright.base.first_use`). The
+package's own folder holds beside that the table of families, the core library, its headers and, in ``source/``, what
+each drive is compiled from.
 """
 
 import argparse
@@ -28,11 +30,32 @@ from pathlib import Path
 
 CORE = "libmeshwright.so"
 
-#: Translation units of a drive, and the headers that they need beside the drive's own: relative to runtime/c.
-DRIVE_UNITS = ("drive/drive.c", "lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
+
+@dataclass(frozen=True)
+class Part:
+    """A shared object of a drive.
+
+    ending:  of its file's name, after the drive's
+    units:   translation units, relative to runtime/c
+    defines: macros with which they are compiled, beside the drive's name
+    """
+
+    ending: str
+    units: tuple[str, ...]
+    defines: tuple[str, ...] = ()
+
+
+#: The drive itself, and its equations with error bounds in lanes: few ask for these, which take longer than all else.
+LANES = ("lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
+DRIVE = Part("", ("drive/drive.c", *LANES))
+PROOFS = Part("_proofs", ("drive/proofs.c", *LANES), ("-DMW_PROOFS",))
+PARTS = (DRIVE, PROOFS)
+#: What the units need beside the drive's own headers: relative to runtime/c.
 DRIVE_HEADERS = (
-    "drive/names.h", "drive/casadi.h", "drive/lanes.h", "kernels.h", "lane_kernels.h", "mw_certified.h", "exact.h",
+    "drive/names.h", "drive/casadi.h", "drive/lanes.h", "drive/proven.h", "kernels.h", "lane_kernels.h",
+    "mw_certified.h", "exact.h",
 )  # fmt: skip
+SOURCES = (*dict.fromkeys(unit for part in PARTS for unit in part.units), *DRIVE_HEADERS)
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
 LIVE_SOURCES = ("exact.h",)
 #: What programs include, and what generated headers repeat.
@@ -180,7 +203,7 @@ def core(source, folder, objects, target=None):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
     target = target or native()
     folder.mkdir(parents=True, exist_ok=True)
-    for names, place in ((PUBLIC_HEADERS, "include"), ((*DRIVE_UNITS, *DRIVE_HEADERS, *LIVE_SOURCES), "source")):
+    for names, place in ((PUBLIC_HEADERS, "include"), ((*SOURCES, *LIVE_SOURCES), "source")):
         for name in names:
             _copy(source / name, folder / place / name)
     command = (*target.command, *target.more)
@@ -188,40 +211,53 @@ def core(source, folder, objects, target=None):
     return _linked(target.command, _compiled(jobs), folder / CORE, target.named)
 
 
-def drives(names, folder, package, objects, target=None):
-    """Compile the objects of drives whose generated headers are in ``folder``; ``package`` holds the core library.
+def drives(names, folder, package, objects, target=None, parts=PARTS):
+    """Compile objects of drives whose generated headers are in ``folder``; ``package`` holds the core library.
 
     Each finds the core library where it is now, or beside itself.
     """
     target, source = target or native(), package / "source"
     command = (*target.command, *target.more)
     folders = (folder / "include", source, package / "include")
+    made = [(name, part) for name in names for part in parts]
     jobs = [
-        (command, source / unit, objects / name / f"{Path(unit).stem}.o", folders, (f"-DMW_DRIVE={name}",),
-         _headers(name, folder))
-        for name in names for unit in DRIVE_UNITS
+        (command, source / unit, objects / f"{name}{part.ending}" / f"{Path(unit).stem}.o", folders,
+         (f"-DMW_DRIVE={name}", *part.defines), headers(name, folder))
+        for name, part in made for unit in part.units
     ]  # fmt: skip
-    compiled, each = _compiled(jobs), len(DRIVE_UNITS)
+    compiled = iter(_compiled(jobs))
     options = (str(package / CORE), *target.beside)
     if folder.resolve() != package.resolve():
         options += (f"-Wl,-rpath,{package.resolve()}",)
-    for k, name in enumerate(names):
-        units = compiled[k * each : (k + 1) * each]
-        _linked(target.command, units, folder / f"{name}.so", options, inputs(name, folder, package))
+    for name, part in made:
+        units = [next(compiled) for _ in part.units]
+        path = folder / f"{name}{part.ending}.so"
+        _linked(target.command, units, path, options, inputs(name, folder, package))
 
 
 def inputs(name, folder, package):
-    """Digest of the sources of a drive's object and of the place of the core library, whatever compiles them."""
-    return digest(str(package.resolve()), *FLAGS, *shared(package), *_headers(name, folder))
+    """Digest of the sources of a drive's objects and of the place of the core library, whatever compiles them."""
+    return digest(str(package.resolve()), *FLAGS, *shared(package), *headers(name, folder))
+
+
+def drop_superseded(names, folder, package):
+    """Remove objects of drives that were made from other sources than those of today."""
+    for name in names:
+        wanted = inputs(name, folder, package)
+        for path in (folder / f"{name}{part.ending}.so" for part in PARTS):
+            if path.exists() and sealed(path).get("inputs") != wanted:
+                path.unlink()
+                path.with_suffix(".stamp").unlink(missing_ok=True)
 
 
 def shared(package):
     """What every drive's object is compiled from beside its own headers."""
-    sources = (package / "source" / unit for unit in (*DRIVE_UNITS, *DRIVE_HEADERS))
+    sources = (package / "source" / name for name in SOURCES)
     return [*sources, *(package / "include" / header for header in PUBLIC_HEADERS)]
 
 
-def _headers(name, folder):
+def headers(name, folder):
+    """The generated headers of a drive in a folder of drives."""
     return [folder / "include" / pattern.format(name) for pattern in GENERATED]
 
 
@@ -238,7 +274,7 @@ def _copy(source, target):
 def take(names, generated, folder):
     """Copy the generated files of drives from ``generated`` (c/, casadi/) into a folder of drives."""
     for name in names:
-        for header in _headers(name, folder):
+        for header in headers(name, folder):
             _copy(generated / "c" / header.name, header)
         _copy(generated / "c" / f"{name}.json", folder / f"{name}.json")
         description = json.loads((generated / "c" / f"{name}.json").read_text(encoding="utf-8"))
@@ -252,15 +288,20 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("generated", type=Path, help="generated files: c/, casadi/")
     parser.add_argument("folder", type=Path, help="folder of drives to write")
-    parser.add_argument("drive", nargs="*", help="drives to compile")
+    parser.add_argument("drive", nargs="*", help="drives that the folder holds")
     parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
+    parser.add_argument("--now", nargs="*", metavar="DRIVE", help="compile these only; default: all that it holds")
+    parser.add_argument("--proofs", action="store_true", help="compile also what proves many contacts at once")
     options = parser.parse_args(arguments)
     source = Path(__file__).resolve().parents[2] / "c"
     try:
         core(source, options.folder, options.objects)
         take(options.drive, options.generated, options.folder)
         _copy(options.generated / "families.json", options.folder / "families.json")
-        drives(options.drive, options.folder, options.folder, options.objects)
+        drop_superseded(options.drive, options.folder, options.folder)
+        now = options.drive if options.now is None else options.now
+        parts = PARTS if options.proofs else (DRIVE,)
+        drives(now, options.folder, options.folder, options.objects, parts=parts)
     except (CompileError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

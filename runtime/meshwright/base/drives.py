@@ -84,18 +84,18 @@ def folder_of(name, places=None):
     return derived(name)
 
 
-def object_of(name, places=None):
+def object_of(name, places=None, proofs=False):
     """Path of a drive's shared object; one that is missing, damaged or of other sources is compiled into the cache.
 
-    ``places`` as in :func:`folder_of`.
+    ``places`` as in :func:`folder_of`; ``proofs``: the object that proves many contacts at once.
     """
     folder = folder_of(name, places)
-    path = folder / f"{name}.so"
+    path = folder / (f"{name}_proofs.so" if proofs else f"{name}.so")
     if folder == SHIPPED and path.exists():
         return path
     from meshwright.base.first_use import compiled
 
-    return compiled(name, folder)
+    return compiled(name, folder, proofs)
 
 
 def cache_folder():

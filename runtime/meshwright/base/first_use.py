@@ -22,9 +22,14 @@ from meshwright.base.errors import LibraryError
 SEAL = "sealed.json"
 
 
-def compiled(name, folder):
-    """Path of the shared object of a drive in ``folder``, or of the one that is made of its sources into the cache."""
-    path = folder / f"{name}.so"
+def compiled(name, folder, proofs=False):
+    """Path of the shared object of a drive in ``folder``, or of the one that is made of its sources into the cache.
+
+    ``proofs``: the object that proves many contacts at once in place of the drive's own.
+    """
+    part = build.PROOFS if proofs else build.DRIVE
+    object_ = f"{name}{part.ending}"
+    path = folder / f"{object_}.so"
     _check_headers(name, folder)
     inputs = build.inputs(name, folder, SHIPPED)
     if build.sealed(path).get("inputs") == inputs:
@@ -32,16 +37,18 @@ def compiled(name, folder):
     _check_layout(name, folder)
 
     def made(place):
-        shutil.copytree(folder / "include", place / "include")
+        (place / "include").mkdir()
+        for header in build.headers(name, folder):
+            shutil.copy(header, place / "include")
         with tempfile.TemporaryDirectory() as objects:
-            build.drives([name], place, SHIPPED, Path(objects))
+            build.drives([name], place, SHIPPED, Path(objects), parts=(part,))
 
-    return _kept(f"{name}-{inputs[:16]}", f"compiling {name}", made) / f"{name}.so"
+    return _kept(f"{object_}-{inputs[:16]}", f"compiling {object_}", made) / f"{object_}.so"
 
 
 def _check_headers(name, folder):
     """A folder of drives has every generated header of a drive that this package compiles."""
-    if not all((folder / "include" / pattern.format(name)).exists() for pattern in build.GENERATED):
+    if not all(header.exists() for header in build.headers(name, folder)):
         raise _OtherVersion(name, folder)
 
 

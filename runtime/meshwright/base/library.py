@@ -173,12 +173,29 @@ def model(name, places=None):
 @cache
 def _model(name, places):
     path = object_of(name, places)
-    try:
-        table = getattr(ctypes.CDLL(str(path)), f"mw_drive_{name}")
-    except (OSError, AttributeError) as error:
-        raise LibraryError(f"{path} is not the object of the drive {name} ({error}): build it again") from error
-    table.restype = ctypes.c_void_p
-    found = ffi.cast("const mw_model *", table())
+    found = ffi.cast("const mw_model *", _table(path, "mw_drive", name))
     if found.abi != ABI:
         raise LibraryError(f"{path} has ABI {found.abi}, this package needs ABI {ABI}: build it again")
     return found
+
+
+def proofs(name, places=None):
+    """What of a drive proves many contacts at once, from an object of its own; ``places`` as of :func:`model`."""
+    library()
+    with _loading:
+        return _proofs(name, places or folders())
+
+
+@cache
+def _proofs(name, places):
+    return ffi.cast("const struct mw_proofs *", _table(object_of(name, places, proofs=True), "mw_proofs", name))
+
+
+def _table(path, kind, name):
+    """The address that the one function of a drive's shared object returns."""
+    try:
+        table = getattr(ctypes.CDLL(str(path)), f"{kind}_{name}")
+    except (OSError, AttributeError) as error:
+        raise LibraryError(f"{path} is not the object of the drive {name} ({error}): build it again") from error
+    table.restype = ctypes.c_void_p
+    return table()

@@ -7,6 +7,7 @@ import argparse
 import difflib
 import math
 import re
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,8 @@ from meshwright.contact.results import TOUCHING, impossible
 from meshwright.design import description, outline
 from meshwright.design import design as designs
 from meshwright.drive import Drive
+from meshwright.limits.results import Request
+from meshwright.limits.undercut import undercut_lines
 
 
 def add_arguments(parser):
@@ -82,7 +85,22 @@ def run(options):
 
 
 def _first_look(drive):
-    """What the flanks do over the pitch about the middle, in a line."""
+    """What the flanks do over the pitch about the middle, and where they are undercut, in a line each."""
+    return "\n".join([_contact(drive), *_undercut(drive)])
+
+
+def _undercut(drive):
+    """A line for every member that its tool undercuts within the limits of its flank."""
+    cut = Counter(line.member for line in undercut_lines(drive, Request()) if line.on_flank)
+    return [
+        f"careful: the tool undercuts the flank of the {member}, at {count} places looked at: change a size first "
+        "(`meshwright explain undercut`, `meshwright limits` says where)"
+        for member, count in cut.items()
+    ]
+
+
+def _contact(drive):
+    """What the flanks do over the pitch about the middle."""
     result = drive.tca(drive.about_the_middle(np.linspace(-0.5, 0.5, 5)))
     result = not_first(result, drive.first_contact(result.angles, result))
     for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):

@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import ffi, library, pointer, record, text
+from meshwright.base.library import ffi, library, pointer, proofs, record, text
 from meshwright.contact import exact
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.model import DriveModel
@@ -186,16 +186,19 @@ def certify_many(drive, angles, solutions, width=0):
 
     ``angles`` (N,) rad and ``solutions`` (N, nx) of the right-hand drive; ``width``: numbers in a vector, 0 for the
     widest that this processor has, 1 for one contact after the other. The bounds are those of doubles, about 1e-8
-    arcseconds apart.
+    arcseconds apart. What does that in lanes is compiled when a drive is first asked for it, unless the package has it.
     """
     lanes = ffi.NULL if width == 1 else library().mw_lanes(width)
     if lanes == ffi.NULL and width != 1:
         raise UsageError(f"width = {width}: this processor has no such vectors; use 1, 2, or 0 for its widest")
     phi, x = exact.wides([(Fraction(float(a)),) * 2 for a in angles]), np.ascontiguousarray(solutions, dtype=float)
     unique, errors = np.zeros(len(phi), np.uint8), np.zeros(len(phi), record("mw_ball"))
+    design = drive.design
+    in_lanes = ffi.NULL if width == 1 else proofs(design.description["name"], design.places)
     library().mw_certify_many(
-        lanes, drive.enclosed.model, pointer(drive.enclosed.state.copy(), "mw_wide[]"), pointer(phi, "mw_wide[]"),
-        pointer(x), len(phi), pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"),
+        lanes, in_lanes, drive.enclosed.model, pointer(drive.enclosed.state.copy(), "mw_wide[]"),
+        pointer(phi, "mw_wide[]"), pointer(x), len(phi),
+        pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"),
     )  # fmt: skip
     radius = errors["radius"] * (1.0 + 1e-12)
     low, high = np.nextafter(errors["mid"] - radius, -np.inf), np.nextafter(errors["mid"] + radius, np.inf)

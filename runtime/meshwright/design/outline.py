@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from meshwright.design.expression import value
 
+#: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
+ALONE = "as given; no other size follows it"
+
 
 @dataclass(frozen=True)
 class FirstDesign:
@@ -23,6 +26,7 @@ def first_design(family, name, words, given, own):
     """
     usable = _places(family, words)
     symbols, chosen = dict(given), {}
+    suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
     for suggestion in family.outline["suggestions"]:
         place = suggestion["place"]
         if place and place not in usable or not _meant(suggestion, words):
@@ -35,7 +39,8 @@ def first_design(family, name, words, given, own):
         symbols[suggestion["name"]] = number
         if place and place not in own and math.isfinite(number):
             chosen[place] = number, suggestion["why"]
-    written = chosen | {place: (number, "as given") for place, number in own.items()}
+    alone = {place: (number, ALONE) for place, number in own.items() if place not in suggested}
+    written = chosen | {place: (number, "as given") for place, number in own.items()} | alone
     flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     above = {"drive": family.name, "name": name, "flank": next(iter(flank))}
     above |= {key: number for key, (number, _) in written.items() if "." not in key}
@@ -49,7 +54,7 @@ def first_design(family, name, words, given, own):
             if place.partition(".")[0] == table:
                 entry = f"{place.partition('.')[2]} = {_toml(number)}"
                 lines.append(f"{entry:<44}  # {why}" if why else entry)
-    assumed = tuple((place, number, why) for place, (number, why) in chosen.items())
+    assumed = tuple((place, number, why) for place, (number, why) in (chosen | alone).items())
     return FirstDesign("\n".join(lines) + "\n", assumed)
 
 

@@ -241,12 +241,14 @@ def _between(
     heights = [low.sections.height(points) for points in (below[:, 0], above[:, -1])]
     outward = 1.0 if np.mean(heights[1] - heights[0]) > 0.0 else -1.0
     root = float((outward * heights[0]).min())
+    # an internal gear's rim lies outside its teeth, away from the axis
+    deepest = _deepest(low.sections, values, root) if outward > 0.0 else np.inf
     if rim is None:
         rim = RIM_MODULES * sizes["module"] if "module" in sizes else _RIM_HEIGHTS * float(
             (outward * (heights[1] - heights[0])).max()
         )
-        rim = min(rim, _deepest(low.sections, values, root))
-    elif low.sections.sides[1] > 0.0 and rim > (deepest := _deepest(low.sections, values, root)):
+        rim = min(rim, deepest)
+    elif low.sections.sides[1] > 0.0 and rim > deepest:
         check_rim(rim, {member: deepest / DEEPEST_RIM})
     bore = outward * (root - rim)
     tooth = between(

@@ -55,6 +55,7 @@ def scene(analysis):
         "angles_deg": np.degrees(tca.angles).tolist(),
         "wheel_deg": _numbers(np.degrees(tca.wheel_angles)),
         "error_arcsec": _numbers(tca.error / ARCSEC),
+        "relative_error_arcsec": _numbers(tca.relative_error / ARCSEC),
         "steps_per_pitch": analysis.steps_per_pitch,
         "breaks": analysis.breaks.tolist(),
         "centre": centre.tolist(),

@@ -156,7 +156,7 @@ def _body(tooth, motion):
 def _region(tooth):
     xi, _ = tooth.fillet.parameters
     margins = Margin("", "junction", xi, joins="flank"), Margin("", "bottom", tooth.bottom - xi)
-    return Region(tooth.member.name, "fillet", tooth.fillet, sp.Integer(1), margins, "axial")
+    return Region(tooth.member.name, "fillet", tooth.fillet, s, margins, "axial")
 
 
 def _solid(tooth):

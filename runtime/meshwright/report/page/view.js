@@ -25,7 +25,8 @@
     const position = Number(slider.value), contact = scene.contacts[position];
     readout.textContent =
       `pinion ${fixed(scene.angles_deg[position], 2)}°, wheel ${fixed(scene.wheel_deg[position], 4)}°, ` +
-      `transmission error ${fixed(scene.error_arcsec[position], 4)}″ of this pair; ` +
+      `transmission error ${fixed(scene.error_arcsec[position], 4)}″ of this pair ` +
+      `(${fixed(scene.relative_error_arcsec[position], 4)}″ relative to that at the reference angle); ` +
       `${pairs.length} ${pairs.length === 1 ? "pair" : "pairs"} inside the window` +
       (contact && contact.flagged ? `; ${contact.flagged}` : "");
   }
