@@ -507,7 +507,10 @@ def real_values(table, row: list) -> list:
 
 
 def _real_constant(text: str):
-    exact, angle = check_code.literal_of(text.strip("()"))
+    found = check_code.literal_of(text.strip("()"))
+    if found is None:
+        raise ValueError(f"{text} is no constant")
+    exact, angle = found
     return mpmath.mpf(exact.numerator) / exact.denominator * (mpmath.pi if angle else 1)
 
 
@@ -521,7 +524,7 @@ REAL = {
     "-{a}": lambda a, b: -a,
     "sqrt({a})": lambda a, b: mpmath.sqrt(a),
     "atan2({a}, {b})": mpmath.atan2,
-    "SIGN({a})": lambda a, b: mpmath.sign(a),
+    "SIGN({a})": lambda a, b: (a > 0) - (a < 0),
 }
 
 
