@@ -292,7 +292,7 @@ STATE = ("setup", "set_phi")
 def reads(check: Check, name: str) -> bool:
     """May a check read a function of the scalar C or of the bounded flanks?"""
     bare = re.sub(r"^(curvature|slopes|second)_", "", name)
-    if name in STATE or re.search(rf"\b{bare}\b", check.words):
+    if name in STATE or re.search(rf"\b({name}|{bare})\b", check.words):
         return True
     return any(name in names and re.search(pattern, check.words) for pattern, names in READ)
 
