@@ -126,8 +126,8 @@ sanitizers:
 		&& apt-get update -qq && apt-get install -y -qq --no-install-recommends clang-14 libclang-rt-14-dev; } \
 		>/dev/null 2>&1 || true
 
-# Mutated designs, the C interface under sanitizers and in threads, changed records: seeded and bounded, some minutes of a
-# processor; with SIZE=full hours of it. BUDGETS="--designs 200000 --analyse 10000 --calls 10000000" are such of one's own.
+# Mutated designs, surface and report of them, the C interface under sanitizers and in threads, changed records: seeded
+# and bounded, some minutes of a processor; with SIZE=full hours of it. BUDGETS="--designs 200000 --analyse 10000 --calls 10000000" are such of one's own.
 # Fails at the first traceback, hang, sanitizer's report or false contact.
 fuzz: setup build sanitizers
 	$(PY) -m tests.fuzz --size $(or $(SIZE),short) --seed $(or $(SEED),0) $(BUDGETS)
@@ -140,7 +140,7 @@ coverage: setup build
 # line for each.
 compilers: setup build sanitizers emulators
 	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_compilers.py
-	$(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
+	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
 test-fe: setup build solver

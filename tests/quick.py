@@ -10,6 +10,11 @@ def quick(values, *now):
     return [pytest.param(*_listed(v), marks=[] if v in now else [pytest.mark.validate]) for v in values]
 
 
+def some(values, *kept):
+    """Those of the values that are ``kept``, all with ``SIZE=full``: parameters of a test that takes long for each."""
+    return list(values) if full() else [v for v in values if v in kept]
+
+
 def full():
     """Whether the sizes are those of ``make validate SIZE=full``: hours, not minutes."""
     return os.environ.get("MESHWRIGHT_SIZE") == "full"

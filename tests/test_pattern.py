@@ -9,6 +9,7 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.rigid import RigidTeeth
 from meshwright.pattern.pattern import contour, patches
 
 AT = math.radians(1000.0)
@@ -97,6 +98,22 @@ def test_pairs_that_lag_leave_smaller_patches():
     assert set(found) == set(pairs)  # all stand closer than the separation of 6.32 µm
     for number, patch in found.items():
         assert patch.separation == pytest.approx(0.00632 - pairs[number].separation, abs=1e-12)
+
+
+def test_an_edge_that_touches_first_keeps_the_tangencies_apart():
+    """Helical teeth out of line touch with the end of a face: patches of tangencies are then smaller."""
+    drive = Drive.load("helical-crowned").with_(misalignment={"horizontal_deg": 0.08})
+    mesh = Mesh.of(drive)
+    teeth, angle = RigidTeeth.of(mesh), mesh.window.begin.angle + 0.5 * mesh.window.span
+    (stands,) = teeth.transmitted([angle])
+    found = patches(mesh, angle, 8, 0.1)
+    assert found
+    for pair in mesh.pairs(angle):
+        at = mesh.mirror * pair.angle
+        apart = abs(float(mesh.window.path.levers([at])[0])) * mesh.sense * (stands - pair.error)
+        assert apart > 0.001
+        if pair.number in found:
+            assert found[pair.number].separation == pytest.approx(0.1 - apart, abs=1e-12)
 
 
 def test_the_command_writes_the_contour_of_each_point(capsys):

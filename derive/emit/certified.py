@@ -9,8 +9,11 @@ included, and each factor from the unit of a key to the inner unit.
 from dataclasses import dataclass
 from fractions import Fraction
 
+import sympy as sp
+
 from derive.emit.c99 import number
 from derive.emit.render import render
+from derive.language.chain import Rotation
 from derive.language.drive import PATH
 from derive.passes.quotients import reciprocals
 from derive.program.enclosure import Enclosure
@@ -157,7 +160,31 @@ def header(plan, generator):
         equations=code(tape, [*plan.residual, *jacobian], by_x, len(plan.residual)),
         observed=code(tape, _watched(plan), by_x),
         along=code(tape, [*plan.along.first, *plan.along.second], before | _line(plan, count)),
+        flanks=[_flank(plan, flank, before) for flank in plan.flanks],
+        placement=_placement(plan, before),
+        turning=int(_turns_about_z(drive)),
     )
+
+
+def _flank(plan, flank, before):
+    """A flank: point, regular and margins, then its tangents, body frame."""
+    point = next(o.nodes for o in flank.outputs if o.name == "point")
+    tangents = [i for o in flank.outputs if o.name.startswith("tangent_") for i in o.nodes]
+    own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(flank.parameters)}
+    leading = [*point, *flank.limits]
+    return code(plan.tape, [*leading, *tangents], before | own, len(leading))
+
+
+def _placement(plan, before):
+    own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(plan.placement.parameters)}
+    return code(plan.tape, [i for o in plan.placement.outputs for i in o.nodes], before | own)
+
+
+def _turns_about_z(drive):
+    """Whether the wheel's angle is that of the last of its rotations, about the z axis of its own frame, alone."""
+    *others, last = drive.wheel.motion.factors
+    moves = any(sp.sympify(e).has(drive.error) for factor in others for e in factor.expressions())
+    return isinstance(last, Rotation) and last.axis == "z" and sp.diff(last.angle, drive.error) in (1, -1) and not moves
 
 
 def _line(plan, count):

@@ -1,7 +1,7 @@
 /* Contact geometry of many solved points.  SPDX-License-Identifier: MIT-0 */
 #include "exact.h"
 #include "meshwright.h"
-#include "solver/choice.h"
+#include "solver/touch.h"
 
 static void no_contact_at(const mw_model *m, double *o, mw_contact *c)
 {
@@ -46,7 +46,7 @@ size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t 
             const int again = status < 0 && attempt == 0;
             info[k].status = status;
             if (!again) break;
-            mwi_solve(m, p, phi[k], s, work, x, info + k);
+            mw_solve(m, p, phi[k], s, work, x, info + k);
         }
         if (info[k].status < 0) {
             no_contact_at(m, o, contact + k);

@@ -40,13 +40,16 @@ typedef struct mw_certified_system {
  * one. setup: of p; instant: of (s, phi); equations, residual and Jacobian, and observed: of (s[slots], x). observed is:
  * point and normal of the pinion, then of the wheel, fixed frame; wheel angle; principal curvatures of the gap; of each
  * body, whether it is regular, and its margins. along: of (s[slots], phi, x, v[nx + 1]), first and then second derivative of the
- * residual along v, a direction of (x, phi). */
+ * residual along v, a direction of (x, phi). flanks, of pinion and wheel: of (s[slots], parameters), point, regular and
+ * margins, then the tangents, body frame. placement: of (s[slots], angles of pinion and wheel), for each of both the rows of
+ * the motion into the fixed frame, direction and a point of its axis. turning: whether the wheel turns about its frame's z. */
 typedef struct mw_certified {
     int slots, design_slots;
     const mw_wide *factors;
     const mw_certified_rule *rules;
     const mw_certified_system *systems;
-    mw_code setup, instant, equations, observed, along;
+    mw_code setup, instant, equations, observed, along, flanks[2], placement;
+    int turning;
 } mw_certified;
 
 #endif

@@ -20,7 +20,10 @@ extern "C" {
     X(MW_REASON_OUTSIDE, 5, "outside", "the box reaches beyond the domain of the equations") \
     X(MW_REASON_DESIGN, 6, "design", "a size that follows from the design cannot be enclosed") \
     X(MW_REASON_CONTACT, 7, "no_contact", "there is no solution to begin with") \
-    X(MW_REASON_ARITHMETIC, 8, "arithmetic", "this processor or compiler does not round as the bounds need")
+    X(MW_REASON_ARITHMETIC, 8, "arithmetic", "this processor or compiler does not round as the bounds need") \
+    X(MW_REASON_OFF_FLANK, 9, "off_flank", "the contact does not surely lie on both bounded flanks") \
+    X(MW_REASON_CONDITION, 10, "condition", "places of a flank of this drive are not two free numbers, or its wheel turns otherwise") \
+    X(MW_REASON_EFFORT, 11, "effort", "more or smaller parts of the flanks would have to be looked at than is allowed")
 
 typedef enum mw_reason {
 #define MW_REASON_ENUM(code, value, word, text) code = value,
@@ -117,6 +120,28 @@ mw_ball mw_piece_at(const mw_piece *piece, const mw_polynomial *of, double angle
 
 /* Bounds of a polynomial over the angles from one to another, [low, high]: by halving down to 2^-depth of the piece. */
 void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from, double to, int depth, double *bounds);
+
+/* Whether the flanks touch at a certified contact first. PROVED: with the wheel turned back from there, to the side on which
+ * the gap is open, by any angle above slack and up to reach, no place of the one flank within the given parameters and its
+ * limits, of the wheel's on the piece that holds the contact, is one of the other's; depth, below slack: the same from there
+ * on. REFUTED: they have one in common, surely: the parameters wheel[2] and pinion[2], nearly, and how far it is apart, rad,
+ * negative. Else the part of the wheel's flank that was looked at last, and why no more is known. ends, of pinion and wheel:
+ * whether limits surely end the flank within the given parameters, or it goes on beyond them. parts: of the wheel's flank
+ * that were looked at. */
+enum { MW_FIRST_UNKNOWN, MW_FIRST_PROVED, MW_FIRST_REFUTED };
+
+typedef struct mw_first_certificate {
+    int outcome, reason, parts, ends[2];
+    double depth, wheel[2], pinion[2];
+    mw_ball apart;
+} mw_first_certificate;
+
+/* Certify that a certified contact at phi is the first. flanks[8]: lowest and highest first and second parameter of the
+ * pinion's flank, then of the wheel's. slack, reach: rad of the wheel. effort: most parts. work[mw_certify_first_work()].
+ * Returns the outcome. */
+int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_certificate *contact, const double *flanks,
+                     double slack, double reach, int effort, double *work, mw_first_certificate *c);
+size_t mw_certify_first_work(void);
 
 /* What proves many contacts of a drive that is built into this library; NULL for any other. */
 const struct mw_proofs *mw_proofs_of(const mw_model *m);

@@ -1,4 +1,4 @@
-/* The contacts of a tooth pair at many angles.  SPDX-License-Identifier: MIT-0
+/* The contacts of a tooth pair at one angle and at many, and along a branch.  SPDX-License-Identifier: MIT-0
  *
  * The rule is "Which contact" in meshwright.h. */
 #include "exact.h"
@@ -11,6 +11,11 @@ enum { CHECK_EVERY = 256 };
 
 /* Solutions nearer than this, in natural sizes, are one; near line contact they scatter along the line. */
 static const double SAME = 1e-4;
+
+int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+{
+    return mwi_solve(m, p, phi, s, work, x, info);
+}
 
 typedef struct trace {
     const mw_model *m;
@@ -120,4 +125,55 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
         for (int i = 0; i < m->nx && info[k].status < 0; i++) x[k * (size_t)m->nx + (size_t)i] = NAN;
     }
     return succeeded;
+}
+
+size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
+                 mw_info *info)
+{
+    mwi_history h = mwi_no_history();
+    double o[MW_MAX_OBSERVATION];
+    const int usable = mwi_usable(m) && mwi_angle_in_range(phi0);
+    mwi_remember(&h, phi0, x0);
+    for (size_t k = 0; k < n; k++, x += m->nx, info++) {
+        *info = mwi_ended(MW_BAD_INPUT, 0);
+        if (!usable || !mwi_angle_in_range(phi[k])) return k;
+        if (phi[k] == h.phi[0]) {
+            mwi_copy(x, h.x[0], m->nx);
+            m->set_phi(s, phi[k]);
+            m->observe(s, x, o);
+            if ((info->status = mwi_touch(m, x, o)) < 0) return k;
+            continue;
+        }
+        int there = mwi_leap(m, &h, phi[k], s, x, info);
+        if (there) {
+            m->observe(s, x, o);
+            there = mwi_touch(m, x, o) >= 0;
+        }
+        if (!there && mwi_walk(m, &h, phi[k], s, x, info) < 0) return k;
+        mwi_remember(&h, phi[k], x);
+    }
+    return n;
+}
+
+size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
+                     const double *phi, size_t n, double *x, mw_info *info)
+{
+    const int nx = mwi_usable(m) ? m->nx : 0; /* nothing of a foreign table is believed */
+    size_t succeeded = 0;
+    for (size_t k = 0; k < n; k++, x += nx, info++) {
+        const size_t from = node[k] < 0 ? 0 : (size_t)node[k];
+        *info = mwi_ended(MW_BAD_INPUT, 0);
+        if (nx > 0 && node[k] >= 0 && mw_follow(m, s, phi0[from], x0 + from * (size_t)nx, phi + k, 1, x, info) == 1)
+            succeeded++;
+        else
+            for (int i = 0; i < nx; i++) x[i] = NAN;
+    }
+    return succeeded;
+}
+
+size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
+                    double *x, double *slope, double *determinant)
+{
+    if (!mwi_usable(m) || !mwi_angle_in_range(phi0) || !(mwi_abs(step) < HUGE_VAL)) return 0;
+    return mwi_arclength(m, s, phi0, x0, step, count, phi, x, slope, determinant);
 }

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 3
+ABI = 4
 
 
 class Info(ctypes.Structure):

@@ -8,6 +8,7 @@ import pytest
 
 from tests.embedding import compile as c
 from tests.embedding.machines import MACHINES, Problem
+from tests.quick import quick, some
 
 DRIVES = sorted(json.loads(p.read_text())["name"] for p in c.GENERATED.glob("*.json"))
 FAMILIES = ("cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm")
@@ -77,8 +78,8 @@ CONTRACTION = {"separate": (), "native": ("-march=native",), "fused": ("-DMW_FUS
 
 
 @pytest.mark.parametrize("fused", [False, pytest.param(True, marks=pytest.mark.validate)])
-@pytest.mark.parametrize("levels", [("-O0", "-O3"), pytest.param(("-O1", "-O2"), marks=pytest.mark.validate)])
-@pytest.mark.parametrize("drive", ONE_QUICKLY)
+@pytest.mark.parametrize("levels", quick([(("-O3",),), (("-O0", "-O1", "-O2"),)], (("-O3",),)))
+@pytest.mark.parametrize("drive", some(FAMILIES, FAMILIES[1]))
 def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, levels, fused):
     """A contact from nothing: with this machine's instructions too, products are fused where the header says."""
     problem, solution = problem_of(drive)

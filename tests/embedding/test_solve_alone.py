@@ -12,6 +12,7 @@ import pytest
 
 from meshwright.base.library import SHIPPED
 from tests.embedding import compile as c
+from tests.quick import full
 
 QUICK = "spherical_convex_spur"
 FAMILIES = ("cylindrical_worm_zn_zn", QUICK, "face_worm")
@@ -109,5 +110,7 @@ def test_a_header_alone_solves_what_the_library_solves(tmp_path, drive):
 
 @pytest.mark.validate
 @pytest.mark.parametrize("drive", DRIVES)
-def test_ten_thousand_random_inputs_of_every_drive(tmp_path, drive):
-    assert _holds(drive, tmp_path, 10_000) > 1000
+def test_random_inputs_of_every_drive(tmp_path, drive):
+    """A thousand, or ten thousand."""
+    count = 10_000 if full() else 1_000
+    assert _holds(drive, tmp_path, count) > count // 10

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-_STEPS = 60
+_STEPS, _HALVINGS = 60, 12
 
 
 def distance_from_flank(flank, points: np.ndarray, starts: np.ndarray) -> np.ndarray:
@@ -16,8 +16,20 @@ def distance_from_flank(flank, points: np.ndarray, starts: np.ndarray) -> np.nda
     q = _nearest(flank, points, starts)
     for _ in range(_STEPS):
         residual, slopes = _residual(flank, q, points)
-        q = q - _damped(np.stack([np.linalg.lstsq(m, r, rcond=None)[0] for m, r in zip(slopes, residual, strict=True)]))
+        step = _damped(np.stack([np.linalg.lstsq(m, r, rcond=None)[0] for m, r in zip(slopes, residual, strict=True)]))
+        q = q - _nearer(flank, points, q, step)
     return np.linalg.norm(_residual(flank, q, points)[0], axis=1)
+
+
+def _nearer(flank, points, q, step):
+    """The steps (K, k), halved until they lead nearer: beside the cusp of an undercut flank whole ones jump over it."""
+    before = np.linalg.norm(_residual(flank, q, points)[0], axis=1)
+    for _ in range(_HALVINGS):
+        further = ~(np.linalg.norm(_residual(flank, q - step, points)[0], axis=1) <= before)
+        if not further.any():
+            break
+        step = np.where(further[:, None], 0.5 * step, step)
+    return step
 
 
 def turn_onto_flank(flank, point: np.ndarray, starts: np.ndarray) -> float:

@@ -9,6 +9,7 @@ from test_solver_chain import linear_field, macneal_harder_patch
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
+from meshwright.fe import loaded
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
@@ -107,10 +108,11 @@ def test_two_pairs_share_the_torque(concave, compliance):
 
 
 def test_teeth_are_softer_than_half_spaces(concave, compliance):
+    """And bend most below the middle of the load: the peak is lower than Hertz's, by less than 1 %."""
     with_teeth = loaded_contact(concave, 0.0, 1, TORQUE, compliance)
     without = loaded_contact(concave, 0.0, 1, TORQUE, None)
     assert with_teeth.rotation > 1.1 * without.rotation
-    assert with_teeth.pairs[0].peak_pressure == pytest.approx(without.pairs[0].peak_pressure, rel=5e-3)
+    assert 0.99 < with_teeth.pairs[0].peak_pressure / without.pairs[0].peak_pressure < 1.0
 
 
 def test_torque_on_either_member(concave):
@@ -135,9 +137,18 @@ def test_command(capsys):
 
 @pytest.mark.validate
 def test_tooth_compliance_is_that_of_finer_meshes(concave):
-    """Extrapolated from the usual meshes and from half as fine again: 3 % of the largest entry at most between them."""
-    usual, finer = (tooth_compliance(concave.pinion, 0, per_patch).own for per_patch in (1, 2))
-    assert np.abs(usual - finer).max() < 0.03 * np.abs(finer).max()
+    """Extrapolated from the usual meshes and from half as fine again: 3 % of the largest entry at most between them.
+
+    Under load they tell the same peak of pressure to 0.2 %, and the same rotation to 1 %.
+    """
+    usual, finer = (
+        {name: tooth_compliance(getattr(concave, name), 0, per_patch) for name in ("pinion", "wheel")}
+        for per_patch in (1, 2)
+    )
+    assert np.abs(usual["pinion"].own - finer["pinion"].own).max() < 0.03 * np.abs(finer["pinion"].own).max()
+    one, other = (loaded_contact(concave, 0.0, 1, TORQUE, teeth) for teeth in (usual, finer))
+    assert one.pairs[0].peak_pressure == pytest.approx(other.pairs[0].peak_pressure, rel=2e-3)
+    assert one.rotation == pytest.approx(other.rotation, rel=1e-2)
 
 
 def test_compliance_from_the_means_of_patches():
@@ -192,11 +203,15 @@ def test_bad_input(capsys, arguments, said):
 
 @pytest.mark.validate
 def test_a_load_that_no_flank_carries_is_said_to_be_so(capsys):
-    arguments = ["spherical-table-4-4-concave", "--torque-nm", "1e12", "--phi-deg", "0", "--json", "-"]
-    assert main(["loaded", *arguments]) == 1
-    (point,) = json.loads(capsys.readouterr().out)["points"]
-    assert point["status"] == "diverged" and "too large" in point["message"]
-    assert point["pairs"] == [] and point["loaded_transmission_error_arcsec"] is None
+    """Flanks that touch all over are a spring: they would hold any torque, turned out of all reason."""
+    design, turned = ["loaded", "spherical-table-4-4-concave", "--phi-deg", "0", "--json", "-"], []
+    for torque in ("1e9", "1e12"):
+        assert main([*design, "--torque-nm", torque]) == 1
+        (point,) = json.loads(capsys.readouterr().out)["points"]
+        assert point["status"] == "rotation_not_small" and "smaller torque" in point["message"]
+        assert point["pairs"] == [] and point["loaded_transmission_error_arcsec"] is None
+        turned.append(float(point["message"].split(" rad")[0].split()[-1]))
+    assert turned[1] == pytest.approx(1000.0 * turned[0], rel=0.02)
 
 
 @pytest.mark.validate
@@ -217,14 +232,23 @@ def test_a_rotation_that_is_not_small_is_said_to_be_so(capsys):
     assert "rotation_not_small" in capsys.readouterr().out
 
 
-def test_a_contact_cut_off_by_an_edge_is_named(concave):
-    """Where the contact leaves a tip half of the ellipse is missing, and the pressure peaks at the edge."""
+def test_a_contact_cut_off_by_an_edge_is_named(concave, monkeypatch):
+    """Where the contact leaves a tip half of the ellipse is missing, and the pressure peaks at the edge.
+
+    If both teeth ended there, with free edges that mirror each load, half of the ellipse of twice the force would be
+    left, with 2^(1/3) of Hertz's pressure; the wheel goes on beyond the pinion's tip, which makes it more. Were the
+    tip held as the half-space is, it would be more than twice that pressure, and draw load from the other pair.
+    """
     found = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None)
     cut, whole = found.pairs
     assert cut.cut_off and cut.peaks_at_edge and cut.edges == ("tip of the pinion",)
-    assert cut.peak_pressure > 2.0 * cut.hertz.peak_pressure
+    assert cut.peak_pressure > 2.0 ** (1.0 / 3.0) * cut.hertz.peak_pressure
     assert not whole.cut_off and not whole.peaks_at_edge and whole.edges == ()
     assert whole.peak_pressure == pytest.approx(whole.hertz.peak_pressure, rel=2e-3)
+    monkeypatch.setattr(loaded, "free_edge_displacements", lambda *_: None)
+    held = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None).pairs[0]
+    assert held.peak_pressure > 2.0 * held.hertz.peak_pressure and held.peak_pressure > cut.peak_pressure
+    assert held.force > cut.force
 
 
 @pytest.mark.validate

@@ -1,7 +1,8 @@
 """Everything that is fuzzed, bounded and seeded, in one table: ``python -m tests.fuzz`` (``make fuzz``).
 
-Designs, the C interface under each sanitizer and in threads, and records. A part that fails makes the exit status 1;
-a tool that is missing is named in the table, and what it would have checked was then not checked.
+Designs, ``surface`` and ``report`` of them, the C interface under each sanitizer and in threads, and records. A
+part that fails makes the exit status 1; a tool that is missing is named in the table, and what it would have checked
+was then not checked.
 """
 
 import argparse
@@ -13,21 +14,24 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from meshwright.base.library import library
-from tests.fuzz import designs, interface, records
+from tests.fuzz import designs, interface, pages, records
 
 
 @dataclass(frozen=True)
 class Size:
-    """Mutated designs, of these analysed, calls of the C interface, inputs of threads, mutated records."""
+    """Mutated designs, of these analysed; through ``surface`` and ``report``; calls of the C interface, inputs of
+    threads, mutated records.
+    """
 
     designs: int
     analyse: int
+    pages: int
     calls: int
     threads: int
     records: int
 
 
-SIZES = {"short": Size(1500, 100, 80_000, 40, 15), "full": Size(200_000, 10_000, 10_000_000, 2_000, 500)}
+SIZES = {"short": Size(1500, 100, 6, 80_000, 40, 15), "full": Size(200_000, 10_000, 300, 10_000_000, 2_000, 500)}
 
 #: Packaged designs whose drives the short run compiles.
 FEW = ("spherical-table-2-3",)
@@ -44,6 +48,14 @@ def _designs(size, seed):
     wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
     again = "; show one again with python -m tests.fuzz.designs --show SEED" if wrong else ""
     return f"{sum(total.values())} loaded, {total['analysed']} analysed, {total['refused']} refused{again}", wrong
+
+
+def _pages(size, seed):
+    total, failures = pages.run(size.pages, seed)
+    wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
+    again = "; show one again with python -m tests.fuzz.pages --show SEED" if wrong else ""
+    reports = ", ".join(f"{total[f'report {k}']} reports with exit status {k}" for k in pages.STATUSES)
+    return f"{total['analysed']} designs, {reports}, {total['refused']} refused{again}", wrong
 
 
 def _pieces(led, random, size, seed):
@@ -82,10 +94,11 @@ def _interface(kind, size, seed, which):
     return words + Path(compiler).name + (", random bytes and led by coverage" if led else ", random bytes"), []
 
 
-PARTS = ("designs", "record", *(f"C interface, {kind}" for kind in interface.SANITIZERS))
+PARTS = ("designs", "surface and report", "record", *(f"C interface, {kind}" for kind in interface.SANITIZERS))
 
 BUDGETS = {
-    "designs": "mutated designs loaded", "analyse": "of these analysed", "calls": "calls of the C interface",
+    "designs": "mutated designs loaded", "analyse": "of these analysed",
+    "pages": "designs through surface and report", "calls": "calls of the C interface",
     "threads": "inputs that four threads share", "records": "changed records",
 }  # fmt: skip
 
@@ -101,7 +114,10 @@ def main(arguments=None):
     library()
     asked = {name: value for name in BUDGETS if (value := getattr(given, name)) is not None}
     size, few = replace(SIZES[given.size], **asked), FEW if given.size == "short" else interface.DESIGNS
-    parts = {"designs": lambda: _designs(size, given.seed), "record": lambda: records.run(size.records, given.seed)}
+    parts = {
+        "designs": lambda: _designs(size, given.seed), "surface and report": lambda: _pages(size, given.seed),
+        "record": lambda: records.run(size.records, given.seed),
+    }  # fmt: skip
     for kind in interface.SANITIZERS:
         parts[f"C interface, {kind}"] = lambda kind=kind: _interface(kind, size, given.seed, few)
     if given.only:

@@ -16,6 +16,7 @@ import tempfile
 import traceback
 import warnings
 from collections import Counter
+from functools import partial
 from mmap import mmap
 from pathlib import Path
 
@@ -104,7 +105,7 @@ def _quiet(chance, seed, folder, analyse, deep):
     return "analysed"
 
 
-def _batch(seeds, share, deep, at, out):
+def _batch(seeds, at, out, share, deep):
     """In a child process: each seed's outcome; the parent reads from ``at`` how far it came."""
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
     warnings.simplefilter("error", RuntimeWarning)
@@ -124,13 +125,17 @@ def _batch(seeds, share, deep, at, out):
     out.write(json.dumps({"counted": counted, "failures": failures}))
 
 
-def _forked(seeds, share, deep):
-    """Counts and failures of a batch, and the seeds still to do after one at which the process died."""
+def forked(seeds, batch, hang):
+    """Counts and failures of a batch, and the seeds still to do after one at which the process died.
+
+    ``batch(seeds, at, out)`` notes the seed it is at in the eight bytes ``at`` and ends with writing counts and
+    failures to ``out``, as JSON; a design may take ``hang`` seconds.
+    """
     at = mmap(-1, 8)
     with tempfile.TemporaryFile("w+") as out:
         child = os.fork()
         if child == 0:
-            _batch(seeds, share, deep, at, out)
+            batch(seeds, at, out)
             out.flush()
             os._exit(0)
         status = os.waitpid(child, 0)[1]
@@ -140,7 +145,7 @@ def _forked(seeds, share, deep):
             return Counter(done["counted"]), done["failures"], []
     last = struct.unpack("q", at[:8])[0]
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
-    why = f"took more than {HANG:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
+    why = f"took more than {hang:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
     before, after = [s for s in seeds if s < last], [s for s in seeds if s > last]
     return Counter({"failed": 1}), [{"seed": last, "error": why}], [part for part in (before, after) if part]
 
@@ -153,7 +158,8 @@ def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
         while open_:
             wanted, left = analyse - total["analysed"], count - sum(total.values())
             share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
-            counted, failed, again = _forked(open_.pop(), share, deep)
+            batch = partial(_batch, share=share, deep=deep)
+            counted, failed, again = forked(open_.pop(), batch, HANG)
             total += counted
             failures += failed
             open_ += again

@@ -1,4 +1,5 @@
-/* Functions of a drive in doubles (MWC_BALLS), in double-double (MWC_WIDES) or along paths (MWC_PATHS).  SPDX-License-Identifier: MIT-0 */
+/* Functions of a drive in doubles (MWC_BALLS), in double-double (MWC_WIDES), along paths (MWC_PATHS) or over flanks
+ * (MWC_SHEETS).  SPDX-License-Identifier: MIT-0 */
 #ifndef MWC_TABLES_H
 #define MWC_TABLES_H
 
@@ -30,6 +31,15 @@ enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 #define MWC_NUMBER mw_polynomial
 #define MWC_DO(operation) mwc_poly_##operation
 #define MWC_CONSTANT(c) mwc_poly_of_wide(c)
+#include "run.h"
+#endif
+
+#ifdef MWC_SHEETS
+#include "sheet.h"
+#define MWC_RUN mwc_run_sheet
+#define MWC_NUMBER mwc_sheet
+#define MWC_DO(operation) mwc_sheet_##operation
+#define MWC_CONSTANT(c) mwc_sheet_of_wide(c)
 #include "run.h"
 #endif
 

@@ -16,6 +16,7 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
+from meshwright.contact.flags import OVERLAP
 
 
 def add_arguments(parser):
@@ -87,6 +88,12 @@ def _check_touches(fe, gear, angles, pairs):
             raise UsageError(
                 f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; "
                 f"{loading.gap_note(gear) or '`meshwright ratio` says where'}"
+            )
+        first = fe.pair.leading_edge(gear, angle, pairs)
+        if first is not None and first[1] > OVERLAP:
+            raise UsageError(
+                f"--phi-deg {np.degrees(angle):g}: the {first[0].touch.edge} touches {1000.0 * first[1]:.3g} um before "
+                "any tangency, about which the mesh is made; `meshwright loaded` has the edges in it"
             )
 
 

@@ -5,11 +5,11 @@ of a second; a terminal shows how far it is. Teeth are linear elastic and turn b
 turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of pressure
 there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
 a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
-Where the two bounded flanks of a pair as designed touch first on an edge, before the tangency that the method builds
-on, there are no figures: status ``not_first``. Where a neighbouring pair without a tangency would touch on an edge
-before those that have one, the message says so: the load that it carries is not seen. Exit status 1 without figures,
-and if no tooth pair touches at one of the angles, its contact under load is not found, or the torque is too large for
-the method.
+Where
+the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with the free
+edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the cells.
+Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not found, or
+the torque is too large for the method.
 """
 
 import numpy as np
@@ -20,7 +20,6 @@ from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
-from meshwright.contact.flags import NOT_FIRST, OVERLAP, not_first
 from meshwright.contact.results import ARCSEC
 from meshwright.shop.tables import read_csv
 
@@ -60,23 +59,16 @@ def solved(fe, options, drive, angles, step, points=None):
     """
     mirror, described = drive.design.mirror, drive.as_described
     gear, load, pairs = loading.loaded_gears(fe, options, described, step)
-    late = [("", "")] * len(angles)
-    if points is None:
-        late = [_not_first(fe, described, gear, mirror.sign * angle, pairs, mirror) for angle in angles]
-    else:
+    if points is not None:
         from meshwright.fe.as_measured import as_measured
 
         gear = as_measured(gear, drive, options.member, points, options.tooth)
-    compliance = None if all(why for why, _ in late) else loading.compliances(fe, gear, pairs, step)
+    compliance = loading.compliances(fe, gear, pairs, step)
     found = []
-    for angle, (why, leading) in zip(angles, late, strict=True):
+    for angle in angles:
         step(f"pinion at {np.degrees(angle):.4g} deg")
-        point = _nothing(angle)
-        if why:
-            found.append(point | {"status": "not_first", "message": why})
-        else:
-            solution = _point(fe, gear, mirror, mirror.sign * angle, pairs, load, compliance)
-            found.append(_with_note(point | _mirrored(solution, mirror), leading))
+        solution = _point(fe, gear, mirror, mirror.sign * angle, pairs, load, compliance)
+        found.append(_nothing(angle) | _mirrored(solution, mirror))
     return gear, {
         "schema": SCHEMA,
         "torque_nm": options.torque_nm,
@@ -99,41 +91,6 @@ def _measured(options):
     return read_csv(options.measured)[0]
 
 
-def _not_first(fe, drive, gear, angle, pairs, mirror):
-    """What touches at an angle before the tangencies that the method builds on, in two texts, "" for nothing: why there
-    are no figures, by pairs whose tangency lies inside the other flank; pairs without a tangency whose edges lead.
-    """
-    numbers = [touch.pairs_later for touch in fe.pair.touches(gear, angle, pairs)]
-    if not numbers:
-        return "", ""
-    counted = fe.pair.pair_numbers(gear, angle, pairs)
-    others = [k for k in range(counted.start - 1, counted.stop + 1) if k not in numbers]
-    result = drive.tca(np.array([angle - k * gear.pinion.pitch for k in numbers + others]))
-    first = drive.first_contact(result.angles, result)
-    late = not_first(result, first).flags
-    overlaps, errors = 1000.0 * first.overlaps(result.error), mirror.sign * first.errors / ARCSEC
-    inside = [
-        f"the tangency of pair {_number(number, mirror)} would lie {overlaps[k]:.4g} um inside the other flank: first "
-        f"contact is {first.words(k)} at {errors[k]:.5g} arcsec, of which the method has no figures"
-        for k, number in enumerate(numbers)
-        if NOT_FIRST in late[k]
-    ]
-    lead = max(result.error[: len(numbers)], key=lambda error: gear.sense * error)
-    ahead = first.overlaps(np.full(len(result.angles), lead))
-    leading = [
-        f"pair {_number(number, mirror)} touches {1000.0 * ahead[k]:.4g} um before these, by the {first.words(k)} at "
-        f"{errors[k]:.5g} arcsec unloaded: the load that it carries is not seen"
-        for k, number in enumerate(others, len(numbers))
-        if first.kinds[k] in ("edge", "corner") and ahead[k] > OVERLAP
-    ]
-    return "; ".join(inside), "; ".join(leading)
-
-
-def _with_note(point, note):
-    """A point whose message says more, where it has figures."""
-    return point | {"message": "; ".join(filter(None, (point["message"], note)))} if point["pairs"] else point
-
-
 def _mirrored(point, mirror):
     """A point of the drive as described as one of its mirror image, in which a later pair is an earlier one."""
     if mirror.sign > 0.0 or not point.get("pairs"):
@@ -145,8 +102,8 @@ def _mirrored(point, mirror):
         }
         for pair in point["pairs"]
     ]  # fmt: skip
-    error = mirror.sign * point["loaded_transmission_error_arcsec"]
-    return point | {"pairs": pairs, "loaded_transmission_error_arcsec": error}
+    errors = {key: mirror.sign * point[key] for key in point if key.endswith("transmission_error_arcsec")}
+    return point | {"pairs": pairs} | errors
 
 
 def _nothing(angle):
@@ -155,6 +112,7 @@ def _nothing(angle):
         "status": "no_contact",
         "message": "no tooth pair touches at this angle",
         "loaded_transmission_error_arcsec": None,
+        "unloaded_transmission_error_arcsec": None,
         "mesh_stiffness_n_per_um": None,
         "rotation_rad": None,
         "pairs": [],
@@ -164,7 +122,7 @@ def _nothing(angle):
 def _point(fe, gear, mirror, angle, pairs, load, compliance):
     """What is known of an angle but the angle; {} where nothing touches."""
     point = {}
-    if not fe.pair.touches(gear, angle, pairs):
+    if not fe.pair.first_touches(gear, angle, pairs):
         return point
     try:
         found = fe.loaded.loaded_contact(gear, angle, pairs, load, compliance)
@@ -173,11 +131,12 @@ def _point(fe, gear, mirror, angle, pairs, load, compliance):
     if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
     total = sum(pair.force for pair in found.pairs)
-    lines = _lines(fe, gear, angle, found.pairs)
+    lines = _lines(gear, angle, found.unloaded_error, found.pairs)
     return point | {
         "status": "converged",
         "message": "; ".join(_edge_note(pair, mirror) for pair in found.pairs if pair.cut_off),
         "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
+        "unloaded_transmission_error_arcsec": found.unloaded_error / ARCSEC,
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
         "pairs": [_pair(pair, total) | {"line_mm": line} for pair, line in zip(found.pairs, lines, strict=True)],
@@ -198,6 +157,11 @@ def _number(pairs_later, mirror):
 
 def _edge_note(pair, mirror):
     """That an edge cuts a contact area off, and whether the peak of pressure is there."""
+    if pair.contact.touch.edge:
+        return (
+            f"pair {_number(pair.contact.pairs_later, mirror)} touches first with the {pair.contact.touch.edge}, where "
+            f"its pressure peaks with {pair.peak_pressure:.5g} MPa, more with finer cells"
+        )
     edges = " and the ".join(pair.edges)
     by = f"the {edges}" if edges else "an edge of a flank"
     note = f"pair {_number(pair.contact.pairs_later, mirror)} is cut off by {by}"
@@ -209,9 +173,9 @@ def _edge_note(pair, mirror):
     )
 
 
-def _lines(fe, gear, angle, pairs):
+def _lines(gear, angle, unloaded, pairs):
     """The line of contact of each pair in the frames of both bodies, as they stand for the reference tooth, mm."""
-    turned = {"pinion": angle, "wheel": fe.pair.unloaded_wheel_angle(gear, tuple(pair.contact for pair in pairs))}
+    turned = {"pinion": angle, "wheel": gear.ratio * angle + unloaded}
     return [
         {name: _in_body(member.pose(turned[name] - pair.contact.pairs_later * member.pitch), pair.line)
          for name, member in (("pinion", gear.pinion), ("wheel", gear.wheel))}
@@ -228,6 +192,9 @@ def _pair(pair, total):
     hertz = pair.hertz
     return {
         "pairs_later": pair.contact.pairs_later,
+        "kind": "edge" if pair.contact.touch.edge else "tangency",
+        "first_contact": pair.contact.touch.edge or "tangency",
+        "gap_um": 1000.0 * pair.apart,
         "force_n": pair.force,
         "share": pair.force / total,
         "peak_pressure_mpa": pair.peak_pressure,

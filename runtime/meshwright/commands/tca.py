@@ -42,7 +42,8 @@ def add_arguments(parser):
     )  # fmt: skip
     parser.add_argument(
         "--certify", action="store_true",
-        help="prove each contact: that it exists, is the only one nearby, and how far its numbers can be off",
+        help="prove each contact: that it exists, is the only one nearby, how far its numbers can be off, and that "
+        "nothing else touches first",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
@@ -74,8 +75,9 @@ def run(options):
         _add_other_contacts(points, drive, result)
     if options.certify:
         certificates = _certificates(options, drive, result)
-        for point, certificate in zip(points, certificates.to_plain(), strict=True):
-            point["certificate"] = certificate
+        firsts = drive.certify_first(result.angles, result, certificates).to_plain(result)
+        for point, certificate, found in zip(points, certificates.to_plain(), firsts, strict=True):
+            point["certificate"] = certificate | {"first_contact": found}
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -211,7 +213,9 @@ def _shown(point):
         return ()
     if certificate["outcome"] != "unique":
         return (f"({certificate['outcome']}: {certificate['reason']})",)
-    return (f"(certified to {certificate['radius']:.0e} arcsec)",)
+    first = certificate["first_contact"]
+    word = f"unknown whether first: {first['reason']}" if first["reason"] else first["outcome"].replace("_", " ")
+    return (f"(certified to {certificate['radius']:.0e} arcsec, {word})",)
 
 
 def _cell(value, form):

@@ -64,12 +64,14 @@ class Certificates:
 
     ``outcomes``: ``unique``: the equations of contact have exactly one solution within ``boxes`` (N, nx) of the one
     found, and it lies in the enclosures; ``none``: they have none in the box asked for; ``unknown``: neither is shown,
-    for the reason in ``reasons``, which is evidence of nothing. ``records`` (N,) are the library's own. Each is for the
-    exact decimals of the design and for the exact angle; that floating point found the same is not assumed.
+    for the reason in ``reasons``, which is evidence of nothing. ``records`` (N,) are the library's own, ``angles`` (N,)
+    of ``mw_wide`` the pinion angles of the right-hand drive. Each is for the exact decimals of the design and for the
+    exact angle; that floating point found the same is not assumed.
     """
 
     drive: DriveModel
     records: np.ndarray
+    angles: np.ndarray
 
     @property
     def outcomes(self):
@@ -260,7 +262,7 @@ def _all(drive, phi, each, first, second):
         drive.enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), first, second, len(phi),
         pointer(records, "mw_certificate[]"),
     )  # fmt: skip
-    return Certificates(drive, records)
+    return Certificates(drive, records, phi)
 
 
 def degrees_of(words):

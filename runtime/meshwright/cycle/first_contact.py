@@ -99,6 +99,20 @@ def first_contacts(drive, angles, result=None):
     return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
 
 
+def first_contact_of(mesh):
+    """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
+    path = mesh.window.path
+    search = None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
+    if search is None:
+        return None
+
+    def contacts(angles):
+        angles = np.atleast_1d(np.asarray(angles, dtype=float))
+        return _gathered(mesh.drive, angles, search.at(mesh.mirror * angles), "")
+
+    return contacts
+
+
 def pair_errors(mesh):
     """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
     first, NaN where they never do; None where the blank does not bound them.

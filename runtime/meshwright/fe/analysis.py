@@ -21,7 +21,7 @@ from meshwright.fe.hexahedra import HexMesh
 from meshwright.fe.loaded import LoadedContact, LoadedPair, loaded_contact
 from meshwright.fe.material import contact_modulus, max_principal, von_mises
 from meshwright.fe.model import Load, PairModel, build_model
-from meshwright.fe.pair import GearPair
+from meshwright.fe.pair import GearPair, tangencies_only
 from meshwright.fe.pictures import draw
 from meshwright.fe.solver import SolverRun, run_ccx
 from meshwright.fe.stress import Solution
@@ -71,7 +71,7 @@ def prepare(
 
     Whoever calls this holds the lock of the folder.
     """
-    loaded = loaded_contact(gear, pinion_angle, settings.pairs, load, compliance)
+    loaded = loaded_contact(tangencies_only(gear), pinion_angle, settings.pairs, load, compliance)
     forces = np.array([pair.force for pair in loaded.pairs])
     model = build_model(gear, pinion_angle, settings.pairs, load, forces, settings.density)
     text = write(model.deck)

@@ -10,7 +10,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.drive import Drive
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.pair import GearPair, Touch
+from meshwright.fe.pair import GearPair, Touch, tangencies_only
 from meshwright.shop.as_measured import AsMeasured
 from meshwright.shop.located import Rays, along
 from meshwright.shop.tables import Points
@@ -54,4 +54,4 @@ def as_measured(gear: GearPair, drive: Drive, member: str, points: Points, tooth
         smaller = max(float(smaller), _SLENDER * float(larger))
         return Touch(angle, wheel_angle, contact.points[0], contact.normals[0], smaller, float(larger), major)
 
-    return replace(gear, touch=touch, deviations={member: heights})
+    return replace(tangencies_only(gear), touch=touch, deviations={member: heights})

@@ -32,24 +32,26 @@ from meshwright.fe.pair import Member
 _MOST_NEIGHBOURS = 2
 # Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
 # contact would tell too high a pressure.
-_TOOTH_PATCHES = (6, 8)
+TOOTH_PATCHES = (6, 8)
 _THREAD_PATCHES = (6, 20)
 # Rows with one element to a patch: across the tooth, in a fillet, in the rim and the growth of the last.
 _ACROSS, _FILLET, _RIM, _RIM_GROWTH = 3, 2, 2, 2.25
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ToothCompliance:
     """Smooth part of the compliance of the working flank of a member.
 
     shape: patches P along the flank's arc length and Q along its face width, equal fractions of either.
     own: (P Q, P Q) mm/N between patches of one tooth; later: for one, two, … pitches the (P Q, P Q) displacement of
     the tooth so much later (``pairs_later`` + 1, + 2, …) by load on this one; its transpose is the reverse.
+    half: half lengths of a patch along profile and face in mm.
     """
 
     shape: tuple[int, int]
     own: Floats
     later: tuple[Floats, ...]
+    half: tuple[float, float]
 
     def between(self, seen: int, pressed: int) -> Floats | None:
         """Displacement of the tooth of one pair by load on that of another; None beyond the teeth considered."""
@@ -77,15 +79,17 @@ def tooth_compliance(member: Member, neighbours: int = 1, per_patch: int = 1) ->
     per_patch: elements on either side of a patch in the coarser of the two meshes; the finer one has one more.
     Of a thread it is the compliance of the portion at member angle 0.
     """
-    shape = _THREAD_PATCHES if member.tooth(0.0).cut_ends else _TOOTH_PATCHES
-    coarse, fine = (_moved(member, neighbours, shape, rows) for rows in (per_patch, per_patch + 1))
+    shape = _THREAD_PATCHES if member.tooth(0.0).cut_ends else TOOTH_PATCHES
+    (coarse, _), (fine, half) = (_moved(member, neighbours, shape, rows) for rows in (per_patch, per_patch + 1))
     errors = ((per_patch + 1) / per_patch) ** 2  # of the coarse mesh over that of the fine one
     own, *later = (f + (f - c) / (errors - 1.0) for c, f in zip(coarse, fine, strict=True))
-    return ToothCompliance(shape, 0.5 * (own + own.T), tuple(later))
+    return ToothCompliance(shape, 0.5 * (own + own.T), tuple(later), half)
 
 
-def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: int) -> list[Floats]:
-    """(P Q, P Q) mean displacements in mm of patches by unit loads on those of the middle tooth.
+def _moved(
+    member: Member, neighbours: int, shape: tuple[int, int], per_patch: int
+) -> tuple[list[Floats], tuple[float, float]]:
+    """(P Q, P Q) mean displacements in mm of patches by unit loads on those of the middle tooth, and half their sizes.
 
     Those of the middle tooth itself, less what a half-space gives, then those of its later neighbours; from a mesh of
     ``per_patch`` x ``per_patch`` elements to a patch.
@@ -101,7 +105,9 @@ def _moved(member: Member, neighbours: int, shape: tuple[int, int], per_patch: i
     moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces)
     own, *later = moved[:, : shape[0] * shape[1]].reshape(neighbours + 1, -1, shape[0] * shape[1])
     middles = body.mesh.nodes[corners(0)].mean(axis=(1, 2)).reshape(*shape, 3)
-    return [own - _half_space(member, middles), *later]
+    lengths = [float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
+    half = (0.5 * lengths[0], 0.5 * lengths[1])
+    return [own - _half_space(member, shape, half), *later], half
 
 
 def _density(shape: tuple[int, int], per_patch: int) -> MeshDensity:
@@ -133,13 +139,8 @@ def _patch_loads(nodes: Floats, teeth: list[Ints]) -> tuple[Ints, Floats]:
     return loaded, forces
 
 
-def _half_space(member: Member, middles: Floats) -> Floats:
-    """(P Q, P Q) mean half-space displacement in mm of patches by unit loads, on the flank laid flat.
-
-    middles: of the patches (P, Q, 3).
-    """
-    shape = middles.shape[:2]
-    half = [0.5 * float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
+def _half_space(member: Member, shape: tuple[int, int], half: tuple[float, float]) -> Floats:
+    """(P Q, P Q) mean half-space displacement in mm of patches by unit loads, on the flank laid flat."""
     offset = [2.0 * h * np.arange(count) for h, count in zip(half, shape, strict=True)]
     x, y = np.meshgrid(*offset, indexing="ij")
     area = 4.0 * half[0] * half[1]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
 from meshwright.fe.profile import Rail, SectionCurves
+from meshwright.flank.sections import solved
 
 Bools = NDArray[np.bool_]
 
@@ -47,16 +48,19 @@ class ContactGrid:
 
 
 def contact_grid(
-    gear: GearPair, contact: PairTouch, angles: tuple[float, float], reach: tuple[float, float], cells: int
+    gear: GearPair, contact: PairTouch, angles: tuple[float, float], reach: tuple[float, float], cells: int,
+    centre: Floats | None = None,
 ) -> ContactGrid:
     """Grid of cells x cells around a contact point with both members at given angles.
 
     angles: pinion and wheel angle in rad of the whole bodies; reach: half lengths of the grid along the major and
-    minor axis in mm.
+    minor axis in mm; centre: of the grid (2,) along them, by default the contact point.
     """
     touch = contact.touch
     ticks = (2.0 * np.arange(cells) + 1.0) / cells - 1.0
-    x, y = (axis.ravel() for axis in np.meshgrid(ticks * reach[0], ticks * reach[1], indexing="ij"))
+    middle = np.zeros(2) if centre is None else centre
+    along = (middle[k] + ticks * reach[k] for k in (0, 1))
+    x, y = (axis.ravel() for axis in np.meshgrid(*along, indexing="ij"))
     minor = np.cross(touch.normal, touch.major_direction)
     plane = np.stack([touch.major_direction, minor, touch.normal])
     feet = touch.point + np.outer(x, touch.major_direction) + np.outer(y, minor)
@@ -127,17 +131,22 @@ def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> t
     """Surface parameters (N,), (N,) with tangent-plane coordinates equal to those of ``feet`` (N, 3)."""
     profile, face = (np.full(len(feet), value) for value in _nearest(rail, feet.mean(axis=0)))
     tangents = plane[:2]
+    going = np.arange(len(feet))
     for _ in range(_NEWTON_STEPS):
-        miss = (curves.surface(profile, face)[0] - feet) @ tangents.T
-        steps = [_DIFFERENCE * max(1.0, float(np.abs(value).max())) for value in (profile, face)]
+        at = profile[going], face[going]
+        miss = (curves.surface(*at)[0] - feet[going]) @ tangents.T
+        steps = [_DIFFERENCE * max(1.0, float(np.abs(value).max())) for value in at]
         columns = []
         for d_profile, d_face in ((steps[0], 0.0), (0.0, steps[1])):
-            ahead = curves.surface(profile + d_profile, face + d_face)[0]
-            behind = curves.surface(profile - d_profile, face - d_face)[0]
+            ahead = curves.surface(at[0] + d_profile, at[1] + d_face)[0]
+            behind = curves.surface(at[0] - d_profile, at[1] - d_face)[0]
             columns.append((ahead - behind) @ tangents.T / (2.0 * (d_profile + d_face)))
-        change = np.linalg.solve(np.stack(columns, axis=-1), miss[..., None])[..., 0]
-        profile, face = profile - change[:, 0], face - change[:, 1]
-        if np.abs(miss).max() < _STEP_TOLERANCE * 1e2:
+        change = solved(np.stack(columns, axis=-1), miss)
+        found = np.isfinite(change).all(axis=1)
+        change[~found] = 0.0
+        profile[going], face[going] = at[0] - change[:, 0], at[1] - change[:, 1]
+        going = going[found & (np.abs(miss).max(axis=1) >= _STEP_TOLERANCE * 1e2)]
+        if not len(going):
             break
     return profile, face
 

@@ -14,29 +14,43 @@ from scipy.linalg import block_diag
 from scipy.ndimage import binary_dilation
 
 from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.free_edges import free_edge_displacements
 from meshwright.fe.gap import Bools, ContactGrid, contact_grid
+from meshwright.fe.gate import LARGEST_ROTATION
 from meshwright.fe.halfspace import equal_cells
 from meshwright.fe.hertz import HertzContact
 from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.material import contact_modulus
 from meshwright.fe.model import Load, hertz_of, loaded_side
-from meshwright.fe.pair import GearPair, PairTouch, lever_arm, touches, unloaded_wheel_angle
+from meshwright.fe.overlap import fitted_grid, overlap_grid
+from meshwright.fe.pair import GearPair, Member, PairTouch, first_touches, lever_arm, unloaded_wheel_angle
 
 _CELLS = 31
 _FIRST_CELLS = 15
 _REACH = 1.35
 _LEAST_SHARE = 0.05
 _ACTIVE_SET_STEPS = 200
+# An ellipse of which no more than this lies on both flanks is no guide to where they touch.
+_LEAST_USED = 0.15
+# Beyond so many times the rotation up to which there are figures, more cells are not worth their while.
+_FAR_TOO_FAR = 2.0
+# Flanks touch where they would overlap by so much of what is closed there, about: by half of it under Hertz's ellipse.
+_TOUCHING = 0.5
+# Teeth give way about so many times as far as the half-spaces of their contact.
+_TEETH_SOFTER = 2.0
 
 
 @dataclass(frozen=True)
 class LoadedPair:
-    """One pair under load: normal force in N, peak pressure in MPa, Hertz contact under the same force or None."""
+    """One pair under load: normal force in N, peak pressure in MPa, Hertz contact under the same force, None without
+    force and where an edge touches; ``apart``: gap at its first contact, mm, when the first pair touches unloaded.
+    """
 
     contact: PairTouch
     grid: ContactGrid
     pressures: Floats
     force: float
+    apart: float
     hertz: HertzContact | None
 
     @property
@@ -80,7 +94,7 @@ class LoadedContact:
     """Equilibrium at one pinion angle.
 
     rotation: rotation in rad of the loaded member in the sense of its torque, from the first unloaded touch.
-    transmission_error: loaded wheel angle less ratio times pinion angle, rad.
+    transmission_error: loaded wheel angle less ratio times pinion angle, rad; unloaded_error: that of rigid teeth.
     """
 
     pinion_angle: float
@@ -88,6 +102,7 @@ class LoadedContact:
     pairs: tuple[LoadedPair, ...]
     rotation: float
     transmission_error: float
+    unloaded_error: float
 
     @property
     def mesh_stiffness(self) -> float:
@@ -108,31 +123,75 @@ def loaded_contact(
     compliance: smooth tooth compliance of both members (see :func:`~meshwright.fe.compliance.tooth_compliance`), or
     None for half-spaces on rigid teeth.  Raises ValueError if no pair touches at this angle.
     """
-    contacts = touches(gear, pinion_angle, pairs)
+    contacts = first_touches(gear, pinion_angle, pairs)
     if not contacts:
         raise ValueError(f"no tooth pair touches at a pinion angle of {np.degrees(pinion_angle):g} deg")
     member, direction = loaded_side(gear, load)
-    arms = [abs(lever_arm(member, c.touch.point, c.touch.normal)) for c in contacts]
     wheel_angle = unloaded_wheel_angle(gear, contacts)
-    whole = np.array([load.torque / arm for arm in arms])
-    forces = whole
-    for cells in (_FIRST_CELLS, _CELLS):
-        # The first pass finds the forces, the second fits each grid to its own ellipse.
-        grids = [
-            _grid(gear, c, (pinion_angle, wheel_angle), max(float(f), _LEAST_SHARE * float(w)), cells)
-            for c, f, w in zip(contacts, forces, whole, strict=True)
+    places = tuple(_Place.of(gear, member, contact, wheel_angle) for contact in contacts)
+    used, forces, rotation = places, np.array([load.torque / place.arm for place in places]), math.nan
+    passes = [_FIRST_CELLS, _CELLS]
+    before: _Before = {}
+    if any(place.contact.touch.edge for place in places):
+        passes, rotation = [_FIRST_CELLS, *passes], _first_rotation(gear, places, load)
+    for cells in passes:
+        # The first pass finds the forces, the last fits each grid to its own ellipse, or to what the load closes.
+        angles, least = (pinion_angle, wheel_angle), _LEAST_SHARE * load.torque
+        known = {place.contact.pairs_later: force for place, force in zip(used, forces, strict=True)}
+        laid = [
+            (place, _grid(gear, place, angles, max(known.get(place.contact.pairs_later, 0.0), least / place.arm),
+                          rotation, cells))
+            for place in places
+        ]  # fmt: skip
+        used, grids = tuple(place for place, grid in laid if grid), [grid for _, grid in laid if grid]
+        start = [
+            _likely(place, grid, before.get(place.contact.pairs_later), rotation)
+            for place, grid in zip(used, grids, strict=True)
         ]
-        pressures, rotation = _equilibrium(gear, contacts, grids, load, compliance, forces > 0.0)
+        pressures, rotation = _equilibrium(gear, used, grids, load, compliance, start)
+        before = {of.contact.pairs_later: (g, p) for of, g, p in zip(used, grids, pressures, strict=True)}
         forces = np.array([grid.area * p.sum() for grid, p in zip(grids, pressures, strict=True)])
+        if abs(rotation) > _FAR_TOO_FAR * LARGEST_ROTATION:
+            break
     solved = tuple(
-        LoadedPair(c, g, p, float(f), hertz_of(gear, c, float(f)) if f > 0.0 else None)
-        for c, g, p, f in zip(contacts, grids, pressures, forces, strict=True)
-    )
+        LoadedPair(
+            place.contact, g, p, float(f), place.apart,
+            hertz_of(gear, place.contact, float(f)) if f > 0.0 and not place.contact.touch.edge else None,
+        )
+        for place, g, p, f in zip(used, grids, pressures, forces, strict=True)
+    )  # fmt: skip
     unloaded = wheel_angle - gear.ratio * pinion_angle
     # The driven side lags: the pinion winds up ahead of the wheel by the rotation.
     wound = direction * rotation * member.turning
     lag = -gear.ratio * wound if load.member == "pinion" else wound
-    return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag)
+    return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag, unloaded)
+
+
+# By pair (``pairs_later``) the cells of the pass before and their pressures.
+_Before = dict[int, tuple[ContactGrid, Floats]]
+
+
+@dataclass(frozen=True)
+class _Place:
+    """First contact of a pair: lever ``arm`` of the loaded member there, and how far the flanks are ``apart`` there
+    along the normal when the first of all pairs touches, mm.
+    """
+
+    contact: PairTouch
+    arm: float
+    apart: float
+
+    @classmethod
+    def of(cls, gear: GearPair, member: Member, contact: PairTouch, wheel_angle: float) -> _Place:
+        point, normal = contact.touch.point, contact.touch.normal
+        lever = abs(lever_arm(gear.wheel, point, normal))
+        return cls(contact, abs(lever_arm(member, point, normal)), lever * abs(wheel_angle - contact.wheel_angle))
+
+
+def _first_rotation(gear: GearPair, places: tuple[_Place, ...], load: Load) -> float:
+    """About how far the loaded member turns, rad: under the whole torque on the pair that touches first."""
+    first = min(places, key=lambda place: place.apart)
+    return _TEETH_SOFTER * hertz_of(gear, first.contact, load.torque / first.arm).approach / first.arm
 
 
 def _and_around(cells: Bools) -> Bools:
@@ -141,9 +200,33 @@ def _and_around(cells: Bools) -> Bools:
     return binary_dilation(cells.reshape(side, side), np.ones((3, 3))).ravel()
 
 
-def _grid(gear: GearPair, contact: PairTouch, angles: tuple[float, float], force: float, cells: int) -> ContactGrid:
-    ellipse = hertz_of(gear, contact, force)
-    return contact_grid(gear, contact, angles, (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor), cells)
+def _grid(
+    gear: GearPair, place: _Place, angles: tuple[float, float], force: float, rotation: float, cells: int
+) -> ContactGrid | None:
+    """The cells of a pair; None of an edge that the load does not bring to the mate."""
+    if place.contact.touch.edge:
+        return overlap_grid(gear, place.contact, angles, place.apart, rotation * place.arm, cells)
+    ellipse = hertz_of(gear, place.contact, force)
+    reach = (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor)
+    grid = contact_grid(gear, place.contact, angles, reach, cells)
+    if grid.inside.mean() > _LEAST_USED:
+        return grid
+    return fitted_grid(gear, place.contact, angles, np.array(reach), math.inf, cells) or grid
+
+
+def _likely(place: _Place, grid: ContactGrid, before: tuple[ContactGrid, Floats] | None, rotation: float) -> Bools:
+    """The cells (N,) of a pair thought to touch, from those of other cells ``before`` and their pressures."""
+    if before is not None and not np.any(before[1] > 0.0):
+        return np.zeros(len(grid.gap), dtype=bool)
+    if not place.contact.touch.edge:
+        return _in_ellipse(grid)
+    if before is None:
+        return grid.gap < _TOUCHING * rotation * place.arm
+    old, pressures = before
+    side, half = math.isqrt(len(pressures)), np.array([old.half_major, old.half_minor])
+    cell = np.floor((grid.centres - old.centres[0] + half) / (2.0 * half)).astype(int)
+    held = np.all((cell >= 0) & (cell < side), axis=1)
+    return held & (pressures[side * np.clip(cell[:, 0], 0, side - 1) + np.clip(cell[:, 1], 0, side - 1)] > 0.0)
 
 
 def _in_ellipse(grid: ContactGrid) -> Bools:
@@ -154,25 +237,26 @@ def _in_ellipse(grid: ContactGrid) -> Bools:
 
 def _equilibrium(
     gear: GearPair,
-    contacts: tuple[PairTouch, ...],
+    places: tuple[_Place, ...],
     grids: list[ContactGrid],
     load: Load,
     compliance: dict[str, ToothCompliance] | None,
-    likely: Bools,
+    start: list[Bools],
 ) -> tuple[list[Floats], float]:
-    """Pressures (N,) of the cells of each pair and the rotation; ``likely`` (P,): the pairs thought to touch."""
+    """Pressures (N,) of the cells of each pair and the rotation; ``start`` (N,): the cells of each thought to touch."""
+    if not grids:
+        raise ArithmeticError("no cell of the flanks comes into contact: choose a larger torque")
     member, _ = loaded_side(gear, load)
     origin, axis = member.axis
-    modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
+    contacts = tuple(place.contact for place in places)
     areas = np.concatenate([np.full(len(g.gap), g.area) for g in grids])
-    cells = _Cells.of(contacts, grids, modulus, compliance or {})
+    cells = _Cells.of(gear, contacts, grids, compliance or {})
     arms = np.concatenate(
         [np.abs(np.cross(g.points - origin, c.touch.normal) @ axis) for c, g in zip(contacts, grids, strict=True)]
     )
     gap = np.concatenate([g.gap for g in grids])
     inside = np.concatenate([g.inside for g in grids])
-    start = np.concatenate([_in_ellipse(g) & of for g, of in zip(grids, likely, strict=True)])
-    pressure, rotation = active_set(cells, gap, arms, areas, inside, start, load.torque)
+    pressure, rotation = active_set(cells, gap, arms, areas, inside, np.concatenate(start), load.torque)
     return np.split(pressure, np.cumsum([len(g.gap) for g in grids])[:-1]), rotation
 
 
@@ -180,12 +264,14 @@ def _equilibrium(
 class _Cells:
     """How cells of all pairs, N together, move one another: displacements in mm by unit pressures.
 
-    Of each pair: the displacements ``half_space`` (n, n) at so many cells' distances along and across; ``smooth``, of a
+    Of each pair: the displacements ``half_space`` (n, n) at so many cells' distances along and across; ``free`` (N, N),
+    what free edges of the teeth near the cells add to them, None where there is none; ``smooth``, of a
     member, what its teeth add: weights (N, T P Q) of the patches of all pairs, and the displacement (T P Q, T P Q)
     between these by unit forces. ``areas`` (N,), ``pair`` and ``place`` (N,), (N, 2): of which pair, and where in it.
     """
 
     half_space: tuple[Floats, ...]
+    free: tuple[Floats | None, ...]
     smooth: tuple[tuple[Floats, Floats], ...]
     areas: Floats
     pair: Ints
@@ -193,13 +279,23 @@ class _Cells:
 
     @classmethod
     def of(
-        cls, contacts: tuple[PairTouch, ...], grids: list[ContactGrid], modulus: float,
+        cls, gear: GearPair, contacts: tuple[PairTouch, ...], grids: list[ContactGrid],
         compliance: dict[str, ToothCompliance],
     ) -> _Cells:
         sides = [math.isqrt(len(grid.gap)) for grid in grids]
+        modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
+        members = (("pinion", gear.pinion), ("wheel", gear.wheel))
+        edges = {
+            name: [free_edge_displacements(grid, name, of.material, compliance.get(name)) for grid in grids]
+            for name, of in members
+        }
         return cls(
             tuple(equal_cells(n, g.half_major, g.half_minor, modulus) for n, g in zip(sides, grids, strict=True)),
-            tuple(_smooth(name, tooth, contacts, grids) for name, tooth in compliance.items()),
+            tuple(_summed([of[0] for of in both if of]) for both in zip(*edges.values(), strict=True)),
+            tuple(
+                _smooth(name, tooth, contacts, grids, [of[1] if of else None for of in edges[name]])
+                for name, tooth in compliance.items()
+            ),
             np.concatenate([np.full(len(g.gap), g.area) for g in grids]),
             np.repeat(np.arange(len(grids)), [len(g.gap) for g in grids]),
             np.concatenate([np.stack(np.divmod(np.arange(n * n), n), axis=1) for n in sides]),
@@ -212,6 +308,9 @@ class _Cells:
             rows, columns = np.flatnonzero(self.pair[seen] == k), np.flatnonzero(self.pair[pressed] == k)
             apart = np.abs(self.place[seen[rows], None] - self.place[None, pressed[columns]])
             found[np.ix_(rows, columns)] = table[apart[..., 0], apart[..., 1]]
+            if (free := self.free[k]) is not None:
+                begin = np.searchsorted(self.pair, k)
+                found[np.ix_(rows, columns)] += free[np.ix_(seen[rows] - begin, pressed[columns] - begin)]
         for weights, block in self.smooth:
             found += weights[seen] @ (block @ (weights[pressed].T * self.areas[pressed]))
         return found
@@ -224,6 +323,8 @@ class _Cells:
             rows, columns = np.flatnonzero(self.pair == k), used[self.pair[used] == k]
             apart = np.abs(self.place[rows, None] - self.place[None, columns])
             found[rows] = table[apart[..., 0], apart[..., 1]] @ pressure[columns]
+            if (free := self.free[k]) is not None:
+                found[rows] += free[:, columns - rows[0]] @ pressure[columns]
         for weights, block in self.smooth:
             found += weights @ (block @ (weights[used].T @ (self.areas * pressure)[used]))
         return found
@@ -241,15 +342,36 @@ class _Cells:
         return float(np.abs(own).max())
 
 
+def _summed(parts: list[Floats]) -> Floats | None:
+    return np.sum(parts, axis=0) if parts else None
+
+
 def _smooth(
-    name: str, tooth: ToothCompliance, contacts: tuple[PairTouch, ...], grids: list[ContactGrid]
+    name: str, tooth: ToothCompliance, contacts: tuple[PairTouch, ...], grids: list[ContactGrid],
+    known: list[Floats | None],
 ) -> tuple[Floats, Floats]:
-    """Weights (N, T P Q) of the patches of a member's T teeth, and what these move one another by unit forces."""
+    """Weights (N, T P Q) of the patches of a member's T teeth, and what these move one another by unit forces.
+
+    known: of each tooth, (P Q, P Q) of that which free edges add to the cells already, None for nothing. What is left
+    stores no negative energy: teeth are cut out of the half-space, and stiffer by the coarseness of their mesh alone.
+    """
     weights = block_diag(*(tooth.weights(g.place[name][:, 0], g.place[name][:, 1]) for g in grids))
     later = [contact.pairs_later for contact in contacts]
     nothing = np.zeros_like(tooth.own)
-    between = [[tooth.between(seen, pressed) for pressed in later] for seen in later]
-    return weights, np.block([[nothing if block is None else block for block in row] for row in between])
+    blocks = [[tooth.between(seen, pressed) for pressed in later] for seen in later]
+    whole = np.block([[nothing if block is None else block for block in row] for row in blocks])
+    return weights, without_negative(whole - block_diag(*(nothing if k is None else k for k in known)))
+
+
+def without_negative(compliance: Floats) -> Floats:
+    """The nearest matrix to a symmetric one (K, K) that has no negative eigenvalue.
+
+    Source: N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra and its
+    Applications 103 (1988).
+    """
+    values, vectors = np.linalg.eigh(compliance)
+    negative = values < 0.0
+    return compliance - (vectors[:, negative] * values[negative]) @ vectors[:, negative].T
 
 
 def active_set(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -48,7 +48,9 @@ class Member:
 class Touch:
     """The unloaded contact of one pair at a pinion angle: fixed frame, mm and rad.
 
-    normal points out of the pinion; curvatures are those of the gap, 0 < curvature_min <= curvature_max.
+    normal points out of the pinion; curvatures are those of the gap, 0 < curvature_min <= curvature_max.  edge: what
+    touches where it is no tangency, such as "edge of the wheel (face)"; the normal is then that of the flank it touches
+    and the curvatures are those of the tangency nearest to it.
     """
 
     pinion_angle: float
@@ -58,6 +60,7 @@ class Touch:
     curvature_min: float
     curvature_max: float
     major_direction: Floats
+    edge: str = ""
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,9 @@ class GearPair:
     """Two members and their contact.
 
     ratio: wheel angle over pinion angle.  sense: +1 if this flank drives for growing pinion angle, else -1.
-    touch: contact of the reference pair at a pinion angle, or None where it has none.  middle_pair:
+    touch: tangency of the reference pair at a pinion angle, or None where it has none.  edge: its first contact there,
+    or None where that is a tangency or nothing.  leader: the pair (``pairs_later``) that touches first of all at a
+    pinion angle, None if nothing tells.  middle_pair:
     pinion angle to the pair (``pairs_later``) about which pairs are counted.  assumed: sizes of the blank
     in mm that the design leaves open, as the solids have them.  contact_ratio: that of the whole blank, NaN if unknown.
     ends: where the contact of a pair begins and ends, such as "face of the wheel".
@@ -78,6 +83,8 @@ class GearPair:
     ratio: float
     sense: int
     touch: Callable[[float], Touch | None]
+    edge: Callable[[float], Touch | None] = lambda angle: None
+    leader: Callable[[float], int | None] = lambda angle: None
     middle_pair: Callable[[float], int] = lambda angle: 0
     assumed: dict[str, float] = field(default_factory=dict)
     contact_ratio: float = math.nan
@@ -112,6 +119,41 @@ def touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch,
             wheel_angle = touch.wheel_angle + pairs_later * gear.wheel.pitch
             found.append(PairTouch(pairs_later, touch, wheel_angle))
     return tuple(found)
+
+
+def first_touches(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch, ...]:
+    """As :func:`touches`, where an edge of a pair touches first that, and the edges of a further pair on either side.
+
+    Ascending ``pairs_later``.  Where another pair than these is the first of all, edges would carry what it carries.
+    """
+    counted = pair_numbers(gear, pinion_angle, pairs)
+    about = range(counted.start - 1, counted.stop + 1)
+    leader = gear.leader(pinion_angle)
+    if leader is not None and leader not in about:
+        return touches(gear, pinion_angle, pairs)
+    found = []
+    for pairs_later in about:
+        own = pinion_angle - pairs_later * gear.pinion.pitch
+        touch = gear.edge(own) or (gear.touch(own) if pairs_later in counted else None)
+        if touch is not None:
+            found.append(PairTouch(pairs_later, touch, touch.wheel_angle + pairs_later * gear.wheel.pitch))
+    return tuple(found)
+
+
+def tangencies_only(gear: GearPair) -> GearPair:
+    """The pair without its edges: what a mesh that is graded about tangencies, or a measured flank, can represent."""
+    return replace(gear, edge=lambda angle: None)
+
+
+def leading_edge(gear: GearPair, pinion_angle: float, pairs: int) -> tuple[PairTouch, float] | None:
+    """The edge that touches first of all, and how far the tangencies of the pairs are then apart, mm; else None."""
+    found = first_touches(gear, pinion_angle, pairs)
+    lead = max(found, key=lambda contact: gear.sense * contact.wheel_angle, default=None)
+    if lead is None or not lead.touch.edge:
+        return None
+    behind = [abs(lead.wheel_angle - contact.wheel_angle) for contact in touches(gear, pinion_angle, pairs)]
+    lever = abs(lever_arm(gear.wheel, lead.touch.point, lead.touch.normal))
+    return lead, lever * min(behind, default=math.inf)
 
 
 def unloaded_wheel_angle(gear: GearPair, contacts: tuple[PairTouch, ...]) -> float:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 from typing import Literal
 
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact.placement import about_z, placed
+from meshwright.contact.results import TCA
+from meshwright.cycle.first_contact import FirstContacts, first_contact_of
 from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window
 from meshwright.design.design import packaged_names
 from meshwright.drive import Drive
@@ -62,13 +66,17 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     materials = Materials.of_table(drive.design.tables["material"])
     pinion = _member(drive, "pinion", teeth_of(drive, "pinion", rim_thickness), materials.pinion)
     wheel = _member(drive, "wheel", teeth_of(drive, "wheel", rim_thickness), materials.wheel)
-    sense = 1 if drive.design.flank > 0 else -1
     touch = cache(lambda angle: _touch(drive, angle))
     mesh = Mesh.of(drive)
+    sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
     window = mesh.window
+    edge = cache(partial(_edge, drive, first_contact_of(mesh)))
+    teeth = RigidTeeth.of(mesh)
+    leader = cache(lambda angle: None if teeth is None else teeth.leader(angle)[0])
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
-    return GearPair(pinion, wheel, drive.ratio, sense, touch, middle, assumed, mesh.contact_ratio, tuple(ends))
+    contacts = touch, edge, leader, middle
+    return GearPair(pinion, wheel, drive.ratio, sense, *contacts, assumed, mesh.contact_ratio, tuple(ends))
 
 
 def teeth_of(drive: Drive, member: MemberName, rim_thickness: float) -> Teeth:
@@ -110,22 +118,56 @@ def _touch(drive: Drive, angle: float) -> Touch | None:
     """The contact followed from angle 0: equations of a thread have the contact of a turn earlier as a solution too."""
     steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
     path = drive.tca(np.linspace(0.0, angle, steps + 1))
-    if not path.solved[-1] or any(flag.startswith("off_") for flag in path.flags[-1]):
+    return _tangency(path, -1) if not any(flag.startswith("off_") for flag in path.flags[-1]) else None
+
+
+def _tangency(path: TCA, k: int) -> Touch | None:
+    """A point of a path of contact; None where it has none or the flanks would cut each other."""
+    if not path.solved[k]:
         return None
-    smaller, larger = path.curvatures[-1]
+    smaller, larger = path.curvatures[k]
     if smaller <= 0.0:
         return None
-    normal = path.normals[-1] / np.linalg.norm(path.normals[-1])
-    major = path.major[-1] - (path.major[-1] @ normal) * normal
+    normal = path.normals[k] / np.linalg.norm(path.normals[k])
     return Touch(
-        angle,
-        float(path.wheel_angles[-1]),
-        path.points[-1],
+        float(path.angles[k]),
+        float(path.wheel_angles[k]),
+        path.points[k],
         normal,
         float(smaller),
         float(larger),
-        major / np.linalg.norm(major),
+        _across(path.major[k], normal),
     )
+
+
+def _edge(drive: Drive, first: Callable[[Floats], FirstContacts] | None, angle: float) -> Touch | None:
+    """First contact at an angle if it is an edge or a corner, with the curvatures of the tangency nearest in angle."""
+    if first is None:
+        return None
+    found = first(np.array([angle]))
+    if found.kinds[0] in (None, "tangency"):
+        return None
+    steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
+    path = drive.tca(np.linspace(0.0, angle, steps + 1))
+    near = next((t for t in (_tangency(path, k) for k in range(steps, -1, -1)) if t is not None), None)
+    if near is None:
+        return None
+    normal = found.normals[0] / np.linalg.norm(found.normals[0])
+    return replace(
+        near,
+        pinion_angle=angle,
+        wheel_angle=drive.ratio * angle + float(found.errors[0]),
+        point=found.points[0],
+        normal=normal,
+        major_direction=_across(near.major_direction, normal),
+        edge=found.words(0),
+    )
+
+
+def _across(direction: Floats, normal: Floats) -> Floats:
+    """The unit direction (3,) nearest to another one that is at right angles to a normal."""
+    found = direction - (direction @ normal) * normal
+    return found / np.linalg.norm(found)
 
 
 def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) -> Member:

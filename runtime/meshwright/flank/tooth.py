@@ -70,7 +70,7 @@ def tooth(drive, member, near, teeth):
     """
     pitch = 2 * math.pi / teeth
     x, y = near.points[:, 0], near.points[:, 1]
-    inwards = -np.sign(np.median(x * near.normals[:, 1] - y * near.normals[:, 0]))
+    inwards = -np.sign(np.median(x * near.normals[:, 1] - y * near.normals[:, 0])) if len(x) else 1.0  # an empty flank
     far = other_flank(drive)
     if far is None:
         across = np.full(len(x), inwards * ASSUMED * pitch)

@@ -4,12 +4,14 @@ In each direction of the tangent plane the flanks are followed outwards until th
 normal reaches the given one or a flank ends. Five unknowns a direction: two parameters on each flank, and the radius.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 import numpy as np
 
+from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
 from meshwright.pattern.gap import Gap
 
 #: Steps outwards, as shares of the quadratic ellipse's radius, and how many of them at most.
@@ -81,13 +83,27 @@ def contours(drive, result, count=72, separation=None, spacing=evenly, rows=None
 def patches(mesh, angle, count=72, separation=None):
     """The contours of all pairs that touch or stand closer than the separation at a pinion angle, by pair number.
 
-    A pair that lags the leading one is a gap apart already; its patch is where the rest of the separation is reached.
+    The drive stands where its bounded flanks touch first, with a tangency or an edge of any pair; a pair that lags is a
+    gap apart there already, and its patch is where the rest of the separation is reached.
     """
     if separation is None:
         separation = mesh.drive.design.value("separation_mm", "contact")
-    near = [pair for pair in mesh.pairs(angle) if pair.separation < separation]
-    found = {p.number: contour(mesh.drive, p.angle, count, separation - p.separation) for p in near}
+    apart = _apart(mesh, angle)
+    near = [pair for pair in mesh.pairs(angle) if apart[pair.number] < separation]
+    found = {p.number: contour(mesh.drive, p.angle, count, separation - apart[p.number]) for p in near}
     return {number: patch for number, patch in found.items() if patch is not None}
+
+
+def _apart(mesh, angle):
+    """How far the tangencies of pairs are apart at a pinion angle, mm, by pair number."""
+    pairs = mesh.pairs(angle)
+    lead = max((mesh.sense * pair.error for pair in pairs), default=math.nan)
+    teeth = RigidTeeth.of(mesh)
+    ahead = 0.0 if teeth is None or not pairs else mesh.sense * teeth.transmitted([angle])[0] - lead
+    if not ahead > ROUND_OFF:
+        return {pair.number: pair.separation for pair in pairs}
+    levers = np.abs(mesh.window.path.levers(mesh.mirror * np.array([pair.angle for pair in pairs])))
+    return {pair.number: pair.separation + ahead * lever for pair, lever in zip(pairs, levers, strict=True)}
 
 
 def _contours(drive, found, rows, count, separation, spacing):

@@ -24,6 +24,8 @@ class Projection:
         Seen along the axis, the turns of a thread would hide each other. Its screw parameter is that of the screw
         motion which moves the flank in itself: n·(k × r + p k) = 0.
         """
+        if not (np.isfinite(points) & np.isfinite(normals)).all(axis=1).any():
+            return cls(end_on=True)
         turning = points[:, 0] * normals[:, 1] - points[:, 1] * normals[:, 0]
         meridian = np.abs(turning) / np.hypot(points[:, 0], points[:, 1])
         if not np.nanmean(np.abs(normals[:, 2])) > np.nanmean(meridian):

@@ -1,0 +1,148 @@
+"""First contact with a proof: as the wheel comes up to a certified contact from the side on which the gap is open, no
+place of the one bounded flank meets one of the other's; or the place where one does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshwright.base.library import library, pointer, record, text
+from meshwright.contact.model import DriveModel
+from meshwright.contact.placement import placed
+from meshwright.contact.results import ARCSEC
+from meshwright.flank.region import Uses, region
+
+#: Outcomes by their number in the library.
+OUTCOMES = ("unknown", "first", "not_first")
+
+#: An overlap below this is not told from a contact, mm of arc at the contact.
+SLACK = 1e-6
+
+#: How far back the wheel is turned, in wheel pitches; parts of the wheel's flank that are looked at, most.
+REACH, EFFORT = 0.5, 12_000
+
+#: Contacts at so many angles over so many pitches to either side of the middle show where the flanks are. Parameters go
+#: on beyond the flanks by this share, and where nothing ends a flank, beyond its contacts by so many natural sizes.
+ANGLES, PITCHES, BESIDE, BEYOND = 9, 0.5, 0.05, 4.0
+
+
+@dataclass(frozen=True)
+class FirstCertificates:
+    """What is shown of first contact at N pinion angles.
+
+    ``outcomes``: ``first``: with the wheel turned back from the contact by any angle above ``slacks`` and up to
+    ``reach``, rad, the two flanks have no place in common; ``not_first``: they have one, near the :meth:`points`;
+    ``unknown``: neither is shown, for the reason in ``reasons``. A flank is what of its ``boxes`` ({member: {parameter:
+    (lowest, highest)}}) lies inside all its limits, of the wheel's the piece that holds the contact. ``records`` (N,)
+    are the library's own; ``radii`` (N,) the distances of the contacts from the wheel's axis, mm. Right-hand drive.
+    """
+
+    drive: DriveModel
+    records: np.ndarray
+    boxes: dict[str, dict[str, tuple[float, float]]]
+    slacks: np.ndarray
+    reach: float
+    radii: np.ndarray
+
+    @property
+    def outcomes(self):
+        return tuple(OUTCOMES[k] for k in self.records["outcome"])
+
+    @property
+    def reasons(self):
+        """Why nothing is shown, a word each; empty where something is."""
+        return tuple(text(library().mw_reason_word(int(k))) for k in self.records["reason"])
+
+    @property
+    def messages(self):
+        """The same in a sentence."""
+        return tuple(text(library().mw_reason_text(int(k))) for k in self.records["reason"])
+
+    @property
+    def depths(self):
+        """Arcs (N,), mm at the contact, that no overlap exceeds; NaN where that is not shown."""
+        return np.nextafter(self.records["depth"] * self.radii * (1.0 + 1e-12), np.inf)
+
+    def points(self, contacts):
+        """The places (N, 3) that are named, of the wheel's flank at its transmission errors of the ``contacts`` (N,),
+        fixed frame, mm; NaN where none is.
+        """
+        named, points = np.isfinite(self.records["wheel"]).all(axis=1), np.full((len(self.records), 3), np.nan)
+        if not named.any():
+            return points
+        wheel, mirror = self.drive.design.description["bodies"][1]["name"], self.drive.design.mirror
+        angles = mirror.sign * contacts.angles[named], mirror.sign * contacts.wheel_angles[named]
+        matrix = placed(self.drive, *angles).matrices[wheel]
+        local = self.drive.flank(wheel)(self.records["wheel"][named]).points
+        points[named] = (np.einsum("nij,nj->ni", matrix[:, :3, :3], local) + matrix[:, :3, 3]) * mirror.flip
+        return points
+
+    def to_plain(self, contacts):
+        """A certificate each, as plain data of the ``meshwright.tca/1`` schema; ``contacts``: their TCA."""
+        points = self.points(contacts)
+        return [self._plain(k, points[k]) for k in range(len(self.records))]
+
+    def _plain(self, k, point):
+        outcome, entry = self.outcomes[k], self.records[k]
+        named = np.isfinite(entry["wheel"]).all()
+        middle, radius = (float(entry["apart"][part]) for part in ("mid", "radius"))
+        overlap = [-(middle + radius) / ARCSEC, (radius - middle) / ARCSEC]
+        return {
+            "outcome": outcome,
+            "reason": self.reasons[k] or None,
+            "message": self.messages[k],
+            "overlap_below_mm": float(self.depths[k]) if outcome == "first" else None,
+            "turned_back_arcsec": self.reach / ARCSEC if outcome == "first" else None,
+            "overlap_arcsec": overlap if outcome == "not_first" else None,
+            "point_mm": point.tolist() if named else None,
+            "flanks": self._flanks(entry),
+            "parts": int(entry["parts"]),
+        }
+
+    def _flanks(self, entry):
+        """Of each member the ranges of its parameters, and whether limits surely end it within them."""
+        return {
+            name: {"parameters": {p: list(ends) for p, ends in box.items()}, "ended_by_limits": bool(ended)}
+            for (name, box), ended in zip(self.boxes.items(), entry["ends"], strict=False)
+        }
+
+
+def certify_first(drive, contacts, certificates):
+    """:class:`FirstCertificates` of a TCA and its :class:`~meshwright.contact.certificate.Certificates`."""
+    boxes = _boxes(drive, contacts.solutions)
+    flat = np.array([end for box in boxes.values() for ends in box.values() for end in ends] or [0.0] * 8)
+    reach = REACH * abs(drive.ratio) * drive.pitch()
+    radii = _radii(drive, contacts)
+    slacks = SLACK / radii
+    records = np.zeros(len(radii), record("mw_first_certificate"))
+    work, state = np.empty(library().mw_certify_first_work()), drive.enclosed.state.copy()
+    proofs, angles = certificates.records.copy(), certificates.angles.copy()
+    for k, slack in enumerate(slacks.tolist()):
+        library().mw_certify_first(
+            drive.enclosed.model, pointer(state, "mw_wide[]"), pointer(angles[k : k + 1], "mw_wide[]")[0],
+            pointer(proofs[k : k + 1], "mw_certificate[]"), pointer(flat), slack, reach, EFFORT, pointer(work),
+            pointer(records[k : k + 1], "mw_first_certificate[]"),
+        )  # fmt: skip
+    return FirstCertificates(drive, records, boxes, slacks, reach, radii)
+
+
+def _boxes(drive, solutions):
+    """Ranges of two parameters of each flank by member, a little beyond where the flanks end."""
+    here = drive.trace(np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch())[0]
+    known = np.concatenate([here, solutions])
+    known = known[np.isfinite(known).all(axis=1)]
+    boxes = {}
+    for body in drive.design.description["bodies"] if len(known) else ():
+        whole = region(drive, body["name"], "flank", Uses.of(drive, known, beyond=BEYOND))
+        beside = BESIDE * (whole.box[1] - whole.box[0])
+        ends = (whole.box[0] - beside).tolist(), (whole.box[1] + beside).tolist()
+        names = [whole.flank.parameters[i] for i in whole.chart.free]
+        boxes[body["name"]] = dict(zip(names, zip(*ends, strict=True), strict=True))
+    return boxes
+
+
+def _radii(drive, contacts):
+    """Distances (N,) of the contacts from the wheel's axis, mm."""
+    wheel = drive.design.description["bodies"][1]
+    points = drive.flank(wheel["name"])(contacts.solutions[:, wheel["unknowns"]]).points
+    return np.hypot(points[:, 0], points[:, 1])

@@ -1,0 +1,157 @@
+"""What free edges of a tooth add to the half-space below cells of a flank near its tip or its faces.
+
+A load beside a free edge has no material to lean on beyond it: the half-space becomes a quarter-space, and the image of
+the load beyond the edge, times a factor, makes up for what is missing; of two edges an eighth with the image of the
+image. Teeth end at their tips under more than a right angle, which makes them somewhat stiffer than that.
+Source: R. Guilbault, A fast correction for elastic quarter-space applied to 3D modeling of edge contact problems, ASME
+Journal of Tribology 133 (2011) 031402.
+
+Finite elements of the whole tooth know its edges, but not closer than to a patch. Images are therefore taken of what is
+within a patch of the edge, by weights that fall from 1 at the edge to 0 a patch away, of the load and of the place that
+it moves alike. What the patches know of the same images is taken off the compliance of the tooth.
+
+The images of loads on one side of an edge store a positive energy: 1/r is reflection positive (K. Osterwalder and R.
+Schrader, Axioms for Euclidean Green's functions, 1973), and weights on both sides are a congruence. Distances from an
+edge are therefore those of the flank's own coordinates: no cell lies beyond the edge that has its image.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+
+import numpy as np
+
+from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance
+from meshwright.fe.gap import Bools, ContactGrid
+from meshwright.fe.halfspace import far_or_near, image_factor
+from meshwright.fe.hexahedra import Floats, Ints
+from meshwright.fe.material import Material
+
+# Cells that show where an edge runs, at least.
+_FEWEST_CELLS = 3
+# Cells along either side of a patch that its mean takes.
+_PER_PATCH = 5
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """Cells beside a free edge: ``axis`` 0 for the tip, 1 for a face, at the ``end`` (0 or 1) of arc length or width.
+
+    away, along (N,): mm from the edge and along it; weight (N,): of their images; half: half lengths in mm of a cell
+    across the edge and along it.
+    """
+
+    axis: int
+    end: float
+    away: Floats
+    along: Floats
+    weight: Floats
+    half: tuple[float, float]
+
+
+def free_edge_displacements(
+    grid: ContactGrid, name: str, material: Material, tooth: ToothCompliance | None
+) -> tuple[Floats, Floats | None] | None:
+    """Displacements (N, N) in mm of the cells of a grid by unit pressures that free edges of a member add, and what the
+    patches of its tooth know of that: (P Q, P Q) by unit forces, None without a tooth.
+
+    None where no edge is within a patch of the cells.
+    """
+    (cells,) = np.nonzero(grid.inside)
+    edges = list(_edges(grid, name, cells, tooth.shape if tooth else TOOTH_PATCHES))
+    if not edges:
+        return None
+    whole, sets = np.zeros((len(grid.gap),) * 2), list(_sets(edges))
+    whole[np.ix_(cells, cells)] = sum(_images(of, material) for of in sets)
+    if tooth is None:
+        return whole, None
+    return whole, np.sum([_known(tooth, material, tuple((e.axis, e.end) for e in of)) for of in sets], axis=0)
+
+
+def _sets(edges: Sequence[_Beside]) -> Iterator[tuple[_Beside, ...]]:
+    """Each edge, and each two that meet in a corner."""
+    for count in (1, 2):
+        for of in combinations(edges, count):
+            if count == 1 or of[0].axis != of[1].axis:
+                yield of
+
+
+def _images(of: tuple[_Beside, ...], material: Material) -> Floats:
+    """(N, N) displacements in mm of cells by the images of unit pressures on all of them beyond an edge or a corner."""
+    first, *others = of
+    weight = np.prod([edge.weight for edge in of], axis=0)
+    (near,) = np.nonzero(weight)
+    beside = np.abs(first.along[near, None] - first.along[None, near])
+    for other in others:
+        beside = other.away[near, None] + other.away[None, near]
+    moved = far_or_near(
+        first.away[near, None] + first.away[None, near], beside, *first.half, material.plane_strain_modulus
+    )
+    found = np.zeros((len(weight),) * 2)
+    found[np.ix_(near, near)] = weight[near, None] * moved * weight[None, near]
+    return image_factor(material.poisson_ratio) ** len(of) * found
+
+
+def _edges(grid: ContactGrid, name: str, cells: Ints, shape: tuple[int, int]) -> Iterator[_Beside]:
+    """The cells of a grid beside the free edges of a member, of each edge within a patch of them."""
+    known = [(0, 1.0)] + ([(1, 0.0), (1, 1.0)] if f"face of the {name}" in grid.beyond else [])
+    place, centres = grid.place[name][cells], grid.centres[cells]
+    for axis, end in known:
+        patches = np.abs(end - place[:, axis]) * shape[axis]
+        if len(cells) < _FEWEST_CELLS or not patches.min() < 1.0:
+            continue
+        slope = _slope(centres, place[:, axis], patches)
+        steepness = float(np.hypot(*slope))
+        if not steepness > 0.0:
+            continue
+        across = slope / steepness
+        size = float(np.hypot(across[0] * grid.half_major, across[1] * grid.half_minor))
+        away = patches / (shape[axis] * steepness)
+        along = centres @ np.array([-across[1], across[0]])
+        yield _Beside(axis, end, away, along, _weight(patches), (size, grid.half_major * grid.half_minor / size))
+
+
+def _slope(centres: Floats, share: Floats, patches: Floats) -> Floats:
+    """Change (2,) per mm of a share of the flank along the axes of the contact plane, beside an edge."""
+    chosen: Bools = patches <= max(1.0, float(np.sort(patches)[_FEWEST_CELLS - 1]))
+    linear = np.column_stack([np.ones(int(chosen.sum())), centres[chosen]])
+    _, *slope = np.linalg.lstsq(linear, share[chosen], rcond=None)[0]
+    return np.array(slope)
+
+
+def _weight(patches: Floats) -> Floats:
+    """1 at the edge, 0 from one patch away on, level at both."""
+    left = np.clip(1.0 - patches, 0.0, 1.0)
+    return left**2 * (3.0 - 2.0 * left)
+
+
+@lru_cache(maxsize=64)
+def _known(tooth: ToothCompliance, material: Material, edges: tuple[tuple[int, float], ...]) -> Floats:
+    """(P Q, P Q) mean displacements in mm of patches by the images of unit loads on others beyond an edge or a corner,
+    each by its axis and end, on the flank laid flat.
+    """
+    ends, n = dict(edges), _PER_PATCH
+    lengths = [2.0 * half for half in tooth.half]
+    # Patches along both axes from the edge, where there is one, and cells in them.
+    counts = [1 if axis in ends else tooth.shape[axis] for axis in (0, 1)]
+    index = np.stack(np.meshgrid(*(np.arange(k) for k in counts), *(np.arange(n),) * 2, indexing="ij")).reshape(4, -1)
+    steps = index[:2] + (index[2:] + 0.5) / n
+    half = (0.5 * lengths[0] / n, 0.5 * lengths[1] / n)
+    cells = tuple(
+        _Beside(
+            axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis], _weight(steps[axis]),
+            (half[axis], half[1 - axis]),
+        )
+        for axis, end in ends.items()
+    )  # fmt: skip
+    patches = counts[0] * counts[1]
+    moved = _images(cells, material).reshape(patches, n * n, patches, n * n).sum(axis=(1, 3))
+    chosen = [np.array([-1 if ends[axis] == 1.0 else 0]) if axis in ends else np.arange(tooth.shape[axis])
+              for axis in (0, 1)]  # fmt: skip
+    at = np.arange(tooth.shape[0] * tooth.shape[1]).reshape(tooth.shape)[np.ix_(*chosen)].ravel()
+    whole = np.zeros((tooth.shape[0] * tooth.shape[1],) * 2)
+    whole[np.ix_(at, at)] = moved / (n**2 * lengths[0] * lengths[1])
+    return whole

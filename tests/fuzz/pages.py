@@ -1,0 +1,135 @@
+"""Mutated designs through the commands ``surface`` and ``report``: files, or one error that says what is wrong.
+
+``python -m tests.fuzz.pages --count N --seed S`` takes the first N mutated designs that load, in processes of their
+own: a traceback, a status that is none of the commands', an answer without its file, JSON with what is not a number and
+minutes without an end are failures that name the seed which shows them again.
+"""
+
+import argparse
+import contextlib
+import io
+import json
+import random
+import signal
+import struct
+import sys
+import tempfile
+import traceback
+import warnings
+from collections import Counter
+from pathlib import Path
+
+from meshwright import cli
+from meshwright.base.errors import DesignError
+from tests.fuzz.designs import LONGEST_MESSAGE, forked, loaded
+from tests.fuzz.mutate import mutated
+
+#: Seconds of processor time that all commands of one design may take, and designs of a process.
+HANG, BATCH = 300.0, 10
+
+#: The exit statuses that a command has.
+STATUSES = (0, 1, 2)
+
+
+def _refused_constant(word):
+    raise AssertionError(f"{word} is not JSON")
+
+
+def called(arguments, written):
+    """Exit status of a command that should leave the file ``written``; raises for what it must not do."""
+    out, err = io.StringIO(), io.StringIO()
+    written.unlink(missing_ok=True)
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        status = cli.main(arguments)
+    said, words = err.getvalue(), " ".join(arguments[:1] + arguments[2:])
+    assert status in STATUSES, f"{words}: exit status {status!r}"
+    if status == 2:
+        assert said.startswith("meshwright: "), f"{words}: exit status 2 without an error: {said!r}"
+        assert len(said) < LONGEST_MESSAGE, f"{words}: a message of {len(said)} characters"
+        assert not written.exists(), f"{words}: exit status 2, and yet a file"
+        return status
+    assert written.exists() and written.stat().st_size, f"{words}: exit status {status} without a file"
+    if written.suffix == ".json":
+        json.loads(written.read_text(encoding="utf-8"), parse_constant=_refused_constant)
+    return status
+
+
+def analysed(path):
+    """Every ``surface`` and the ``report`` of the design in a file; the exit statuses counted."""
+    found, folder = Counter(), path.parent
+    for member in ("pinion", "wheel"):
+        for region in ("flank", "fillet"):
+            target = folder / "surface.json"
+            words = ["surface", str(path), "--member", member, "--region", region, "--grid", "7x9"]
+            found[f"surface {called([*words, '--json', str(target)], target)}"] += 1
+    target = folder / "report.html"
+    found[f"report {called(['report', str(path), '--html', str(target)], target)}"] += 1
+    return found
+
+
+def one(seed, folder):
+    """What becomes of one mutated design: exit statuses counted, {} if it is refused."""
+    _, content = mutated(random.Random(seed))
+    if isinstance(loaded(content, folder), DesignError):
+        return Counter()
+    return analysed(Path(folder) / "design.toml")
+
+
+def _batch(seeds, at, out):
+    """In a child process: what became of each seed; the parent reads from ``at`` how far it came."""
+    signal.signal(signal.SIGPROF, signal.SIG_DFL)
+    warnings.simplefilter("error", RuntimeWarning)
+    counted, failures = Counter(), []
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in seeds:
+            at[:8] = struct.pack("q", seed)
+            signal.setitimer(signal.ITIMER_PROF, HANG)
+            try:
+                found = one(seed, folder)
+                counted.update(found)
+                counted["refused" if not found else "analysed"] += 1
+            except Exception:
+                counted["failed"] += 1
+                failures.append({"seed": seed, "error": traceback.format_exc(limit=-6)})
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+    out.write(json.dumps({"counted": counted, "failures": failures}))
+
+
+def run(count, seed=0, say=lambda text: None):
+    """Counter of outcomes and failures of mutated designs, until ``count`` of them were not refused."""
+    total, failures, first = Counter(), [], seed
+    while total["analysed"] + total["failed"] < count:
+        open_ = [list(range(first, first + min(BATCH, 2 * (count - total["analysed"] - total["failed"]))))]
+        first += len(open_[0])
+        while open_:
+            counted, failed, again = forked(open_.pop(), _batch, HANG)
+            total += counted
+            failures += failed
+            open_ += again
+        say(f"{dict(total)}")
+        for failure in failures[-3:]:
+            say(f"  seed {failure['seed']}: {failure['error'].splitlines()[-1]}")
+    return total, failures
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--show", type=int, help="print the design of this seed and what becomes of it")
+    given = parser.parse_args(arguments)
+    if given.show is not None:
+        name, content = mutated(random.Random(given.show))
+        print(f"# from {name}\n{content.decode('utf-8', 'backslashreplace')}", flush=True)
+        with tempfile.TemporaryDirectory() as folder:
+            print(dict(one(given.show, folder)) or "refused")
+        return 0
+    total, failures = run(given.count, given.seed, lambda text: print(text, flush=True))
+    for failure in failures:
+        print(f"seed {failure['seed']}: {failure['error']}", file=sys.stderr)
+    print(f"surface and report: {dict(total)}, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
