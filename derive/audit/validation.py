@@ -171,8 +171,8 @@ NOT_VERIFIED = (
     ),
     (
         "Probability",
-        "Today every proof is expanded exactly. A tree too large for that would be accepted although wrong with a "
-        "probability below (degree/2⁶⁰ + bits/2⁵⁸)³, which check.py prints.",
+        "Proofs whose trees are too large to be expanded are evaluated at random points instead; check.py prints how "
+        "many. A wrong one would be accepted with a probability below (degree/2⁶⁰ + bits/2⁵⁸)³, which it prints too.",
     ),
     (
         "What of the C is not compared with the description",
