@@ -210,3 +210,19 @@ def test_a_path_with_a_gap_at_angle_0_still_says_which_way_the_wheel_is_pushed()
     unknowns[np.argmin(np.abs(path.angles))] = np.nan
     broken = Mesh(mesh.drive, replace(mesh.window, path=replace(path, unknowns=unknowns)))
     assert broken.sense == mesh.sense
+
+
+def test_flanks_that_touch_for_one_instant_have_one_tooth_in_contact_at_it():
+    """A wheel as wide as rounding, whose tip begins the contact where its root ends it: no pitch, one tooth."""
+    thin = {"pinion_sphere_radius_mm": 5000.0, "wheel_edge_offset_mm": 1e-15, "wheel_face_width_mm": 1e-15}
+    found = Drive.load("spherical-table-2-3").with_(flank="left", design=thin).contact_ratio()
+    assert found.contact_ratio == found.average_over_pitch == 0.0
+    assert found.average_begin_to_end == 1.0
+
+
+def test_a_flank_narrower_than_rounding_still_has_a_contact_ratio():
+    """Teeth without width between them bound no region, and transmit what their flanks do."""
+    drive = Drive.load("spherical-table-3-1-concave").with_(flank="left")
+    thin, whole = drive.with_(design={"face_width_mm": 1e-300}).contact_ratio(), drive.contact_ratio()
+    assert thin.contact_ratio == pytest.approx(whole.contact_ratio, rel=1e-12)
+    assert thin.transmission_error.envelope_with_edges_peak_to_peak < 1e-8 * ARCSEC

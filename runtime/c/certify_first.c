@@ -17,7 +17,8 @@
 
 enum {
     MOST_PARTS = 60000, MOST_LISTED = 120000, /* of the pinion's flank; that are kept in mind */
-    DEEPEST = 56, DEEPEST_EDGE = 14,          /* halvings */
+    DEEPEST = 32, DEEPEST_EDGE = 14,          /* halvings */
+    MOST_OPEN = 64,                           /* parts of the wheel's flank that may stay open, in search of an overlap */
     CELLS = 48,                               /* across the wheel's flank and along it, where its pieces are told apart */
     MOST_MET = 160,                           /* parts of the pinion's flank whose box is looked at as one */
     NEWTON_STEPS = 8, FULL_STEPS = 3, NARROWING_STEPS = 40,
@@ -48,7 +49,7 @@ typedef struct search {
     int margins[2], set[2][32];               /* limits of each flank and whether the design sets them */
     mw_ball turn[9], move[3], cosine, sine;   /* of the pinion's points and of the wheel's, into the frame of the search */
     double sense, slack, reach, view[4];
-    int parts, effort;
+    int parts, effort, open;
     unsigned char cell[CELLS][CELLS];         /* 0: outside or of another piece */
     part *part;
     int *list;
@@ -468,16 +469,21 @@ static void mark_piece(search *h, const range *whole, const double *contact)
     }
 }
 
+/* Remember a part that stays open; last: nothing more can be looked at. */
+static int left_open(search *h, const range *box, int last)
+{
+    remember(h->found, box, NULL, NULL);
+    h->found->reason = MW_REASON_EFFORT;
+    h->open += last ? MOST_OPEN + 1 : 1;
+    return OPEN;
+}
+
 /* Settle a part of the wheel's flank, against the pinion's parts listed from `from` to `to`. whole: both flanks. */
 static int settled(search *h, const range *box, const range (*whole)[2], int from, int to, int depth)
 {
     mwc_sheet q[2];
     place w;
-    if (++h->found->parts > h->effort || depth > DEEPEST) {
-        remember(h->found, box, NULL, NULL);
-        h->found->reason = MW_REASON_EFFORT;
-        return OPEN;
-    }
+    if (++h->found->parts > h->effort || depth > DEEPEST) return left_open(h, box, h->found->parts > h->effort);
     if (!marked(h, box, whole[1])) return SETTLED;
     over(q, box);
     on_flank(h, 1, q, &w, NULL);
@@ -485,11 +491,7 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     const bounds there = bounds_of(h, w.x);
     int end = to;
     for (int k = from; k < to && end >= 0; k++) end = list_parts(h, h->list[k], &there, end, whole[0]);
-    if (end < 0) {
-        remember(h->found, box, NULL, NULL);
-        h->found->reason = MW_REASON_EFFORT;
-        return OPEN;
-    }
+    if (end < 0) return left_open(h, box, 1);
     if (end == to) return SETTLED;
     if (end - to <= MOST_MET) {
         const int verdict = looked_at(h, box, h->list + to, end - to, whole[0]);
@@ -498,7 +500,9 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     range first[2], second[2];
     halved(box, longer(box, whole[1]), first, second);
     const int verdict = settled(h, first, whole, to, end, depth + 1);
-    return verdict == SETTLED ? settled(h, second, whole, to, end, depth + 1) : verdict;
+    if (verdict == REFUTED || h->open > MOST_OPEN) return verdict;
+    const int other = settled(h, second, whole, to, end, depth + 1);
+    return other == SETTLED ? verdict : other;
 }
 
 /* Whether a line of a flank, from box[side].low to high, surely lies outside the blank. */
@@ -591,25 +595,29 @@ static int place_bodies(search *h, const mw_wide *s, mw_wide phi, const mw_certi
     return MW_REASON_NONE;
 }
 
-/* Which limits the design sets, those that are numbers at the contact; the view, any matrix. */
-static void look_at(search *h, const mw_model *m, const mw_certificate *contact)
+/* Which limits the design sets, those that are numbers at the contact; the view, any matrix. Returns whether the contact
+ * surely lies inside all limits. */
+static int look_at(search *h, const mw_model *m, const mw_certificate *contact)
 {
     place at;
     mwc_sheet q[2], R[2], J[4];
     mw_ball middle[4];
+    int within = 1;
     for (int member = 0; member < 2; member++) {
         for (int i = 0; i < 2; i++) q[i] = mwc_sheet_of_wide(contact->x[m->bodies[member].unknowns[i]]);
         on_flank(h, member, q, &at, NULL);
         for (int i = 0; i < h->margins[member]; i++) h->set[member][i] = at.limit[i].c[0] == at.limit[i].c[0];
+        within = within && inside(h, member, &at);
     }
     const place wheel = at;
     const mwc_sheet square = squared(wheel.x);
     for (int i = 0; i < 2; i++) q[i] = mwc_sheet_of_wide(contact->x[m->bodies[0].unknowns[i]]);
     against(h, q, &wheel, &square, &at, R, J);
     for (int k = 0; k < 4; k++) middle[k] = mwc_make(J[k].c[0], 0.0);
-    if (mwc_inverse(2, middle, h->view)) return;
+    if (mwc_inverse(2, middle, h->view)) return within;
     h->view[0] = h->view[3] = 1.0;
     h->view[1] = h->view[2] = 0.0;
+    return within;
 }
 
 /* Whether this can be asked of the drive and of the contact. Returns a reason. */
@@ -618,7 +626,7 @@ static int possible(const mw_model *m, const mw_certificate *contact)
     if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
     const mw_certified *t = m->kernels->certified;
     if (contact->outcome != MW_UNIQUE) return contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
-    if (contact->flags || contact->undecided) return MW_REASON_OFF_FLANK;
+    if (contact->flags) return MW_REASON_OFF_FLANK;
     for (int i = 0; i < 2; i++) {
         if (m->bodies[i].parameters != 2 || m->bodies[i].margins > 30) return MW_REASON_CONDITION;
         if (t->flanks[i].registers > MWC_REGISTERS) return MW_REASON_DESIGN;
@@ -665,7 +673,10 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     }
     c->reason = place_bodies(h, s, phi, contact);
     if (c->reason != MW_REASON_NONE) return c->outcome;
-    look_at(h, m, contact);
+    if (!look_at(h, m, contact)) {
+        c->reason = MW_REASON_OFF_FLANK;
+        return c->outcome;
+    }
     for (int i = 0; i < 2; i++) c->ends[i] = ends_within(h, i, whole[i]);
     if (!measured(h, whole[0])) return c->outcome;
     double at[2];
@@ -675,7 +686,7 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     c->depth = 0.0;
     const int verdict = settled(h, whole[1], (const range (*)[2])whole, 0, 1, 0);
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
-    if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED;
+    if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED, c->reason = MW_REASON_NONE;
     if (verdict != SETTLED) c->depth = NAN;
     return c->outcome;
 }

@@ -161,17 +161,17 @@ class Drive:
         lines = [word == "line_contact" for word in result.status]
         return certify(self, angles, result.solutions, lines, degrees)
 
-    def certify_first(self, angles, result=None, certificates=None):
+    def certify_first(self, angles, result=None, certificates=None, **how):
         """Proofs that nothing touches before the contacts at pinion angles (rad), or where something does:
         :class:`~meshwright.cycle.certified_first.FirstCertificates`. ``result``, ``certificates``: a TCA and the proofs
-        of these contacts, if there are any.
+        of these contacts, if there are any. ``neighbours``: on either side, 1 unless given.
         """
         from meshwright.cycle.certified_first import certify_first
 
         angles = analysis.checked_angles(angles)
         result = self.tca(angles) if result is None else result
         certificates = self.certify(angles, result) if certificates is None else certificates
-        return certify_first(self, result, certificates)
+        return certify_first(self, result, certificates, **how)
 
     def certify_path(self, begin, end, **how):
         """Proof of one branch of contact from one pinion angle (rad) to another, of the right-hand drive:

@@ -21,11 +21,11 @@ TILTED = EDGE_FIRST | {
 }
 
 
-def proved(drive, degrees):
+def proved(drive, degrees, neighbours=0):
     """TCA, certificates and proofs of first contact at angles in degrees."""
     contacts = drive.tca(np.radians(degrees))
     certificates = drive.certify(contacts.angles, contacts)
-    return contacts, certificates, drive.certify_first(contacts.angles, contacts, certificates)
+    return contacts, certificates, drive.certify_first(contacts.angles, contacts, certificates, neighbours=neighbours)
 
 
 def met(drive, contacts, q, starts=9):
@@ -103,7 +103,7 @@ def test_a_wheel_turned_into_the_worm_by_a_second_of_arc_is_never_first():
         turned = certificates.records.copy()
         turned["wheel_angle"]["mid"] += turn * ARCSEC
         moved = type(certificates)(drive, turned, certificates.angles)
-        words[turn] = drive.certify_first(contacts.angles, contacts, moved).outcomes[0]
+        words[turn] = drive.certify_first(contacts.angles, contacts, moved, neighbours=0).outcomes[0]
     opening = _opening(drive, contacts)
     assert words == {opening: "first", -opening: "not_first"}
 
@@ -124,5 +124,16 @@ def test_the_command_says_so(capsys):
     certificate = json.loads(capsys.readouterr().out)["points"][0]["certificate"]["first_contact"]
     assert certificate["outcome"] == "first" and 0.0 <= certificate["overlap_below_mm"] < 1e-6
     assert certificate["flanks"]["wheel"]["ended_by_limits"]
-    assert main(["tca", "plain-zn", "--phi-deg=0", "--certify"]) == 0
+    assert main(["tca", "recess-action-full", "--phi-deg=100", "--certify"]) == 0
     assert "first)" in capsys.readouterr().out
+
+
+def test_a_neighbouring_pair_overlaps_where_its_own_contact_comes_first():
+    drive = Drive.load("recess-action-full")
+    contacts, _, found = proved(drive, [100.0], neighbours=1)
+    shift = drive.design.mirror.sign * drive.pitch() * np.array(list(found.neighbours))
+    own = drive.tca(contacts.angles[0] - shift)
+    earlier = _opening(drive, contacts) * drive.design.mirror.sign * (own.error - contacts.error[0]) > 1e-3 * ARCSEC
+    assert not own.flags[0] and earlier[0]  # the pair before is on its flanks and comes first
+    assert "off_tip" in own.flags[1]  # the one behind is not on them yet
+    assert [of.outcomes for of in found.neighbours.values()] == [("not_first",), ("first",)]

@@ -13,6 +13,7 @@ import signal
 import struct
 import sys
 import tempfile
+import time
 import traceback
 import warnings
 from collections import Counter
@@ -109,12 +110,13 @@ def _batch(seeds, at, out, share, deep):
     """In a child process: each seed's outcome; the parent reads from ``at`` how far it came."""
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
     warnings.simplefilter("error", RuntimeWarning)
-    counted, failures = Counter(), []
+    counted, failures, slowest = Counter(), [], (0.0, seeds[0])
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
             at[:8] = struct.pack("q", seed)
             chance = random.Random(seed)
             signal.setitimer(signal.ITIMER_PROF, HANG)
+            begin = time.process_time()
             try:
                 outcome = _quiet(chance, seed, folder, chance.random() < share, chance.random() < deep)
             except Exception:
@@ -122,14 +124,16 @@ def _batch(seeds, at, out, share, deep):
                 failures.append({"seed": seed, "error": traceback.format_exc(limit=-6)})
             counted[outcome] += 1
             signal.setitimer(signal.ITIMER_PROF, 0.0)
-    out.write(json.dumps({"counted": counted, "failures": failures}))
+            slowest = max(slowest, (time.process_time() - begin, seed))
+    out.write(json.dumps({"counted": counted, "failures": failures, "slowest": slowest}))
 
 
 def forked(seeds, batch, hang):
-    """Counts and failures of a batch, and the seeds still to do after one at which the process died.
+    """Counts and failures of a batch, the seeds still to do after one at which the process died, and the slowest: its
+    seconds of processor time, its seed.
 
-    ``batch(seeds, at, out)`` notes the seed it is at in the eight bytes ``at`` and ends with writing counts and
-    failures to ``out``, as JSON; a design may take ``hang`` seconds.
+    ``batch(seeds, at, out)`` notes the seed it is at in the eight bytes ``at`` and ends with writing counts, failures
+    and, where it takes them, those of the slowest to ``out``, as JSON; a design may take ``hang`` seconds.
     """
     at = mmap(-1, 8)
     with tempfile.TemporaryFile("w+") as out:
@@ -142,28 +146,33 @@ def forked(seeds, batch, hang):
         if status == 0:
             out.seek(0)
             done = json.load(out)
-            return Counter(done["counted"]), done["failures"], []
+            return Counter(done["counted"]), done["failures"], [], tuple(done.get("slowest", (0.0, seeds[0])))
     last = struct.unpack("q", at[:8])[0]
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
     why = f"took more than {hang:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
     before, after = [s for s in seeds if s < last], [s for s in seeds if s > last]
-    return Counter({"failed": 1}), [{"seed": last, "error": why}], [part for part in (before, after) if part]
+    open_ = [part for part in (before, after) if part]
+    return Counter({"failed": 1}), [{"seed": last, "error": why}], open_, (0.0, last)
 
 
 def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
     """Counter of outcomes and the failures of ``count`` mutated designs, until ``analyse`` of them were analysed."""
-    total, failures = Counter(), []
+    total, failures, told, slowest = Counter(), [], 0, (0.0, seed)
     for first in range(0, count, BATCH):
         open_ = [list(range(seed + first, seed + min(first + BATCH, count)))]
         while open_:
             wanted, left = analyse - total["analysed"], count - sum(total.values())
             share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
             batch = partial(_batch, share=share, deep=deep)
-            counted, failed, again = forked(open_.pop(), batch, HANG)
+            counted, failed, again, slow = forked(open_.pop(), batch, HANG)
             total += counted
             failures += failed
             open_ += again
-        say(f"{sum(total.values())} {dict(total)}")
+            slowest = max(slowest, slow)
+        for failure in failures[told:]:
+            say(f"seed {failure['seed']}: {failure['error']}")
+        told = len(failures)
+        say(f"{sum(total.values())} {dict(total)}, slowest: {slowest[0]:.2f} s of processor time, seed {slowest[1]}")
     return total, failures
 
 
@@ -186,8 +195,6 @@ def main(arguments=None):
             print(_quiet(chance, given.show, folder, analyse, deep))
         return 0
     total, failures = run(given.count, given.analyse, given.seed, given.deep, lambda text: print(text, flush=True))
-    for failure in failures:
-        print(f"seed {failure['seed']}: {failure['error']}", file=sys.stderr)
     print(f"designs: {sum(total.values())} loaded, {dict(total)}, {len(failures)} failures")
     return 1 if failures else 0
 

@@ -102,7 +102,7 @@ def run(count, seed=0, say=lambda text: None):
         open_ = [list(range(first, first + min(BATCH, 2 * (count - total["analysed"] - total["failed"]))))]
         first += len(open_[0])
         while open_:
-            counted, failed, again = forked(open_.pop(), _batch, HANG)
+            counted, failed, again, _ = forked(open_.pop(), _batch, HANG)
             total += counted
             failures += failed
             open_ += again

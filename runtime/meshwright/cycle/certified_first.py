@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import library, pointer, record, text
+from meshwright.contact import exact
 from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed
 from meshwright.contact.results import ARCSEC
@@ -18,8 +19,11 @@ OUTCOMES = ("unknown", "first", "not_first")
 #: An overlap below this is not told from a contact, mm of arc at the contact.
 SLACK = 1e-6
 
+#: Neighbouring pairs on either side that are looked at, where the pair itself could be told.
+NEIGHBOURS = 1
+
 #: How far back the wheel is turned, in wheel pitches; parts of the wheel's flank that are looked at, most.
-REACH, EFFORT = 0.5, 12_000
+REACH, EFFORT = 0.5, 15_000
 
 #: Contacts at so many angles over so many pitches to either side of the middle show where the flanks are. Parameters go
 #: on beyond the flanks by this share, and where nothing ends a flank, beyond its contacts by so many natural sizes.
@@ -35,6 +39,7 @@ class FirstCertificates:
     ``unknown``: neither is shown, for the reason in ``reasons``. A flank is what of its ``boxes`` ({member: {parameter:
     (lowest, highest)}}) lies inside all its limits, of the wheel's the piece that holds the contact. ``records`` (N,)
     are the library's own; ``radii`` (N,) the distances of the contacts from the wheel's axis, mm. Right-hand drive.
+    ``neighbours``: the same of pairs so many later, with both members where this pair's contact holds them.
     """
 
     drive: DriveModel
@@ -43,6 +48,7 @@ class FirstCertificates:
     slacks: np.ndarray
     reach: float
     radii: np.ndarray
+    neighbours: dict[int, "FirstCertificates"]
 
     @property
     def outcomes(self):
@@ -97,6 +103,11 @@ class FirstCertificates:
             "point_mm": point.tolist() if named else None,
             "flanks": self._flanks(entry),
             "parts": int(entry["parts"]),
+            "neighbours": [
+                {"pairs_later": later, "outcome": of.outcomes[k], "reason": of.reasons[k] or None}
+                for later, of in self.neighbours.items()
+                if entry["outcome"]
+            ],
         }
 
     def _flanks(self, entry):
@@ -107,28 +118,59 @@ class FirstCertificates:
         }
 
 
-def certify_first(drive, contacts, certificates):
-    """:class:`FirstCertificates` of a TCA and its :class:`~meshwright.contact.certificate.Certificates`."""
-    boxes = _boxes(drive, contacts.solutions)
+def certify_first(drive, contacts, certificates, neighbours=NEIGHBOURS):
+    """:class:`FirstCertificates` of a TCA and its :class:`~meshwright.contact.certificate.Certificates`, and of so many
+    ``neighbours`` on either side.
+    """
+    boxes, radii = _boxes(drive, contacts.solutions, neighbours), _radii(drive, contacts)
+    own = _pair(drive, certificates.records, certificates.angles, boxes, radii)
+    told = own.records["outcome"] > 0
+    for later in (*range(-neighbours, 0), *range(1, neighbours + 1)):
+        proofs, angles = _of_pair(drive, certificates, later)
+        proofs["outcome"][~told] = 0
+        own.neighbours[later] = _pair(drive, proofs, angles, boxes, radii)
+    return own
+
+
+def _pair(drive, proofs, angles, boxes, radii):
+    """:class:`FirstCertificates` from ``mw_certificate`` and ``mw_wide`` of N contacts and angles."""
     flat = np.array([end for box in boxes.values() for ends in box.values() for end in ends] or [0.0] * 8)
-    reach = REACH * abs(drive.ratio) * drive.pitch()
-    radii = _radii(drive, contacts)
-    slacks = SLACK / radii
+    reach, slacks = REACH * abs(drive.ratio) * drive.pitch(), SLACK / radii
     records = np.zeros(len(radii), record("mw_first_certificate"))
     work, state = np.empty(library().mw_certify_first_work()), drive.enclosed.state.copy()
-    proofs, angles = certificates.records.copy(), certificates.angles.copy()
+    proofs, angles = proofs.copy(), angles.copy()
     for k, slack in enumerate(slacks.tolist()):
         library().mw_certify_first(
             drive.enclosed.model, pointer(state, "mw_wide[]"), pointer(angles[k : k + 1], "mw_wide[]")[0],
             pointer(proofs[k : k + 1], "mw_certificate[]"), pointer(flat), slack, reach, EFFORT, pointer(work),
             pointer(records[k : k + 1], "mw_first_certificate[]"),
         )  # fmt: skip
-    return FirstCertificates(drive, records, boxes, slacks, reach, radii)
+    return FirstCertificates(drive, records, boxes, slacks, reach, radii, {})
 
 
-def _boxes(drive, solutions):
+def _of_pair(drive, certificates, later):
+    """The certificates and angles with both members turned to where a pair so many later stands as this one does."""
+    sign, back = int(drive.design.mirror.sign), 1 if drive.ratio > 0.0 else -1
+    proofs, angles = certificates.records.copy(), []
+    for entry, angle in zip(proofs, certificates.angles, strict=True):
+        angles.append(_turned(exact.bounds(angle), -sign * later, drive.teeth("pinion")))
+        if np.isfinite(entry["wheel_angle"]["mid"]):
+            ends = _turned(exact.bounds(entry["wheel_angle"]), -sign * back * later, drive.teeth("wheel"))
+            high, low, radius = exact.wide(*ends)
+            entry["wheel_angle"]["mid"], entry["wheel_angle"]["radius"] = high, np.nextafter(abs(low) + radius, np.inf)
+    return proofs, exact.wides(angles)
+
+
+def _turned(ends, count, teeth):
+    """Bounds of an angle turned by so many pitches."""
+    turns = sorted(2 * count * pi / teeth for pi in exact.PI)
+    return ends[0] + turns[0], ends[1] + turns[1]
+
+
+def _boxes(drive, solutions, neighbours):
     """Ranges of two parameters of each flank by member, a little beyond where the flanks end."""
-    here = drive.trace(np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch())[0]
+    pitches = PITCHES + neighbours
+    here = drive.trace(np.linspace(-pitches, pitches, ANGLES) * drive.pitch())[0]
     known = np.concatenate([here, solutions])
     known = known[np.isfinite(known).all(axis=1)]
     boxes = {}

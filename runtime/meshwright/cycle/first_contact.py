@@ -29,6 +29,9 @@ ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 #: Which of the known contacts, by distance in angle, the search starts from until one leads to the angle asked for.
 STARTS = (0, 1, 2, 4, 8, 16, 32)
 
+#: Searches that come to the angle and find places, but no extreme of them, before it is given up.
+SEARCHES = 2
+
 #: Steps from the aligned drive.
 LEAD = 12
 
@@ -242,12 +245,13 @@ class _Search:
         """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from
         others.
         """
-        order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
+        order, searches = np.argsort(np.abs(self.solved_at - angle), kind="stable"), 0
         for known in order[[i for i in STARTS if i < len(order)]]:
             found = self._from(known, compiled, state, angle, here)
             if found.status >= 0:
                 return found
-            if found.status == library().MW_NO_CONTACT:
+            searches += found.met > 0
+            if found.status == library().MW_NO_CONTACT or searches == SEARCHES:
                 break
         return None
 

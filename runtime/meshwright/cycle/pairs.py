@@ -129,10 +129,12 @@ class Mesh:
         """Average number of teeth in contact over the window of one pair; NaN without both ends.
 
         With contact ratio n + f and no allowance this is ((n+1)² f + n² (1−f))/(n + f), what the recess-action paper
-        calls the average contact ratio.
+        calls the average contact ratio. In a window that begins where it ends: of the one instant.
         """
         if not self.window.complete:
             return math.nan
+        if self.window.span == 0.0:
+            return float(self.teeth_in_contact(self.window.begin.angle))
         lengths, counts = self._steps
         whole, part = divmod(self.window.span, self.drive.pitch())
         before = np.cumsum(lengths) - lengths

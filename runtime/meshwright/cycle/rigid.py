@@ -1,6 +1,7 @@
 """What rigid teeth transmit: over all pairs, the one whose two bounded flanks touch first, tangency, edge or corner."""
 
 import math
+from collections import defaultdict
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,9 +16,15 @@ SAMPLES, BEYOND = 24, 4
 #: Errors that differ by less are the same to round-off, rad.
 ROUND_OFF = 1e-8 * ARCSEC
 
-#: Transfers are located to this share of a pitch; an extreme to this share of a sample's width, in so many steps at
-#: most, each third of them by the golden section.
-TRANSFER_TOLERANCE, EXTREME_TOLERANCE, EXTREME_STEPS, GOLDEN = 1e-10, 1e-4, 30, 0.381966
+#: Where curves cross is located to this share of a pitch at most. Where one jumps, as many steps as a crossing takes do
+#: not end at round-off: the error there is then found to this share of what is transmitted.
+TRANSFER_TOLERANCE, CROSSING_STEPS, JUMP_RESOLUTION = 1e-10, 12, 1e-8
+
+#: Between samples a curve dips below both by less than this share of what is transmitted.
+DIP = 0.1
+
+#: An extreme is located to this share of a sample's width, in so many steps at most, each third by the golden section.
+EXTREME_TOLERANCE, EXTREME_STEPS, GOLDEN = 1e-4, 30, 0.381966
 
 
 @dataclass(frozen=True)
@@ -29,7 +36,7 @@ class RigidTeeth:
 
     mesh: object
     first: object
-    known: dict = field(default_factory=dict, repr=False)
+    known: dict = field(default_factory=lambda: defaultdict(dict), repr=False)
 
     @classmethod
     def of(cls, mesh):
@@ -43,11 +50,11 @@ class RigidTeeth:
 
     def ahead(self, number, angle):
         """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does."""
-        key = (number, angle)
-        if key not in self.known:
+        here = self.known[angle]
+        if number not in here:
             (error,) = self.first([angle - number * self.mesh.drive.pitch()])
-            self.known[key] = self.mesh.sense * error if math.isfinite(error) else -math.inf
-        return self.known[key]
+            here[number] = float(self.mesh.sense * error) if math.isfinite(error) else -math.inf
+        return here[number]
 
     def leader(self, angle):
         """Number of the pair that touches first at a pinion angle, and sense times its error.
@@ -78,42 +85,85 @@ class RigidTeeth:
 
         Sampled; the transfers between samples are located, and the extremes of the pairs about the extreme samples.
         """
-        pitch = self.mesh.drive.pitch()
-        start = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
-        angles = start + np.arange(SAMPLES + 1) / SAMPLES * pitch
-        leaders = [self.leader(float(angle)) for angle in angles]
-        values = np.array([value for _, value in leaders])
+        angles, numbers, values = self._sampled()
         if not np.isfinite(values).all():
             return math.nan
         lowest, highest = values.min(), values.max()
-        if highest - lowest < ROUND_OFF:
-            return float(highest - lowest)
-        for k, ((before, _), (after, _)) in enumerate(zip(leaders, leaders[1:], strict=False)):
-            if before != after and min(values[k], values[k + 1]) - lowest < 0.5 * (highest - lowest):
-                lowest = min(lowest, self._transfer(before, after, angles[k], angles[k + 1]))
+        spread = highest - lowest
+        if spread < ROUND_OFF:
+            return float(spread)
+        for k in range(1, SAMPLES + 1):
+            if numbers[k] != numbers[k + 1]:
+                lowest = min(lowest, self._transfer(numbers[k : k + 2], angles[k : k + 2], lowest, spread))
         for sign in (1.0, -1.0):
-            k = int(np.argmax(sign * values))
-            found = self._extreme(sign, angles[k], pitch / SAMPLES)
+            k = 1 + int(np.argmax(sign * values[1:-1]))
+            found = self._extreme(sign, angles[k - 1 : k + 2], values[k - 1 : k + 2])
             lowest, highest = min(lowest, found), max(highest, found)
         return float(highest - lowest)
 
-    def _transfer(self, before, after, low, high):
-        """The error where two pairs change over, between two angles."""
+    def _sampled(self):
+        """Angles of one pitch and one beyond either end; number and error (sense times it) of the leader at each."""
+        pitch = self.mesh.drive.pitch()
+        start = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
+        angles = (start + np.arange(-1, SAMPLES + 2) / SAMPLES * pitch).tolist()
+        leaders = {k: self.leader(angles[k]) for k in range(1, SAMPLES + 1)}
+        for k, same, shift in ((0, SAMPLES, -1), (SAMPLES + 1, 1, 1), (SAMPLES + 2, 2, 1)):
+            self.known[angles[k]] = {number + shift: error for number, error in self.known[angles[same]].items()}
+            leaders[k] = leaders[same][0] + shift, leaders[same][1]
+        numbers, values = zip(*(leaders[k] for k in range(len(angles))), strict=True)
+        return angles, numbers, np.array(values)
+
+    def _contenders(self, angles, least):
+        """The pairs that lead at one of some samples, and those that may lead with at least an error between them: that
+        come so near to it at the samples as they change from one to another, or nearer.
+        """
+        looked_at = [self.known[angle] for angle in angles]
+        found = [max(here, key=here.get) for here in looked_at]
+        for number in set().union(*looked_at).difference(found):
+            errors = [here[number] for here in looked_at if number in here]
+            if max(errors) > -math.inf and 2.0 * max(errors) - min(errors) >= least:
+                found.append(number)
+        return set(found)
+
+    def _highest(self, numbers, angle):
+        """The error transmitted by some of the pairs at an angle."""
+        return max(self.ahead(number, angle) for number in numbers)
+
+    def _transfer(self, pair, angles, lowest, spread):
+        """The least error transmitted between two samples, of which a ``pair`` of numbers leads one each.
+
+        Not sought where it is above ``lowest``: a curve that neither jumps nor turns between lies between its ends, so
+        that where curves cross, or one jumps across the other, the error is above the lower end of both.
+        """
+        bracket = _Bracket(self, pair, angles)
+        width, steps = angles[1] - angles[0], 0
+
+        def enough():
+            low, high = (end[0] for end in bracket.ends)
+            exact = ROUND_OFF if steps < CROSSING_STEPS else max(ROUND_OFF, JUMP_RESOLUTION * spread)
+            if bracket.open < exact:
+                bracket.settle()
+            return bracket.open < exact or bracket.floor > lowest + DIP * spread * ((high - low) / width) ** 2
 
         def difference(angle):
-            one, other = self.ahead(before, float(angle)), self.ahead(after, float(angle))
-            return 1.0 if one == math.inf or other == -math.inf else -1.0 if one == -math.inf else one - other
+            nonlocal steps
+            steps += 1
+            found = bracket.shrink(angle)
+            return 0.0 if enough() else found
 
-        ends = difference(low), difference(high)
-        if not ends[0] * ends[1] < 0.0 or max(map(abs, ends)) < ROUND_OFF:
-            return min(self.leader(float(low))[1], self.leader(float(high))[1])
-        at = float(bracketed(difference, low, high, TRANSFER_TOLERANCE * self.mesh.drive.pitch(), ends))
-        return self.leader(at)[1]
+        if enough():
+            return lowest
+        bracketed(difference, *angles, TRANSFER_TOLERANCE * self.mesh.drive.pitch(), bracket.differences)
+        contenders = self._contenders(angles, bracket.floor)
+        return min(self._highest(contenders, angle) for angle, _ in bracket.ends)
 
-    def _extreme(self, sign, angle, width):
-        """Largest (sign +1) or smallest transmitted error about an angle: by parabolas, else by the golden section."""
-        a, b, c = float(angle) - width, float(angle), float(angle) + width
-        fa, fb, fc = (sign * self.leader(x)[1] for x in (a, b, c))
+    def _extreme(self, sign, angles, values):
+        """Largest (sign +1) or smallest transmitted error about the second of three samples with their values (3,).
+
+        By parabolas, else by the golden section.
+        """
+        numbers, width = self._contenders(angles, sign * max(sign * values)), angles[1] - angles[0]
+        (a, b, c), (fa, fb, fc) = angles, (sign * values).tolist()
         for k in range(EXTREME_STEPS):
             if not fb >= max(fa, fc) or c - a < EXTREME_TOLERANCE * width or fb - min(fa, fc) < ROUND_OFF:
                 break
@@ -124,7 +174,7 @@ class RigidTeeth:
                 x = b + GOLDEN * ((c - b) if c - b > b - a else (a - b))
             elif abs(shift) < EXTREME_TOLERANCE * width:
                 break
-            fx = sign * self.leader(x)[1]
+            fx = sign * self._highest(numbers, x)
             if fx > fb:
                 a, fa, b, fb, c, fc = (b, fb, x, fx, c, fc) if x > b else (a, fa, x, fx, b, fb)
             elif x > b:
@@ -132,3 +182,58 @@ class RigidTeeth:
             else:
                 a, fa = x, fx
         return sign * fb
+
+
+class _Bracket:
+    """Two angles at the first of which one of a ``pair`` of numbers leads, at the second the other.
+
+    ``ends``: both angles, each with the errors of the pair (sense times them).
+    """
+
+    def __init__(self, teeth, pair, angles):
+        self.teeth, self.pair = teeth, pair
+        self.ends = [(angle, ()) for angle in angles]
+        self.settle()
+
+    def settle(self):
+        """Look at both curves at both ends."""
+        self.ends = [(angle, tuple(self.teeth.ahead(number, angle) for number in self.pair)) for angle, _ in self.ends]
+
+    @property
+    def differences(self):
+        """First less second at both ends."""
+        return tuple(_difference(errors) for _, errors in self.ends)
+
+    @property
+    def floor(self):
+        """The lower end of both curves, above which the error is at the transfer."""
+        return max(map(min, *(errors for _, errors in self.ends)))
+
+    @property
+    def open(self):
+        """How much lower than at both ends the error may be."""
+        return min(max(errors) for _, errors in self.ends) - self.floor
+
+    def shrink(self, angle):
+        """Replace an end by an angle between; first less second there.
+
+        The curve that changes least is taken as straight where the other one passes it by far.
+        """
+        (low, at_low), (high, at_high) = self.ends
+        changes = [abs(after - before) for before, after in zip(at_low, at_high, strict=True)]
+        flat = changes.index(min(changes))
+        errors = [0.0, 0.0]
+        errors[1 - flat] = self.teeth.ahead(self.pair[1 - flat], angle)
+        if math.isfinite(changes[flat]):
+            errors[flat] = at_low[flat] + (angle - low) / (high - low) * (at_high[flat] - at_low[flat])
+        if not abs(_difference(errors)) > changes[flat]:
+            errors[flat] = self.teeth.ahead(self.pair[flat], angle)
+        found = _difference(errors)
+        self.ends[1 if found < 0.0 else 0] = angle, tuple(errors)
+        return found
+
+
+def _difference(errors):
+    """First less second, ±1 where one does not touch at all."""
+    one, other = errors
+    return (1.0 if other == -math.inf else -1.0) if math.inf in (-one, -other) else one - other

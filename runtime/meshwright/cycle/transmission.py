@@ -120,8 +120,9 @@ def envelopes(mesh, angles, edges=(None, None)):
         row[here], edge_row[here] = _pair_errors(mesh, angles[here] - number * mesh.drive.pitch(), edges)
     touching = ~np.isnan(pairs).all(axis=0)
     upper, lower, leading = (np.full(len(angles), np.nan) for _ in range(3))
-    upper[touching], lower[touching] = np.nanmax(pairs[:, touching], axis=0), np.nanmin(pairs[:, touching], axis=0)
-    leading[touching] = np.array(numbers)[np.nanargmax(mesh.sense * pairs[:, touching], axis=0)]
+    if touching.any():
+        upper[touching], lower[touching] = np.nanmax(pairs[:, touching], axis=0), np.nanmin(pairs[:, touching], axis=0)
+        leading[touching] = np.array(numbers)[np.nanargmax(mesh.sense * pairs[:, touching], axis=0)]
     return Envelopes(angles, numbers, pairs, upper, lower, leading, on_edge)
 
 

@@ -473,12 +473,17 @@ def _ends(chart, limits, start, sign):
 
 
 def _boxed(chart, limits, start):
-    """The region with a box that just holds it, found on ever finer lattices."""
+    """The region with a box that just holds it, found on ever finer lattices; none if narrower than rounding."""
     here = start[list(chart.free)]
-    ends = np.array([[_ray(chart, limits, start, axis, sign)[0] for axis in (0, 1)] for sign in (-1.0, 1.0)])
+    rays = [[_ray(chart, limits, start, axis, sign) for axis in (0, 1)] for sign in (-1.0, 1.0)]
+    ends = np.array([[end for end, _, _ in side] for side in rays])
     ends = np.where(np.isfinite(ends), ends, here + np.array([[-1.0], [1.0]]) * chart.sizes[list(chart.free)])
     low, high = here + REACH * (ends[0] - here), here + REACH * (ends[1] - here)
     for _ in range(REFINEMENTS):
+        narrow = ~(high - low > 2 * CELLS * np.spacing(np.abs(here)))
+        if narrow.any():
+            names = (side[axis][1] for axis in np.flatnonzero(narrow) for side in rays)
+            return Region(chart, limits, None, np.zeros((2, 2)), tuple(dict.fromkeys(filter(None, names))))
         lines = tuple(_through(*row) for row in zip(low, high, here, strict=True))
         lattice = flooded(chart, limits, lines, start)
         rows, columns = np.flatnonzero(lattice.inside.any(axis=1)), np.flatnonzero(lattice.inside.any(axis=0))

@@ -1,0 +1,253 @@
+/* Where a point of one bounded flank, turned about the wheel's axis, meets the other flank.  SPDX-License-Identifier: MIT-0 */
+#ifndef MWI_FIRST_MEET_H
+#define MWI_FIRST_MEET_H
+
+#include <math.h>
+#include <string.h>
+#include "../circular.h"
+#include "../kernels.h"
+#include "../meshwright.h"
+
+enum {
+    MAX_K = 3,                   /* parameters of a flank */
+    MAX_OUTPUTS = 48,            /* of a flank: 7 + 4 parameters and conditions, margins */
+    MAX_LIMITS = 18,             /* of both flanks, and four of a trust region */
+    NEWTON_STEPS = 14
+};
+
+/* Newton's method ends with a step below this, in natural sizes. */
+static const double STEP_DONE = 1e-10;
+/* Newton's method that moves more than so many times its first step and this, or than that, in natural sizes, or turns
+ * the wheel by more, rad, may have left its sheet or come to the next tooth. */
+static const double JUMP = 3.0, JUMP_LEAST = 0.02, FARTHEST = 0.5, LARGEST_TURN = 0.1;
+
+typedef struct search {
+    const mw_model *m;
+    const double *s;
+    const mw_flank_mesh *mesh;
+    double A[9], b[3];           /* from the wheel's frame, turned, to the pinion's */
+    double turn, sense;
+    int nk, nw;                  /* parameters of pinion and wheel */
+    int given;                   /* whose point is given, 0 pinion, 1 wheel: it is looked for on the other's flank */
+    int bound[2], free_[2][2];   /* parameters of each flank: that its condition gives, or -1; the others */
+} search;
+
+/* One point of the wheel's flank and where it meets the pinion's. value: sense times the wheel angle. */
+typedef struct place {
+    double q[MAX_K], p[MAX_K];   /* parameters of wheel and pinion */
+    double delta, value, slope[2], lever, inner;
+    double limits[MAX_LIMITS];   /* of the wheel's flank, then of the pinion's */
+    double point[3], normal[3];  /* pinion's frame */
+    int good;
+} place;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Solve n equations in place by elimination with row exchange; 0 where they are singular. */
+static inline int eliminate(double *M, double *r, const int n)
+{
+    for (int k = 0; k < n; k++) {
+        int p = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(M[i * n + k]) > fabs(M[p * n + k])) p = i;
+        if (!(fabs(M[p * n + k]) > 0.0)) return 0;
+        for (int j = 0; j < n && p != k; j++) {
+            const double t = M[k * n + j];
+            M[k * n + j] = M[p * n + j];
+            M[p * n + j] = t;
+        }
+        const double t = r[k];
+        r[k] = r[p];
+        r[p] = t;
+        for (int i = k + 1; i < n; i++) {
+            const double f = M[i * n + k] / M[k * n + k];
+            for (int j = k; j < n; j++) M[i * n + j] -= f * M[k * n + j];
+            r[i] -= f * r[k];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++) r[i] -= M[i * n + j] * r[j];
+        r[i] /= M[i * n + i];
+        if (!(fabs(r[i]) < HUGE_VAL)) return 0;
+    }
+    return 1;
+}
+
+/* The same for the numbers of equations that occur, each with its loops unrolled. */
+static int solve(double *M, double *r, int n)
+{
+    switch (n) {
+    case 3: return eliminate(M, r, 3);
+    case 4: return eliminate(M, r, 4);
+    default: return eliminate(M, r, n);
+    }
+}
+
+static int conditions_at(const mw_body *b)
+{
+    return 7 + 3 * b->parameters + b->margins;
+}
+
+static const double *sizes_of(const search *h, int member)
+{
+    return member ? h->mesh->wheel_sizes : h->mesh->pinion_sizes;
+}
+
+/* The parameters that are left without the one that a condition gives. */
+static void others(int parameters, int bound, int *free_)
+{
+    for (int i = 0, k = 0; i < parameters; i++)
+        if (i != bound && k < 2) free_[k++] = i;
+}
+
+/* A flank at two of its parameters: q completed from its condition, outputs o. */
+static int on_flank(const search *h, int member, double *q, double *o)
+{
+    const mw_body *body = &h->m->bodies[member];
+    const double *condition = o + conditions_at(body);
+    const int bound = h->bound[member];
+    for (int k = 0; k < NEWTON_STEPS; k++) {
+        body->flank(h->s, q, o);
+        if (bound < 0) break;
+        const double step = condition[0] / condition[1 + bound];
+        if (!(fabs(step) < HUGE_VAL)) return 0;
+        q[bound] -= step;
+        if (fabs(step) < STEP_DONE * sizes_of(h, member)[bound]) {
+            body->flank(h->s, q, o);
+            break;
+        }
+    }
+    return 1;
+}
+
+/* A vector of the wheel's frame, turned by delta, in the pinion's frame; its derivative by delta if rate is given. */
+static void carried(const search *h, const double *r, double delta, double *x, double *rate)
+{
+    const double angle = h->turn * delta;
+    double c = NAN, s = NAN;
+    if (fabs(angle) < MWI_CIRCULAR_FAR) mwi_sine(angle, &s, &c);
+    const double turned[3] = {c * r[0] - s * r[1], s * r[0] + c * r[1], r[2]};
+    const double moved[3] = {-h->turn * turned[1], h->turn * turned[0], 0.0};
+    for (int i = 0; i < 3; i++) {
+        x[i] = dot(h->A + 3 * i, turned);
+        if (rate) rate[i] = dot(h->A + 3 * i, moved);
+    }
+}
+
+/* Slopes of the wheel angle by the wheel's free parameters, in natural sizes, at a place with these outputs. */
+static void slopes_at(const search *h, const double *ow, const double *op, place *P)
+{
+    const double *condition = ow + conditions_at(&h->m->bodies[1]) + 1;
+    for (int a = 0; a < 2; a++) {
+        const int number = h->free_[1][a], bound = h->bound[1];
+        double tangent[3], along[3];
+        for (int i = 0; i < 3; i++) {
+            tangent[i] = ow[6 + 3 * number + i];
+            if (bound >= 0) tangent[i] -= condition[number] / condition[bound] * ow[6 + 3 * bound + i];
+        }
+        carried(h, tangent, P->delta, along, NULL);
+        P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[number];
+    }
+}
+
+/* Where the given member's point, at P->q or P->p, meets the other one's flank, from the other parameters and P->delta on;
+ * 0 where that does not lead to a place on the same sheet. */
+static int meet(const search *h, place *P)
+{
+    const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
+    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], x[3], rate[3], M[16], r[4];
+    const int sought = !h->given, parameters = sought ? h->nw : h->nk, n = parameters + 1;
+    double *unknown = sought ? P->q : P->p, *known = sought ? P->p : P->q;
+    const double *size = sizes_of(h, sought);
+    P->good = 0;
+    P->inner = -HUGE_VAL;
+    if (!on_flank(h, h->given, known, h->given ? ow : op)) return 0;
+    double before = HUGE_VAL, first = 0.0, moved = 0.0, from[MAX_K];
+    int done = 0;
+    memcpy(from, unknown, sizeof from);
+    const double delta = P->delta;
+    for (int k = 0; k < NEWTON_STEPS && !done; k++) {
+        const mw_body *body = &h->m->bodies[sought];
+        double *o = sought ? ow : op;
+        body->flank(h->s, unknown, o);
+        carried(h, ow, P->delta, x, rate);
+        for (int j = 0; j < parameters; j++) {
+            double tangent[3];
+            if (sought) carried(h, o + 6 + 3 * j, P->delta, tangent, NULL);
+            for (int i = 0; i < 3; i++) M[i * n + j] = sought ? -tangent[i] : o[6 + 3 * j + i];
+        }
+        for (int i = 0; i < 3; i++) {
+            M[i * n + parameters] = -rate[i];
+            r[i] = op[i] - x[i] - h->b[i];
+        }
+        if (body->conditions) {
+            const double *condition = o + conditions_at(body);
+            for (int j = 0; j < parameters; j++) M[3 * n + j] = condition[1 + j];
+            M[3 * n + parameters] = 0.0;
+            r[3] = condition[0];
+        }
+        if (!solve(M, r, n)) return 0;
+        double largest = fabs(r[parameters]);
+        for (int j = 0; j < parameters; j++) largest = fmax(largest, fabs(r[j]) / size[j]);
+        if (k > 2 && largest > before) return 0;
+        if (k == 0) first = fmin(largest, 0.5);
+        const double share = largest > 0.5 ? 0.5 / largest : 1.0;
+        for (int j = 0; j < parameters; j++) unknown[j] -= share * r[j];
+        P->delta -= share * r[parameters];
+        done = largest < STEP_DONE || (largest < 1e-8 && largest > 0.5 * before);
+        before = largest;
+    }
+    if (!done || fabs(P->delta - delta) > LARGEST_TURN) return 0;
+    moved = fabs(P->delta - delta);
+    for (int j = 0; j < parameters; j++) moved = fmax(moved, fabs(unknown[j] - from[j]) / size[j]);
+    if (moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST)) return 0;
+    h->m->bodies[sought].flank(h->s, unknown, sought ? ow : op);
+    carried(h, ow, P->delta, x, rate);
+    P->lever = dot(op + 3, rate);
+    if (!(P->lever * h->sense > 0.0)) return 0;
+    slopes_at(h, ow, op, P);
+    P->value = h->sense * P->delta;
+    memcpy(P->point, op, sizeof P->point);
+    memcpy(P->normal, op + 3, sizeof P->normal);
+    double inner = HUGE_VAL;
+    for (int i = 0; i <= wheel->margins; i++) {
+        const double v = ow[6 + 3 * h->nw + i];
+        P->limits[i] = v == v ? v : HUGE_VAL;
+    }
+    for (int i = 0; i <= pinion->margins; i++) {
+        const double v = op[6 + 3 * h->nk + i];
+        P->limits[wheel->margins + 1 + i] = v == v ? v : HUGE_VAL;
+        inner = fmin(inner, P->limits[wheel->margins + 1 + i]);
+    }
+    P->inner = inner;
+    return P->good = fabs(P->value) < HUGE_VAL;
+}
+
+static int limit_count(const search *h)
+{
+    return h->m->bodies[0].margins + h->m->bodies[1].margins + 2;
+}
+
+static double worst(const search *h, const place *P)
+{
+    double least = HUGE_VAL;
+    for (int i = 0; i < limit_count(h); i++) least = fmin(least, P->limits[i]);
+    return least;
+}
+
+/* A place beside another one, by (u, v) in natural sizes of the given member's free parameters. */
+static int beside(const search *h, const place *from, double u, double v, place *P)
+{
+    const int *free_ = h->free_[h->given];
+    const double *sizes = sizes_of(h, h->given);
+    *P = *from;
+    double *known = h->given ? P->q : P->p;
+    known[free_[0]] += u * sizes[free_[0]];
+    known[free_[1]] += v * sizes[free_[1]];
+    return meet(h, P);
+}
+
+#endif

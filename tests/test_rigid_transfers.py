@@ -1,0 +1,72 @@
+"""What rigid teeth transmit where the curve of a pair is known in closed form: it crosses, jumps or ends."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from meshwright.cycle.rigid import RigidTeeth
+
+PITCH = 0.7
+
+
+def teeth(curve, begin, end, sense=1.0):
+    """Rigid teeth whose pairs have sense times ``curve`` of their own angle; the angles asked."""
+    asked = []
+
+    def first(angles):
+        asked.extend(angles)
+        return np.array([sense * curve(float(angle)) for angle in angles])
+
+    window = SimpleNamespace(begin=SimpleNamespace(angle=begin), end=SimpleNamespace(angle=end))
+
+    def numbers(angle):
+        return range(math.ceil((angle - end) / PITCH), math.floor((angle - begin) / PITCH) + 1)
+
+    drive = SimpleNamespace(pitch=lambda: PITCH)
+    return RigidTeeth(SimpleNamespace(drive=drive, window=window, sense=sense, numbers=numbers), first), asked
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_parabolas_cross_half_a_pitch_from_their_vertices(sense):
+    """Pairs that fall off as their angle squared hand over at (pitch / 2)²."""
+    rigid, _ = teeth(lambda x: -0.003 * (x - 0.123) ** 2, -1.0, 1.2, sense)
+    assert rigid.peak_to_peak() == pytest.approx(0.003 * (0.5 * PITCH) ** 2, rel=1e-9)
+
+
+SLOPE, STEEP = 0.02, 50.0
+
+
+@pytest.mark.parametrize(
+    ("before", "share"),
+    [(lambda x: math.nan, 1.0), (lambda x: -4.0, 1.0), (lambda x: STEEP * x, 1.0 - SLOPE / (STEEP + SLOPE))],
+    ids=["nowhere", "far behind", "on a steep edge"],
+)
+@pytest.mark.parametrize("enters", [-0.3, 0.0123, 0.5])
+def test_pairs_that_fall_and_lead_from_where_they_enter_transmit_the_fall_of_a_pitch(before, share, enters):
+    """Where the next pair enters, the transmitted error jumps back by what a pitch has made, or climbs back steeply."""
+
+    def curve(x):
+        return -SLOPE * x if x >= enters else before(x - enters) - SLOPE * enters
+
+    rigid, asked = teeth(curve, enters - 0.2, enters + 2.0)
+    assert rigid.peak_to_peak() == pytest.approx(SLOPE * PITCH * share, rel=1e-5)
+    assert len(asked) < 300  # a search of two flanks takes milliseconds
+
+
+def test_the_lower_side_of_a_jump_counts():
+    """A pair leads in an interval at one error, then falls: the lowest error is beside a jump, not at a sample."""
+    enters, leaves, highest = -0.111, 0.29, 0.01
+
+    def curve(x):
+        return math.nan if x < enters else highest if x < leaves else -SLOPE * (x - leaves)
+
+    rigid, _ = teeth(curve, enters, enters + 2 * PITCH)
+    lowest = -SLOPE * (PITCH + enters - leaves)  # of the pair before, where the next one comes in
+    assert rigid.peak_to_peak() == pytest.approx(highest - lowest, rel=1e-6)
+
+
+def test_where_no_pair_touches_there_is_no_peak_to_peak():
+    rigid, _ = teeth(lambda x: -x * x if abs(x) < 0.45 * PITCH else math.nan, -0.5, 0.5)
+    assert math.isnan(rigid.peak_to_peak())
