@@ -497,7 +497,8 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     range first[2], second[2];
     halved(box, longer(box, whole[1]), first, second);
     const int verdict = settled(h, first, whole, to, end, depth + 1);
-    if (verdict == REFUTED || h->open > MOST_OPEN) return verdict;
+    if (verdict == REFUTED) return verdict;
+    if (h->open > MOST_OPEN) return OPEN;
     const int other = settled(h, second, whole, to, end, depth + 1);
     return other == SETTLED ? verdict : other;
 }
