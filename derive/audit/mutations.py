@@ -1,7 +1,8 @@
 """What the checkers of generated files notice: one change of a generated file at a time, counted by stage and function.
 
-``python -m derive.audit.mutations [DRIVE…] [--each N] [--log FILE] [--write]`` changes each function of every drive
-``N`` times (scalar C, lanes, sensitivities, bounded flanks, certified tables, CasADi, description) and prints a table.
+``python -m derive.audit.mutations [DRIVE…] [--each N] [--sample M] [--log FILE] [--write]`` changes each function of
+every drive ``N`` times (scalar C, lanes, sensitivities, bounded flanks, certified tables, CasADi, description), or
+``M`` of these a drive, and prints a table.
 With a log, what stands in it is not run again, and the table is that of the whole log; ``--write`` keeps it in
 ``measured.json`` beside this module, from where the page of validation takes it. A changed function is put before those
 checks alone that may read it; hashes are left out. A change that is not noticed counts as equal where the function,
@@ -22,6 +23,8 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
 from types import ModuleType
+
+import mpmath
 
 from derive.audit import check_bounded, check_code, check_description, check_print
 from derive.files import replace_text
@@ -289,7 +292,7 @@ STATE = ("setup", "set_phi")
 def reads(check: Check, name: str) -> bool:
     """May a check read a function of the scalar C or of the bounded flanks?"""
     bare = re.sub(r"^(curvature|slopes|second)_", "", name)
-    if name in STATE or re.search(rf"\b{bare}\b", check.words):
+    if name in STATE or re.search(rf"\b({name}|{bare})\b", check.words):
         return True
     return any(name in names and re.search(pattern, check.words) for pattern, names in READ)
 
@@ -466,7 +469,66 @@ class Measured:
 
 
 def same_tables(old, new, drive) -> bool:
-    """Do two tables return the same at random inputs, with any function for the root?"""
+    """Do two tables return the same at random inputs, with any function for the root, or of real numbers?"""
+    return _same_residues(old, new, drive) or _same_reals(old, new)
+
+
+def _same_reals(old, new) -> bool:
+    """What holds of real numbers alone, where the root of a square is positive: to 30 of 50 digits, at random."""
+    rng, agreed = random.Random(SEED), 0
+    with mpmath.workdps(50):
+        for _ in range(COMPARED):
+            row = [mpmath.mpf(rng.uniform(-2.0, 2.0)) for _ in range(1 + max([*old.inputs, *new.inputs], default=0))]
+            try:
+                first, second = real_values(old, row), real_values(new, row)
+            except (ZeroDivisionError, ValueError):
+                continue
+            pairs = zip(first, second, strict=False)
+            if len(first) != len(second) or any(abs(a - b) > abs(a) * 1e-30 for a, b in pairs):
+                return False
+            agreed += 1
+    return agreed > COMPARED // 10
+
+
+def real_values(table, row: list) -> list:
+    """What a table returns of a row of real numbers; ValueError where a root has none."""
+    constants = (_real_constant(c) for c in table.constants)
+    now = dict(enumerate([*(row[place] for place in table.inputs), *constants]))
+    for code, to, a, b in table.instructions:
+        x, y = now[a], now.get(b)
+        match check_bounded.OPERATIONS[code]:
+            case "sincos":
+                now[b], now[to] = mpmath.cos(x), mpmath.sin(x)
+            case "sqrt({a})" if x < 0:
+                raise ValueError("a root of a negative number")
+            case words:
+                now[to] = REAL[words](x, y)
+    return [now[k] for k in table.outputs]
+
+
+def _real_constant(text: str):
+    found = check_code.literal_of(text.strip("()"))
+    if found is None:
+        raise ValueError(f"{text} is no constant")
+    exact, angle = found
+    return mpmath.mpf(exact.numerator) / exact.denominator * (mpmath.pi if angle else 1)
+
+
+#: What the operations of a table make of real numbers.
+REAL = {
+    "{a} + {b}": lambda a, b: a + b,
+    "{a} - {b}": lambda a, b: a - b,
+    "{a} * {b}": lambda a, b: a * b,
+    "{a} * {a}": lambda a, b: a * a,
+    "{a} / {b}": lambda a, b: a / b,
+    "-{a}": lambda a, b: -a,
+    "sqrt({a})": lambda a, b: mpmath.sqrt(a),
+    "atan2({a}, {b})": mpmath.atan2,
+    "SIGN({a})": lambda a, b: (a > 0) - (a < 0),
+}
+
+
+def _same_residues(old, new, drive) -> bool:
     code = check_bounded.CODE
     real, salt = code.square_root, random.randrange(code.PRIME)
     code.__dict__["square_root"] = lambda value: hash((salt, value % code.PRIME)) % code.PRIME
@@ -646,8 +708,11 @@ def table(outcomes: dict[tuple[str, ...], tuple[str, str]]) -> list[dict]:
 
 
 def measured() -> dict:
-    """The table as last measured, with its sums."""
+    """The tables as last measured, with their sums."""
     kept = json.loads(MEASURED.read_text(encoding="utf-8"))
+    edits = kept["edits"]
+    names = [name for name in edits["rows"][0] if name != "file"]
+    edits |= {name: sum(row[name] for row in edits["rows"]) for name in names}
     return kept | {key: sum(row[key] for row in kept["rows"]) for key in (REFUSED, SURVIVED, EQUAL)}
 
 
@@ -655,13 +720,14 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m derive.audit.mutations", description=__doc__)
     parser.add_argument("drives", nargs="*", metavar="DRIVE", help="default: all that are generated")
     parser.add_argument("--each", type=int, default=1, help="changes a function")
+    parser.add_argument("--sample", type=int, help="of these so many a drive, at random; default: all")
     parser.add_argument("--log", type=Path, help="a line of JSON a change; what stands there is not run again")
     parser.add_argument("--stage", action="append", choices=STAGES, help="these alone")
     parser.add_argument("--write", action="store_true", help=f"replace {MEASURED.name}")
     options = parser.parse_args(arguments)
     drives = options.drives or sorted(path.stem for path in (GENERATED / "descriptions").glob("*.json"))
     outcomes = _logged(options.log)
-    for outcome in measure(drives, options.each, options.log, tuple(options.stage or STAGES)):
+    for outcome in measure(drives, options.each, options.log, tuple(options.stage or STAGES), options.sample):
         outcomes[outcome.mutant.key] = outcome.by, outcome.reason
         if outcome.by != REFUSED:
             print(outcome.by, *outcome.mutant.key, flush=True)
@@ -671,9 +737,14 @@ def main(arguments: list[str]) -> int:
     print({by: sum(row[by] for row in rows) for by in (REFUSED, SURVIVED, EQUAL)})
     if options.write:
         survivors = [list(key) for key, (by, _) in outcomes.items() if by == SURVIVED]
-        kept = {"drives": len({key[0] for key in outcomes}), "rows": rows, "survivors": survivors}
-        replace_text(MEASURED, json.dumps(kept, indent=1, ensure_ascii=False) + "\n")
+        keep(drives=len({key[0] for key in outcomes}), rows=rows, survivors=survivors)
     return 0
+
+
+def keep(**found: object) -> None:
+    """Replace a part of what was last measured."""
+    kept = json.loads(MEASURED.read_text(encoding="utf-8")) | found
+    replace_text(MEASURED, json.dumps(kept, indent=1, ensure_ascii=False) + "\n")
 
 
 if __name__ == "__main__":

@@ -21,11 +21,11 @@ VERIFIED = (
     (
         "Proofs are theorems of Coq",
         "make kernel writes each component of each proof as a theorem over the real numbers, with circles, roots and "
-        "denominators as hypotheses and the recorded cofactors as evidence; Coq's kernel expands both sides. These "
-        "rest on the axioms of Coq's real numbers alone. Locus, normal and equation of meshing of the ZN wheel are "
+        "denominators as hypotheses and the recorded cofactors as evidence; Coq's kernel expands both sides, and where "
+        "cofactors are long reduces the difference by the relations itself. These rest on the axioms of Coq's real "
+        "numbers alone. Locus, normal and equation of meshing of the ZN wheel are "
         "stated with derivatives as limits; this chain also uses excluded middle (Classical_Prop.classic), from the "
-        "library of derivatives. Theorems of more than 900 000 characters, one each of the chapters on cylindrical "
-        "gears and bevel gears, are left out and named in the output; check.py checks those.",
+        "library of derivatives. No proof is left out.",
     ),
     (
         "False statements come with numbers",
@@ -171,8 +171,8 @@ NOT_VERIFIED = (
     ),
     (
         "Probability",
-        "Today every proof is expanded exactly. A tree too large for that would be accepted although wrong with a "
-        "probability below (degree/2⁶⁰ + bits/2⁵⁸)³, which check.py prints.",
+        "Proofs whose trees are too large to be expanded are evaluated at random points instead; check.py prints how "
+        "many. A wrong one would be accepted with a probability below (degree/2⁶⁰ + bits/2⁵⁸)³, which it prints too.",
     ),
     (
         "What of the C is not compared with the description",

@@ -25,6 +25,8 @@ HALF_TANGENTS = tuple(
     for pair in ((1, 3), (1, 2), (1, 4), (2, 3), (1, 5), (2, 5), (3, 4), (1, 6), (3, 5), (1, 7), (2, 7), (3, 7))
 )
 LENGTHS = tuple(map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)))
+#: More than any of them: where two symbols of a point were equal, a determinant could vanish.
+BEYOND = 60
 SCALE = 10**30
 THRESHOLD = Fraction(1, 10**9)
 
@@ -89,7 +91,9 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
         if name in statement.signs:
             values[name] = Fraction((-1) ** (attempt + k))
         else:
-            values[name] = LENGTHS[(k + 3 * attempt) % len(LENGTHS)] / (1 if attempt < 4 else 1 + (attempt + k) % 3)
+            turn, place = divmod(k, len(LENGTHS))
+            length = LENGTHS[(place + 3 * attempt) % len(LENGTHS)] + turn * BEYOND
+            values[name] = length / (1 if attempt < 4 else 1 + (attempt + k) % 3)
     by_symbol = {angle.symbol: angle for angle in statement.angles}
     point = Point({name: values[name] for name in free}, bases, values)
     for kind, tree in statement.dependent_generators:

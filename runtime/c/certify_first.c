@@ -365,10 +365,7 @@ static int judged(search *h, const place *w, const mwc_sheet *q, const place *p,
     const mwc_sheet away = apart(h, p, w);
     const double low = lowest(&away), high = range_of(&away).high;
     if (outside(h, 0, p) || high < -h->reach) return SETTLED;
-    if (low > -h->slack) {
-        if (-low > h->found->depth) h->found->depth = -low;
-        return SETTLED;
-    }
+    if (low > -h->slack) return SETTLED;
     if (!(exists && high < -h->slack && low > -h->reach && inside(h, 0, p) && inside(h, 1, w))) return OPEN;
     for (int i = 0; i < 2; i++) {
         const range r = range_of(&q[i]);
@@ -500,7 +497,8 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     range first[2], second[2];
     halved(box, longer(box, whole[1]), first, second);
     const int verdict = settled(h, first, whole, to, end, depth + 1);
-    if (verdict == REFUTED || h->open > MOST_OPEN) return verdict;
+    if (verdict == REFUTED) return verdict;
+    if (h->open > MOST_OPEN) return OPEN;
     const int other = settled(h, second, whole, to, end, depth + 1);
     return other == SETTLED ? verdict : other;
 }
@@ -595,25 +593,29 @@ static int place_bodies(search *h, const mw_wide *s, mw_wide phi, const mw_certi
     return MW_REASON_NONE;
 }
 
-/* Which limits the design sets, those that are numbers at the contact; the view, any matrix. */
-static void look_at(search *h, const mw_model *m, const mw_certificate *contact)
+/* Which limits the design sets, those that are numbers at the contact; the view, any matrix. Returns whether the contact
+ * surely lies inside all limits. */
+static int look_at(search *h, const mw_model *m, const mw_certificate *contact)
 {
     place at;
     mwc_sheet q[2], R[2], J[4];
     mw_ball middle[4];
+    int within = 1;
     for (int member = 0; member < 2; member++) {
         for (int i = 0; i < 2; i++) q[i] = mwc_sheet_of_wide(contact->x[m->bodies[member].unknowns[i]]);
         on_flank(h, member, q, &at, NULL);
         for (int i = 0; i < h->margins[member]; i++) h->set[member][i] = at.limit[i].c[0] == at.limit[i].c[0];
+        within = within && inside(h, member, &at);
     }
     const place wheel = at;
     const mwc_sheet square = squared(wheel.x);
     for (int i = 0; i < 2; i++) q[i] = mwc_sheet_of_wide(contact->x[m->bodies[0].unknowns[i]]);
     against(h, q, &wheel, &square, &at, R, J);
     for (int k = 0; k < 4; k++) middle[k] = mwc_make(J[k].c[0], 0.0);
-    if (mwc_inverse(2, middle, h->view)) return;
+    if (mwc_inverse(2, middle, h->view)) return within;
     h->view[0] = h->view[3] = 1.0;
     h->view[1] = h->view[2] = 0.0;
+    return within;
 }
 
 /* Whether this can be asked of the drive and of the contact. Returns a reason. */
@@ -622,7 +624,7 @@ static int possible(const mw_model *m, const mw_certificate *contact)
     if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
     const mw_certified *t = m->kernels->certified;
     if (contact->outcome != MW_UNIQUE) return contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
-    if (contact->flags || contact->undecided) return MW_REASON_OFF_FLANK;
+    if (contact->flags) return MW_REASON_OFF_FLANK;
     for (int i = 0; i < 2; i++) {
         if (m->bodies[i].parameters != 2 || m->bodies[i].margins > 30) return MW_REASON_CONDITION;
         if (t->flanks[i].registers > MWC_REGISTERS) return MW_REASON_DESIGN;
@@ -645,7 +647,6 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     for (int i = 0; i < 2; i++) c->wheel[i] = c->pinion[i] = NAN;
     c->apart = mwc_make(NAN, NAN);
     c->outcome = MW_FIRST_UNKNOWN;
-    c->depth = NAN;
     c->reason = possible(m, contact);
     if (c->reason == MW_REASON_NONE && !(slack > 0.0 && reach > slack && reach < 1.0)) c->reason = MW_REASON_BOX;
     for (int i = 0; i < 4; i++) {
@@ -669,17 +670,18 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     }
     c->reason = place_bodies(h, s, phi, contact);
     if (c->reason != MW_REASON_NONE) return c->outcome;
-    look_at(h, m, contact);
+    if (!look_at(h, m, contact)) {
+        c->reason = MW_REASON_OFF_FLANK;
+        return c->outcome;
+    }
     for (int i = 0; i < 2; i++) c->ends[i] = ends_within(h, i, whole[i]);
     if (!measured(h, whole[0])) return c->outcome;
     double at[2];
     for (int i = 0; i < 2; i++) at[i] = contact->x[m->bodies[1].unknowns[i]].hi;
     mark_piece(h, whole[1], at);
     h->list[0] = 0;
-    c->depth = 0.0;
     const int verdict = settled(h, whole[1], (const range (*)[2])whole, 0, 1, 0);
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
     if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED, c->reason = MW_REASON_NONE;
-    if (verdict != SETTLED) c->depth = NAN;
     return c->outcome;
 }

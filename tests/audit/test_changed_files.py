@@ -1,22 +1,22 @@
 """A change of one function in one generated file is refused by the checkers that read it, hashes left out."""
 
-import os
 from collections import Counter
+from types import SimpleNamespace
 
 import pytest
 
 from derive.audit import mutations
 from derive.audit.mutations import EQUAL, REFUSED, SURVIVED
+from tests.quick import full
 
 ALL = ("spherical_convex_spur", "cylindrical_worm_zn_zn", "face_worm", "cylindrical_gears", "bevel_formate")
-#: Every function of every drive once with SIZE=full, in about ten minutes of a processor.
-FULL = os.environ.get("SIZE") == "full"
 
 
 @pytest.mark.validate
 @pytest.mark.parametrize("drive", ALL)
 def test_a_changed_file_is_refused(drive, capsys):
-    outcomes = list(mutations.measure([drive], 1, sample=None if FULL else 24))
+    """Of all functions once with SIZE=full, in about ten minutes of a processor."""
+    outcomes = list(mutations.measure([drive], 1, sample=None if full() else 24))
     counted = Counter(outcome.by for outcome in outcomes)
     with capsys.disabled():
         print(f"\n{drive}", dict(counted), *(" ".join(o.mutant.key) for o in outcomes if o.by == SURVIVED), sep="\n  ")
@@ -47,9 +47,29 @@ def test_an_exchange_that_changes_no_value_is_told_apart():
     assert not mutations.same_programs([(old, wrong)], header)
 
 
+def test_a_scale_that_leaves_a_unit_vector_is_told_apart():
+    """x/sqrt(x²) is 3x/sqrt((3x)²) of real numbers, whatever stands for the root modulo a prime; 3x/sqrt(9x) is not."""
+    words = ("{a} * {b}", "{a} * {a}", "sqrt({a})", "{a} / {b}")
+    multiply, square, root, divide = map(mutations.check_bounded.OPERATIONS.index, words)
+    end = [(root, 3, 3, 0), (divide, 4, 2, 3)]
+    kept, scaled, wrong = (
+        SimpleNamespace(inputs=[0], constants=["(3.0)"], instructions=[*start, *end], outputs=[4])
+        for start in (
+            [(multiply, 2, 0, 0), (divide, 2, 2, 0), (square, 3, 2, 0)],
+            [(multiply, 2, 0, 1), (square, 3, 2, 0)],
+            [(multiply, 2, 0, 1), (multiply, 3, 2, 1)],
+        )
+    )
+    assert mutations._same_reals(kept, scaled)
+    assert not mutations._same_reals(kept, wrong)
+
+
 def test_the_measured_table_adds_up():
     kept = mutations.measured()
     assert {row["stage"] for row in kept["rows"]} >= set(mutations.STAGES) - {"description"}
     assert kept[SURVIVED] == len(kept["survivors"])
     assert kept[REFUSED] >= 0.97 * (kept[REFUSED] + kept[SURVIVED])
     assert kept[EQUAL] >= 0
+    edits = kept["edits"]
+    assert edits["survivor"] == len(edits["survivors"])
+    assert edits["refused"] >= 0.97 * (edits["refused"] + edits["survivor"])

@@ -167,3 +167,21 @@ def test_a_folder_without_the_programs_is_rejected(tmp_path):
     shutil.copy(GENERATED / "c" / "face_worm_lanes.h", tmp_path / "c")
     (tmp_path / "c" / "drive.h").write_text("static inline int drive_setup(const double *p, double *s)\n{\n}\n")
     assert check_code.main([str(tmp_path / "audit")]) == 1
+
+
+@pytest.mark.parametrize(
+    ("kept", "wrong", "message"),
+    [
+        ("odd = 0 - (", "odd = 0 + (", "quadrant"),
+        ("magic = 6755399441055744.0", "magic = 3377699720527872.0", "magic"),
+        ("((a - k", "((a + k", "reduction"),
+        ("sign = quadrant << 62", "sign = quadrant << 61", "sign"),
+        ("*cosine = c.number", "*cosine = s.number", "cosine"),
+    ],
+)
+def test_what_stands_around_the_polynomials_of_sine_and_cosine_is_read(kept, wrong, message):
+    text = header("spherical_convex_spur")
+    check_code.check_kernels(text)
+    assert kept in text
+    with pytest.raises(check_code.Rejected, match=message):
+        check_code.check_kernels(text.replace(kept, wrong, 1))

@@ -5,8 +5,8 @@ Each edit is generated anew, of the drives that use the file one after the other
 fails) is counted apart, and so is what changes no byte of any of these drives and what changes no value: the program is
 another one, and each of its functions returns what it returned.
 
-``python -m tests.audit.wrong_sources [--count N] [--seed S] [--jobs J] [--log FILE]`` prints a line an edit; with a
-log, what stands in it is not run again.
+``python -m tests.audit.wrong_sources [--count N] [--seed S] [--jobs J] [--log FILE] [--write]`` prints a line an edit;
+with a log, what stands in it is not run again; ``--write`` keeps the sums for the page of validation.
 """
 
 import argparse
@@ -23,6 +23,8 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+from derive.audit.mutations import keep
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED = 7
@@ -51,6 +53,8 @@ DRIVES = {
     "emit/sensitivity.py": EVERY, "emit/bounded.py": EVERY, "emit/casadi.py": EVERY, "emit/certified.py": EVERY,
     "emit/approximation.py": EVERY,
 }  # fmt: skip
+#: By whom an edit is judged that no checker refuses.
+UNREFUSED = ("survivor", "derivation", "same", "equal")
 OTHER = {"sin": "cos", "cos": "sin", "Rx": "Ry", "Ry": "Rz", "Rz": "Rx", "add": "sub", "sub": "add", "mul": "add"}
 SWAPPED = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Add, ast.Div: ast.Mult}
 
@@ -147,7 +151,7 @@ def judged(edits_: list[Edit], folder: Path, jobs: int = 1) -> Iterator[Outcome]
         shutil.copytree(ROOT / "derive", folder / f"{k}" / "derive", ignore=shutil.ignore_patterns("__pycache__"))
         (folder / f"{k}" / "runtime").symlink_to(ROOT / "runtime")
     shutil.copytree(ROOT / "generated", folder / "kept", ignore=shutil.ignore_patterns("site", "benchmark"))
-    waiting, free, running = list(reversed(edits_)), list(range(jobs)), {}
+    waiting, free, running = list(edits_)[::-1], list(range(jobs)), {}
     while waiting or running:
         while waiting and free:
             edit, slot = waiting.pop(), free.pop()
@@ -267,12 +271,14 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--log", type=Path, help="a line of JSON an edit; what stands there is not run again")
+    parser.add_argument("--write", action="store_true", help="replace the table of the page of validation")
     options = parser.parse_args()
     chosen = {key_of(edit): edit for edit in edits(options.count, options.seed)}
     known = {}
     if options.log and options.log.is_file():
-        known = {tuple(key): by for *key, by, _ in map(json.loads, options.log.read_text("utf-8").splitlines())}
-    counted = Counter(by for key, by in known.items() if key in chosen)
+        lines = map(json.loads, options.log.read_text("utf-8").splitlines())
+        known = {tuple(key): (by, reason) for *key, by, reason in lines if tuple(key) in chosen}
+    counted = Counter(by for by, _ in known.values())
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         left = [edit for key, edit in chosen.items() if key not in known]
@@ -280,12 +286,25 @@ def main() -> int:
         for outcome in judged(left, Path(folder), options.jobs):
             edit = outcome.edit
             counted[outcome.by] += 1
+            known[key_of(edit)] = outcome.by, outcome.reason
             print(f"{outcome.by:12} {edit.file}:{edit.line} {edit.words[:60]} | {outcome.reason[:110]}", flush=True)
             if options.log:
                 with options.log.open("a", encoding="utf-8") as log:
                     log.write(json.dumps([*key_of(edit), outcome.by, outcome.reason]) + "\n")
     print(dict(counted), f"{time.perf_counter() - begin:.0f} s")
+    if options.write:
+        keep(edits=table(known))
     return 0
+
+
+def table(outcomes: dict[tuple[str, int, str], tuple[str, str]]) -> dict:
+    """Rows by file, and what survived."""
+    rows: dict[str, dict] = {}
+    for (file, _, _), (by, _) in outcomes.items():
+        row = rows.setdefault(file, {"file": file} | dict.fromkeys(("refused", *UNREFUSED), 0))
+        row[by if by in UNREFUSED else "refused"] += 1
+    survivors = [[*edit, reason] for edit, (by, reason) in outcomes.items() if by == "survivor"]
+    return {"rows": [rows[file] for file in DRIVES if file in rows], "survivors": survivors}
 
 
 def key_of(edit: Edit) -> tuple[str, int, str]:

@@ -6,12 +6,14 @@ one point after the other in plain doubles with radii, ``certified2`` … are la
 """
 
 import math
+import time
 
 import numpy as np
 
 from meshwright import Drive
 from meshwright.base.library import ffi, library, proofs, record
 from meshwright.contact.certified_path import certified_path
+from meshwright.cycle import certified_first
 from tests.benchmarks.timing import best
 
 #: A design of every kind of drive; the first is what others are compared with.
@@ -20,6 +22,9 @@ DESIGNS = (
     "face-worm-cylindrical-convex", "bevel-crowned-both", "bevel-formate",
 )  # fmt: skip
 POINTS, FULL = 4096, 256
+
+#: Angle, rad, from the middle of the mesh to where a design's contact lies on both flanks, where the middle does not.
+FIRST = {"recess-action-full": math.radians(100.0)}
 
 
 def pointer(array, kind="double[]"):
@@ -77,6 +82,16 @@ def path_seconds(drive, begin, end):
     return seconds, len(jobs), path.tube, path.complete
 
 
+def first_contact(drive, angle):
+    """Seconds of the proof that a pair touches first at a pinion angle, what it says, and parts that it looks at."""
+    contacts = drive.tca(np.array([angle]))
+    certificates = drive.certify(contacts.angles, contacts)
+    boxes, radii = certified_first._boxes(drive, contacts.solutions, 0), certified_first._radii(drive, contacts)
+    begin = time.perf_counter()
+    found = certified_first._pair(drive, certificates.records, certificates.angles, boxes, radii)
+    return time.perf_counter() - begin, found.reasons[0] or found.outcomes[0], int(found.records["parts"][0])
+
+
 def case(name):
     """Drive, angles (POINTS,) about the middle of its mesh, and the solutions there."""
     drive = Drive.load(name)
@@ -104,6 +119,11 @@ def report():
     seconds, pieces, tube, _ = path_seconds(drive, 0.0, 2.0 * math.pi)
     said = f"{pieces} pieces, transmission error within {math.degrees(tube) * 3600:.1e} arcsec"
     print(f"  {DESIGNS[0]}, a turn as certified path: {1e3 * seconds:.3f} ms, {said}")
+    print("first contact of one pair at one angle, proved: ms, parts of the wheel's flank")
+    for name in DESIGNS:
+        drive = Drive.load(name)
+        seconds, word, parts = first_contact(drive, drive.design.reference_angle + FIRST.get(name, 0.0))
+        print(f"  {name:<30} {1e3 * seconds:>9.1f} {parts:>6} {word}", flush=True)
 
 
 if __name__ == "__main__":

@@ -343,3 +343,71 @@ Proof.
   apply andb_true_iff in computed as [covers computed]. apply andb_true_iff in covers as [one two].
   apply (certificate l left right pairs scale); try assumption; now apply (covered_ok l divisors).
 Qed.
+
+(** Polynomials reduced by relations that say what the square of a variable is: [(place, square)]. What is reduced to
+    zero needs no cofactors. *)
+Notation divided_by := (triv_div 0%Z 1%Z Zeq_bool).
+Notation reduced := (PNSubstL 0%Z 1%Z Z.add Z.mul Zeq_bool divided_by).
+Notation monomial := (mon_of_pol 0%Z Zeq_bool).
+Notation relations_hold := (MPcond 0 1 Rplus Rmult (@eq R) IZR).
+
+Lemma divided_ok : div_theory (@eq R) Z.add Z.mul IZR divided_by.
+Proof. apply (triv_div_th Rset Rext almost integers). Qed.
+
+Lemma monomial_ok l p m : monomial p = Some m -> IZR (fst m) * Mphi 0 1 Rmult l (snd m) = at_point l p.
+Proof. intros. now apply (mon_of_pol_ok Rset Rext almost integers). Qed.
+
+Fixpoint substitutions (squares : list (positive * written)) : list (Z * Mon * poly) :=
+  match squares with
+  | [] => []
+  | (p, square) :: rest =>
+      match monomial (times (mk_X 0%Z 1%Z p) (mk_X 0%Z 1%Z p)) with
+      | Some m => (m, read square) :: substitutions rest
+      | None => substitutions rest
+      end
+  end.
+
+Fixpoint squared (l : list R) (squares : list (positive * written)) : Prop :=
+  match squares with
+  | [] => True
+  | (p, square) :: rest => BinList.nth 0 p l * BinList.nth 0 p l - reading l square = 0 /\ squared l rest
+  end.
+
+Lemma substitutions_ok l squares : squared l squares -> relations_hold (substitutions squares) l.
+Proof.
+  induction squares as [|[p square] rest step]; cbn [squared substitutions]; intros held; [exact I|].
+  destruct held as [this others].
+  destruct (monomial (times (mk_X 0%Z 1%Z p) (mk_X 0%Z 1%Z p))) as [m|] eqn:found; [|now apply step].
+  cbn [MPcond]. split; [|now apply step].
+  rewrite (monomial_ok l _ _ found), times_ok, variable_ok, read_ok. now apply Rminus_diag_uniq.
+Qed.
+
+Definition rounds : nat := 12.
+
+Definition vanishes (left right : term) (squares : list (positive * written)) (scale : list written) : bool :=
+  same (reduced (times (fst (quotient (Add left (Opp right)))) (product (map (fun w => read w) scale)))
+    (substitutions squares) rounds rounds) (constant 0%Z).
+
+Definition reduces (left right : term) (squares : list (positive * written)) (divisors : list term)
+    (scale : list written) : bool :=
+  covered divisors left && covered divisors right && vanishes left right squares scale.
+
+Theorem by_reduction l left right squares divisors scale :
+  squared l squares -> nonzero l divisors -> other l scale -> reduces left right squares divisors scale = true ->
+  value l left = value l right.
+Proof.
+  intros relations others factors computed.
+  apply andb_true_iff in computed as [covers computed]. apply andb_true_iff in covers as [one two].
+  apply (covered_ok l divisors left others) in one. apply (covered_ok l divisors right others) in two.
+  apply Rminus_diag_uniq. change (value l (Add left (Opp right)) = 0).
+  unfold vanishes in computed.
+  destruct (quotient (Add left (Opp right))) as [above below] eqn:parts.
+  destruct (quotient_ok l _ _ _ parts) as [fine ->]; [now split|].
+  cbn [fst] in computed. apply (same_ok l) in computed.
+  rewrite <- (PNSubstL_ok Rset Rext almost integers divided_ok rounds rounds _ _ l
+    (substitutions_ok l squares relations)), times_ok, product_ok in computed.
+  change (at_point l (constant 0%Z)) with 0 in computed.
+  apply Rmult_integral in computed as [zero|zero].
+  - rewrite zero. field. assumption.
+  - now apply (other_ok l scale) in zero.
+Qed.

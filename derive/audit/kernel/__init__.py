@@ -27,8 +27,6 @@ AXIOMS = frozenset(
 )
 #: Excluded middle, which Coquelicot's derivatives add: the chain with real derivatives may rest on it too.
 CLASSICAL = "Classical_Prop.classic"
-#: Characters of the longest theorem that is written; longer ones are named and left out.
-LARGEST = 900_000
 NO_COQUELICOT = "the chain with real derivatives: Coquelicot not found (Debian: libcoq-coquelicot)"
 MISSING = "coqc not found: the proofs were not put to the kernel (Debian: apt-get install coq libcoq-coquelicot)"
 
@@ -39,12 +37,11 @@ class Refused(Exception):
 
 @dataclass(frozen=True)
 class Report:
-    """Theorems, CPU seconds and axioms of each file; theorems left out, each with the reason."""
+    """Theorems, CPU seconds and axioms of each file."""
 
     theorems: dict[str, int]
     seconds: dict[str, float]
     axioms: dict[str, frozenset[str]]
-    left_out: dict[str, str]
 
     @property
     def real_derivatives(self) -> bool:
@@ -52,13 +49,12 @@ class Report:
         return derivatives.CHAIN in self.theorems
 
     def lines(self) -> list[str]:
-        """The outcome in words: sums, the axioms that files rest on, what was left out."""
+        """The outcome in words: sums, and the axioms that files rest on."""
         found = [f"{sum(self.theorems.values())} theorems accepted in {sum(self.seconds.values()):.0f} CPU s"]
         for axioms in dict.fromkeys(self.axioms.values()):
             files = [name for name, own in self.axioms.items() if own == axioms]
             words = f"axioms of {', '.join(files)}: {', '.join(sorted(axioms)) or 'none'}"
             found.append(words + (f"; {CLASSICAL} is excluded middle" if CLASSICAL in axioms else ""))
-        found += [f"left out: {name}, {reason}" for name, reason in self.left_out.items()]
         if not self.real_derivatives:
             found.append(f"left out: {derivatives.CHAIN}, {NO_COQUELICOT}")
         return found
@@ -78,7 +74,7 @@ def check_record(objects: Mapping[str, dict], folder: Path, log: Callable[[str],
     """Write every proof of the record as Coq files into a folder and have them checked; Refused if one is not."""
     replace_text(folder / "Certificate.v", Path(__file__).with_name("Certificate.v").read_text(encoding="utf-8"))
     compile_file(folder / "Certificate.v")
-    counts, seconds, axioms, left_out = {}, {}, {}, {}
+    counts, seconds, axioms = {}, {}, {}
 
     def put(name: str, text: str, count: int, permitted: frozenset[str]) -> None:
         path = folder / f"{translate.module_name(name)}.v"
@@ -89,15 +85,12 @@ def check_record(objects: Mapping[str, dict], folder: Path, log: Callable[[str],
         counts[name], axioms[name] = count, frozenset(found)
         log(f"{name:20} {count:4} theorems {seconds[name]:6.1f} CPU s")
 
-    for document, every in translate.theorems(dict(objects)).items():
-        long = {theorem.name: len(theorem.text) for theorem in every if len(theorem.text) > LARGEST}
-        left_out |= {name: f"its {size} characters are more than {LARGEST}" for name, size in long.items()}
-        stated = [theorem for theorem in every if theorem.name not in long]
+    for document, stated in translate.theorems(dict(objects)).items():
         put(document, translate.file_text(document, stated), len(stated), AXIOMS)
     if has_coquelicot():
         text = derivatives.file_text()
         put(derivatives.CHAIN, text, text.count("\nTheorem ") + text.count("\nLemma "), AXIOMS | {CLASSICAL})
-    return Report(counts, seconds, axioms, left_out)
+    return Report(counts, seconds, axioms)
 
 
 def _deep_stack() -> None:

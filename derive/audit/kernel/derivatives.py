@@ -35,7 +35,7 @@ def file_text() -> str:
     locus = tuple(map(plain, wheel.body_point()))
     normal = tuple(map(plain, hob.flank.placed(cylindrical_worm.cutting(phi)).body_normal()))
     meshing = plain(wheel.conditions[-1])
-    variables = {"t": plain(t), "psi": plain(psi), "phi": phi}
+    variables = {"t": plain(t), "psi": plain(psi), "phi": plain(phi)}
     symbols = sorted(set().union(*(e.free_symbols for e in (*locus, meshing))) - set(variables.values()), key=str)
     names = {symbol: str(symbol) for symbol in symbols} | {symbol: name for name, symbol in variables.items()}
     return _File(names, variables, sp.Symbol("s")).text(locus, normal, meshing)

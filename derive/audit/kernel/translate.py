@@ -4,7 +4,8 @@ Input: objects of the record. Output: the text of Coq files that need only Certi
 becomes one theorem over the reals: cosines, sines, roots and jets are variables, circle relations, root^2 = radicand
 and sign^2 = 1 its hypotheses, as are the denominators other than zero. Derivatives are carried out here, by dual
 numbers; the files of real derivatives state them by limits instead. The recorded cofactors are handed to Coq's
-kernel, which expands both sides itself.
+kernel, which expands both sides itself; where they are longer than ``LONGEST``, the kernel reduces the numerator by the
+relations on its own instead.
 """
 
 from __future__ import annotations
@@ -69,6 +70,7 @@ RESERVED = frozenset(
         "Inv",
         "value",
         "proved",
+        "by_reduction",
     ]
 )
 
@@ -97,6 +99,8 @@ class Term:
 
 
 ONE = ("Int", 1)
+#: Characters of the longest cofactors that a theorem hands over.
+LONGEST = 100_000
 #: Products of terms that the translator may take to compare denominators.
 WORK = 10**7
 
@@ -244,6 +248,10 @@ def _theorem(name: str, head: str, left, right, pairs: list, generators: list[An
         f"({_written(square, place)}))"
         for cofactor, g, square in pairs
     )
+    lemma = "proved"
+    if len(relations) > LONGEST:
+        lemma = "by_reduction"
+        relations = "; ".join(f"({variables[g]}%positive, {_written(square, place)})" for _, g, square in pairs)
     given = " ".join(f"h{k}" for k in range(len(hypotheses)))
     held = _conjunction([f"h{k}" for k in range(len(pairs))])
     split = len(pairs) + len(divisors)
@@ -259,7 +267,7 @@ def _theorem(name: str, head: str, left, right, pairs: list, generators: list[An
         name,
         f"{head}Theorem {name} : {quantified}\n  {stated}.\nProof.\n"
         + (f"  intros {binder}.\n" if binder else "")
-        + f"  refine (proved [{'; '.join(names.values())}]\n    ({left_text})\n    ({right_text})\n    [{relations}]\n"
+        + f"  refine ({lemma} [{'; '.join(names.values())}]\n    ({left_text})\n    ({right_text})\n    [{relations}]\n"
         f"    [{divisor_text}]\n    [{scale_text}]\n"
         f"    {held} {divided} {scaled} _).\n  vm_cast_no_check (eq_refl true).\nQed.\n",
     )
