@@ -64,8 +64,9 @@ def whole_flanks(drive, angles, transmitted=None):
             region = drive.region(body["name"])
         except UsageError:
             continue
-        if not region.empty:
-            found[body["name"]] = _whole(drive, body["name"], mesh(region, CELLS), region.limits.names, contacts)
+        triangles = None if region.empty else mesh(region, CELLS)
+        if triangles is not None and len(triangles.triangles):  # no flank is left of one as wide as rounding
+            found[body["name"]] = _whole(drive, body["name"], triangles, region.limits.names, contacts)
     return found
 
 
