@@ -1,9 +1,13 @@
 """Fixtures shared by all tests."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
+
+# as the command line does, which tests call in a process that has NumPy already: see meshwright.cli
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ROOT = Path(__file__).resolve().parent.parent
 

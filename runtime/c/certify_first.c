@@ -365,10 +365,7 @@ static int judged(search *h, const place *w, const mwc_sheet *q, const place *p,
     const mwc_sheet away = apart(h, p, w);
     const double low = lowest(&away), high = range_of(&away).high;
     if (outside(h, 0, p) || high < -h->reach) return SETTLED;
-    if (low > -h->slack) {
-        if (-low > h->found->depth) h->found->depth = -low;
-        return SETTLED;
-    }
+    if (low > -h->slack) return SETTLED;
     if (!(exists && high < -h->slack && low > -h->reach && inside(h, 0, p) && inside(h, 1, w))) return OPEN;
     for (int i = 0; i < 2; i++) {
         const range r = range_of(&q[i]);
@@ -500,7 +497,8 @@ static int settled(search *h, const range *box, const range (*whole)[2], int fro
     range first[2], second[2];
     halved(box, longer(box, whole[1]), first, second);
     const int verdict = settled(h, first, whole, to, end, depth + 1);
-    if (verdict == REFUTED || h->open > MOST_OPEN) return verdict;
+    if (verdict == REFUTED) return verdict;
+    if (h->open > MOST_OPEN) return OPEN;
     const int other = settled(h, second, whole, to, end, depth + 1);
     return other == SETTLED ? verdict : other;
 }
@@ -649,7 +647,6 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     for (int i = 0; i < 2; i++) c->wheel[i] = c->pinion[i] = NAN;
     c->apart = mwc_make(NAN, NAN);
     c->outcome = MW_FIRST_UNKNOWN;
-    c->depth = NAN;
     c->reason = possible(m, contact);
     if (c->reason == MW_REASON_NONE && !(slack > 0.0 && reach > slack && reach < 1.0)) c->reason = MW_REASON_BOX;
     for (int i = 0; i < 4; i++) {
@@ -683,10 +680,8 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     for (int i = 0; i < 2; i++) at[i] = contact->x[m->bodies[1].unknowns[i]].hi;
     mark_piece(h, whole[1], at);
     h->list[0] = 0;
-    c->depth = 0.0;
     const int verdict = settled(h, whole[1], (const range (*)[2])whole, 0, 1, 0);
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
     if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED, c->reason = MW_REASON_NONE;
-    if (verdict != SETTLED) c->depth = NAN;
     return c->outcome;
 }

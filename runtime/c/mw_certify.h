@@ -123,8 +123,8 @@ void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from,
 
 /* Whether the flanks touch at a certified contact first. PROVED: with the wheel turned back from there, to the side on which
  * the gap is open, by any angle above slack and up to reach, no place of the one flank within the given parameters and its
- * limits, of the wheel's on the piece that holds the contact, is one of the other's; depth, below slack: the same from there
- * on. REFUTED: they have one in common, surely: the parameters wheel[2] and pinion[2], nearly, and how far it is apart, rad,
+ * limits, of the wheel's on the piece that holds the contact, is one of the other's.
+ * REFUTED: they have one in common, surely: the parameters wheel[2] and pinion[2], nearly, and how far it is apart, rad,
  * negative. Else the part of the wheel's flank that was looked at last, and why no more is known. ends, of pinion and wheel:
  * whether limits surely end the flank within the given parameters, or it goes on beyond them. parts: of the wheel's flank
  * that were looked at. */
@@ -132,7 +132,7 @@ enum { MW_FIRST_UNKNOWN, MW_FIRST_PROVED, MW_FIRST_REFUTED };
 
 typedef struct mw_first_certificate {
     int outcome, reason, parts, ends[2];
-    double depth, wheel[2], pinion[2];
+    double wheel[2], pinion[2];
     mw_ball apart;
 } mw_first_certificate;
 

@@ -9,6 +9,9 @@ import time
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
+#: Chromium without a window, which draws WebGL with its processor.
+HEADLESS = ("--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
 #: Widths of a window, px: a telephone's, a tablet's, a desk's.
 WIDTHS = (500, 900, 1400)
 
@@ -36,11 +39,11 @@ CUT_OFF = """(() => {
 class Browser:
     """One page. Raises :class:`AssertionError` with the page's words for what goes wrong in it."""
 
-    def __init__(self, profile, width=1366, height=900):
+    def __init__(self, profile, *more, width=1366, height=900):
         down, self._write = os.pipe()
         self._read, up = os.pipe()
         shell = f"exec {CHROMIUM} \"$@\" 3<&{down} 4>&{up}"
-        options = ["--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe",
+        options = [*HEADLESS, *more, "--remote-debugging-pipe",
                    f"--user-data-dir={profile}", f"--window-size={width},{height}", "about:blank"]  # fmt: skip
         self._process = subprocess.Popen(
             ["bash", "-c", shell, "bash", *options], pass_fds=(down, up), stderr=subprocess.DEVNULL,

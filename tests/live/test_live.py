@@ -174,15 +174,27 @@ def test_without_the_compiler_the_remedy_is_named(monkeypatch):
         live.compiled("face_worm", SHIPPED)
 
 
-#: Of either drawn tooth, how many edges of triangles do not lie between two of them, places taken to 1 nm.
-OPEN_EDGES = """solids.view.scene.bodies.map(({patches: [{points, triangles}]}) => {
+#: Of either drawn tooth, how many edges of triangles do not lie between two that run along it oppositely, places taken
+#: to 1 nm.
+OPEN_EDGES = """solids.view.scene.bodies.map(({tooth}) => {
+  const corners = tooth.index.array, points = tooth.attributes.position.array;
   const place = k => [0, 1, 2].map(i => Math.round(points[3 * k + i] * 1e6)).join(), edges = new Map();
-  for (let t = 0; t < triangles.length; t += 3)
+  for (let t = 0; t < corners.length; t += 3)
     for (let e = 0; e < 3; e++) {
-      const [a, b] = [place(triangles[t + e]), place(triangles[t + (e + 1) % 3])].sort();
-      if (a !== b) edges.set(a + b, (edges.get(a + b) ?? 0) + 1);
+      const ends = [place(corners[t + e]), place(corners[t + (e + 1) % 3])], [a, b] = ends.toSorted();
+      if (a !== b) edges.set(a + b, (edges.get(a + b) ?? 0) + (a === ends[0] ? 1 : -1));
     }
-  return [...edges.values()].filter(count => count % 2).length;
+  return [...edges.values()].filter(count => count).length;
+})"""
+
+#: Pixels of the picture that are bluish and brownish, with these members shown.
+PIXELS = """((...members) => {
+  for (const name of ["pinion", "wheel"]) element(`view-${name}`).checked = members.includes(name);
+  solids.view.draw();
+  const gl = solids.view.renderer.getContext(), {width, height} = gl.canvas, all = new Uint8Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+  const red = all.filter((v, i) => i % 4 === 0), blue = all.filter((v, i) => i % 4 === 2);
+  return [blue.filter((v, k) => v > red[k] + 30).length, red.filter((v, k) => v > blue[k] + 30).length];
 })"""
 
 
@@ -209,6 +221,14 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
         browser.value("document.getElementById('view').scrollIntoView({block: 'center'})")
         browser.wait("solids.view !== null && shownState === state")
         assert browser.value(OPEN_EDGES) == [0, 0]
+        shown = browser.value(PIXELS + "('pinion', 'wheel')")
+        assert min(shown) > 1000 and browser.value(PIXELS + "()") == [0, 0]
+        assert browser.value(PIXELS + "('pinion')")[0] >= shown[0] and browser.value(PIXELS + "('pinion')")[1] == 0
+        assert browser.value(PIXELS + "('wheel')")[1] >= shown[1] and browser.value(PIXELS + "('wheel')")[0] == 0
+        key, zoom = "element('view').dispatchEvent(new KeyboardEvent('keydown', {key: '+'}))", "solids.view.camera.zoom"
+        assert browser.value(zoom) == 1 and browser.value(f"{key}, {zoom}") > 1.1
+        browser.value("element('view-reset').click()")
+        assert browser.value(zoom) == 1
         assert not browser.complaints
     finally:
         browser.close()

@@ -1,9 +1,11 @@
 """The page stands alone, escapes what it is given, and says every size with its unit."""
 
+import hashlib
 import re
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
+from importlib import resources
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from meshwright.report import analyse, page, sensitivity_figures
 from meshwright.report.numbers import fixed, number, unit
 from meshwright.report.tables import groups
 from meshwright.sensitivity import on_member, sensitivity
-from tests.live.browser import CHROMIUM, WIDTHS, Browser
+from tests.live.browser import CHROMIUM, HEADLESS, WIDTHS, Browser
 
 from .conftest import DESIGNS, quiet
 
@@ -156,13 +158,38 @@ def test_a_rounded_zero_has_no_sign():
 def test_a_browser_runs_the_view_without_an_error(name, paged, tmp_path):
     place = tmp_path / "report.html"
     place.write_text(paged(name), encoding="utf-8")
-    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    options = [*HEADLESS, f"--user-data-dir={tmp_path / 'profile'}"]
     options += ["--enable-logging=stderr", "--virtual-time-budget=3000", "--window-size=1366,900", "--dump-dom"]
     done = subprocess.run([CHROMIUM, *options, place.as_uri()], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0
     assert "CONSOLE" not in done.stderr
     readout = re.search(r'id="view-readout"[^>]*>([^<]*)', done.stdout).group(1)
     assert re.match(r"pinion −?[\d.]+°, wheel −?[\d.]+°", readout)
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_without_webgl_the_view_says_so_in_its_place_and_shows_the_contacts(paged, tmp_path):
+    place = tmp_path / "report.html"
+    place.write_text(paged(DESIGNS[0]), encoding="utf-8")
+    browser = Browser(tmp_path / "profile", "--disable-3d-apis")
+    try:
+        browser._call("Page.navigate", url=place.as_uri())
+        browser.wait("document.getElementById('view-readout')?.textContent.startsWith('pinion')")
+        assert "no WebGL here" in browser.value("document.querySelector('#view p:not([hidden])').textContent")
+        marks = "document.querySelector('#view .marks')"
+        pixels = f"{marks}.getContext('2d').getImageData(0, 0, {marks}.width, {marks}.height).data"
+        assert browser.value(f"{pixels}.filter((v, i) => i % 4 === 3 && v).length") > 1000
+        assert not browser.complaints
+    finally:
+        browser.close()
+
+
+def test_the_library_of_the_view_is_the_one_that_its_description_names(paged):
+    page_of = resources.files("meshwright.report") / "page"
+    contents = (page_of / "three.min.js").read_bytes()
+    assert hashlib.sha256(contents).hexdigest() in (page_of / "three.md").read_text(encoding="utf-8")
+    text = paged(DESIGNS[0])
+    assert contents.decode() in text and "The MIT License" in text
 
 
 @pytest.mark.parametrize("name", DESIGNS)

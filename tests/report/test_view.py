@@ -50,8 +50,8 @@ def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
     position = round(share * last)
     contact_points = [view["contacts"][at]["point"] for at in range(position % steps, last + 1, steps)]
     for body in view["bodies"]:
-        points, _ = drawn(body, body["patches"][0], position)
-        corners = np.frombuffer(base64.b64decode(body["patches"][0]["triangles"]), dtype="<u4").reshape(-1, 3)
+        points, _ = drawn(body, body["tooth"], position)
+        corners = np.frombuffer(base64.b64decode(body["tooth"]["triangles"]), dtype="<u4").reshape(-1, 3)
         count = len(points) // len(body["copies"])
         facets = points[np.concatenate([corners + count * k for k in range(len(body["copies"]))])]
         for contact in np.array(contact_points):
@@ -79,8 +79,8 @@ def test_a_left_hand_drive_is_drawn_as_the_mirror_image(analysed):
     for ours, theirs in zip(left["contacts"], reversed(right["contacts"]), strict=True):
         assert ours["point"] == pytest.approx(theirs["point"] * flip, abs=1e-5)
     for ours, theirs in zip(left["bodies"], right["bodies"], strict=True):
-        mirrored, _ = drawn(ours, ours["patches"][0], 0)
-        points, _ = drawn(theirs, theirs["patches"][0], len(right["contacts"]) - 1)
+        mirrored, _ = drawn(ours, ours["tooth"], 0)
+        points, _ = drawn(theirs, theirs["tooth"], len(right["contacts"]) - 1)
         assert np.nanmin(mirrored, axis=0) == pytest.approx(np.nanmin(points * flip, axis=0), abs=2e-3)
         assert np.nanmax(mirrored, axis=0) == pytest.approx(np.nanmax(points * flip, axis=0), abs=2e-3)
 

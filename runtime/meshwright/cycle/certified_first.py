@@ -64,11 +64,6 @@ class FirstCertificates:
         """The same in a sentence."""
         return tuple(text(library().mw_reason_text(int(k))) for k in self.records["reason"])
 
-    @property
-    def depths(self):
-        """Arcs (N,), mm at the contact, that no overlap exceeds; NaN where that is not shown."""
-        return np.nextafter(self.records["depth"] * self.radii * (1.0 + 1e-12), np.inf)
-
     def points(self, contacts):
         """The places (N, 3) that are named, of the wheel's flank at its transmission errors of the ``contacts`` (N,),
         fixed frame, mm; NaN where none is.
@@ -97,7 +92,7 @@ class FirstCertificates:
             "outcome": outcome,
             "reason": self.reasons[k] or None,
             "message": self.messages[k],
-            "overlap_below_mm": float(self.depths[k]) if outcome == "first" else None,
+            "overlap_below_mm": SLACK if outcome == "first" else None,
             "turned_back_arcsec": self.reach / ARCSEC if outcome == "first" else None,
             "overlap_arcsec": overlap if outcome == "not_first" else None,
             "point_mm": point.tolist() if named else None,
@@ -135,7 +130,7 @@ def certify_first(drive, contacts, certificates, neighbours=NEIGHBOURS):
 def _pair(drive, proofs, angles, boxes, radii):
     """:class:`FirstCertificates` from ``mw_certificate`` and ``mw_wide`` of N contacts and angles."""
     flat = np.array([end for box in boxes.values() for ends in box.values() for end in ends] or [0.0] * 8)
-    reach, slacks = REACH * abs(drive.ratio) * drive.pitch(), SLACK / radii
+    reach, slacks = REACH * abs(drive.ratio) * drive.pitch(), SLACK / radii * (1.0 - 1e-9)
     records = np.zeros(len(radii), record("mw_first_certificate"))
     work, state = np.empty(library().mw_certify_first_work()), drive.enclosed.state.copy()
     proofs, angles = proofs.copy(), angles.copy()

@@ -17,6 +17,7 @@ def page(drive):
         "STYLE": _part("live.css"),
         "DATA": json.dumps(contents, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
         "MODULE": base64.b64encode(compiled(contents["drive"], drive.design.description["folder"])).decode("ascii"),
+        "THREE": _part("three.min.js"),
         "SCRIPT": "\n".join(map(_part, ("solver.js", "teeth.js", "plots.js", "solids.js", "live.js"))),
     }
     text = _part("live.html")
@@ -25,5 +26,5 @@ def page(drive):
 
 
 def _part(name):
-    package = "meshwright.report" if name == "teeth.js" else "meshwright.live"
+    package = "meshwright.report" if name in ("teeth.js", "three.min.js") else "meshwright.live"
     return resources.files(package).joinpath("page", name).read_text(encoding="utf-8")

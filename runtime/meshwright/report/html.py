@@ -40,6 +40,7 @@ def page(analysis):
         drive=design.description["name"],
         hash=design.description["specification_hash"][:16],
         css=Markup(_file("report.css")),
+        three=Markup(_file("three.min.js")),
         script=Markup(_file("teeth.js") + _file("view.js")),
         sections=sections,
         tiles=tiles(analysis),

@@ -105,7 +105,7 @@ def _body(analysis, name, matrices, cell):
         "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "patches": [tooth_data(analysis.drive, name, analysis.teeth[name], analysis.mirror, cell)],
+        "tooth": tooth_data(analysis.drive, name, analysis.teeth[name], analysis.mirror, cell),
     }
 
 

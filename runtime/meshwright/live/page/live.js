@@ -207,7 +207,7 @@ function pictures(row, separation) {
 
 /* The teeth, where they can be seen; new flanks only for new keys. */
 function teeth() {
-  const canvas = element("view"), place = canvas.getBoundingClientRect();
+  const place = element("view").getBoundingClientRect();
   if (!solids || state.faults.length || place.bottom < 0 || place.top > window.innerHeight) return;
   if (shownState !== state) { shownState = state; solids.show(state); }
   else solids.view?.redraw();
@@ -281,7 +281,7 @@ function begin(module) {
     solids = new Solids(solver, data, element("view"), {
       position: () => Number(position.value), shown: ticked, open: () => ticked("cut"), seeThrough: () => ticked("see-through"), drawn: () => {},
     });
-    element("view-reset").addEventListener("click", () => { solids.view?.reset(); solids.view?.redraw(); });
+    element("view-reset").addEventListener("click", () => { solids.view?.reset(); });
     for (const box of element("view-controls").querySelectorAll("input")) box.addEventListener("change", () => solids.view?.redraw());
   }
   explain();

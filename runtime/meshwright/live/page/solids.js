@@ -2,14 +2,14 @@
 /* The teeth of the keys as they stand: both flanks of a tooth from the solver, placed at every position of the cycle. */
 
 class Solids {
-  constructor(solver, data, canvas, asks) {
+  constructor(solver, data, holder, asks) {
     this.solver = solver;
     this.data = data;
     this.bodies = data.teeth.bodies.map(body => ({
       ...body, places: decoded(body.places, Float64Array), far: body.far && decoded(body.far, Float64Array),
       triangles: decoded(body.triangles, Uint32Array), across: decoded(body.across, Float64Array).map(v => data.mirror * v),
     }));
-    this.canvas = canvas;
+    this.holder = holder;
     this.asks = asks;
     this.view = null;
   }
@@ -20,10 +20,11 @@ class Solids {
     if (!known.length) return;
     const scene = this._scene(state, known);
     if (this.view) {
-      Object.assign(this.view.scene, { ...scene, view: this.view.scene.view, centre: this.view.scene.centre, radius: this.view.scene.radius });
+      const { centre, radius } = this.view.scene;
+      this.view.show({ ...scene, centre, radius });
       this.view.redraw();
     } else {
-      this.view = new TeethView(this.canvas, scene, this.asks);
+      this.view = new TeethView(this.holder, scene, this.asks);
       this.view.draw();
     }
   }
@@ -35,10 +36,10 @@ class Solids {
     const reach = Math.max(...known.map(r => semiAxes(r, state.separation)[0]).filter(Number.isFinite), 0);
     const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
     const light = hex => [1, 3, 5].map(k => { const c = parseInt(hex.slice(k, k + 2), 16); return Math.round(c + 0.22 * (255 - c)); });
-    const bodies = this._patches(state.given).map((patch, k) => {
+    const bodies = this._teeth(state.given).map((tooth, k) => {
       const matrices = new Float64Array(12 * state.rows.length), from = placement[`placement_${this.bodies[k].name}`];
       state.rows.forEach((r, n) => { for (let i = 0; i < 12; i++) matrices[12 * n + i] = flip[Math.floor(i / 4)] * (i % 4 === 1 ? mirror : 1) * r.place[from + i]; });
-      return { name: this.bodies[k].name, colour: light(colour(k === 0 ? "--first" : "--second")), copies: this.bodies[k].copies, matrices, patches: [patch] };
+      return { name: this.bodies[k].name, colour: light(colour(k === 0 ? "--first" : "--second")), copies: this.bodies[k].copies, matrices, tooth };
     });
     /* straight from the contact to the pinion's axis */
     const m = bodies[0].matrices.subarray(12 * state.rows.indexOf(middle)), axis = [m[2], m[6], m[10]], arm = [m[3], m[7], m[11]].map((v, i) => v - at[i]);
@@ -63,8 +64,8 @@ class Solids {
     return { point: flip.map((f, i) => f * row.row[HEAD.point + i]), line: null, axes, flagged: flagsOf(row).join(", ") };
   }
 
-  /* Of each member the surface of a tooth. The far flank is that of the same keys with the other side asked for. */
-  _patches(given) {
+  /* Of each member a tooth. The far flank is that of the same keys with the other side asked for. */
+  _teeth(given) {
     const { mirror, teeth } = this.data, flipped = given.slice();
     const near = this.bodies.map((body, k) => this.solver.flank(k, body.places));
     flipped[teeth.side] = -given[teeth.side];
@@ -75,7 +76,7 @@ class Solids {
     return this.bodies.map((body, k) => {
       if (!far[k]) {
         const turned = turnedAboutAxis(near[k].normals, body.across).map(v => -v);
-        return toothPatch(near[k], { points: turnedAboutAxis(near[k].points, body.across), normals: turned }, body.across, body.triangles);
+        return closedTooth(near[k], { points: turnedAboutAxis(near[k].points, body.across), normals: turned }, body.across, body.triangles);
       }
       return this._between(near[k], far[k], body);
     });
@@ -90,6 +91,6 @@ class Solids {
       turns[i] = here + angle - there;
       return angle;
     });
-    return toothPatch(near, { points: turnedAboutAxis(far.points, turns), normals: turnedAboutAxis(far.normals, turns) }, across, body.triangles);
+    return closedTooth(near, { points: turnedAboutAxis(far.points, turns), normals: turnedAboutAxis(far.normals, turns) }, across, body.triangles);
   }
 }

@@ -9,10 +9,8 @@
 
   for (const body of scene.bodies) {
     body.matrices = decoded(body.matrices, Float32Array);
-    body.patches = body.patches.map((patch) => {
-      const [points, normals, across, far] = ["points", "normals", "across", "far"].map((key) => decoded(patch[key], Float32Array));
-      return toothPatch({ points, normals }, { points: turnedAboutAxis(points, across), normals: far }, across, decoded(patch.triangles, Uint32Array));
-    });
+    const [points, normals, across, far] = ["points", "normals", "across", "far"].map((key) => decoded(body.tooth[key], Float32Array));
+    body.tooth = closedTooth({ points, normals }, { points: turnedAboutAxis(points, across), normals: far }, across, decoded(body.tooth.triangles, Uint32Array));
   }
 
   function fixed(value, digits) {
@@ -38,10 +36,7 @@
     seeThrough: () => box("see-through").checked,
     drawn,
   });
-  box("reset").addEventListener("click", () => {
-    view.reset();
-    view.redraw();
-  });
+  box("reset").addEventListener("click", () => view.reset());
   slider.addEventListener("input", () => view.redraw());
   for (const input of document.querySelectorAll("#view-controls input[type=checkbox]")) input.addEventListener("change", () => view.redraw());
 
