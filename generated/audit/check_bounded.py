@@ -14,7 +14,8 @@ Modulo a prime of 61 bits drawn at random, at random inputs, on both flanks:
              systems of a design, edges; but for the principal curvatures of the gap, which follow from its form
 
   tables     the tables of the certified functions, each constant within its radius: setup, instant, equations with
-             Jacobian, observation, rules and design systems are those of C and description
+             Jacobian, observation, derivatives along a path, flanks, placement, rules and design systems are those of
+             C and description
 
 Needs check.py, check_code.py and check_description.py beside it.
 """
@@ -506,7 +507,7 @@ def tables_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
     check_factors(drive)
     main = text[text.index(f"static const mw_certified {prefix} = ") :]
     order = [m[7] for m in CODE_OF.finditer(main)]
-    names = ("setup", "instant", "equations", "observed", "along")
+    names = ("setup", "instant", "equations", "observed", "along", "flank_0", "flank_1", "placement")
     require(order == [f"{prefix}_{name}" for name in names], "tables: other order")
     slots, design = map(int, re.search(r"= {\s*(\d+), (\d+),", main).groups())
     for name in names:
@@ -537,7 +538,10 @@ def check_factors(drive: Drive) -> None:
 
 
 def check_table(drive: Drive, table: Table, name: str, slots: int, design: int, rng: Random) -> None:
-    """One of the five functions of a contact, beside the C function."""
+    """One of the functions of a contact, of a flank or the placement, beside the C function."""
+    if name not in ("setup", "instant", "equations", "observed", "along"):
+        check_own_table(drive, table, name, slots, design, rng)
+        return
     seen, _ = drive.run("observe", rng, "x", drive.unknowns)
     setup, instant = seen.earlier.earlier, seen.earlier
     parameters = [seen.inputs[f"p[{k}]"] for k in range(len(drive.parameters))]
@@ -565,6 +569,27 @@ def check_table(drive: Drive, table: Table, name: str, slots: int, design: int, 
         same(run.value(f"o[{k}]"), number, f"table {name}: {k}")
     for k in range(len(drive.unknowns) if name == "equations" else 0):
         same(run.value(f"leading[{k}]"), expected[k], f"table {name}: {k} after the first instructions")
+
+
+def check_own_table(drive: Drive, table: Table, name: str, slots: int, design: int, rng: Random) -> None:
+    """A function of arguments of its own: a flank, its point, limits and tangents; the placement, all of it."""
+    if name == "placement":
+        function, own = name, ["own angle of the pinion", "own angle of the wheel"]
+    else:
+        body = drive.description["bodies"][int(name[-1])]
+        own = [q["name"] for q in body["surface"]["parameters"]]
+        function = f"flank_{body['name']}"
+    run, _ = drive.run(function, rng, "q", own)
+    setup = run.earlier.earlier
+    state = [setup.value(f"s[{k}]") if k < design else Number(0) for k in range(slots)]
+    keys = list(run.function.outputs)
+    if name != "placement":
+        keys = ["point", "regular", *(k for k in keys if k.startswith("margin_")), *(f"tangent_{q}" for q in own)]
+    expected = [number for key in keys for number in read(run, key)]
+    found = table.machine([*state, *(run.inputs[f"q[{k}]"] for k in range(len(own)))], run)
+    require(len(table.outputs) == len(expected), f"table {name}: another number of results")
+    for k, number in enumerate(expected):
+        same(found.value(f"o[{k}]"), number, f"table {name}: {k}")
 
 
 def equated(drive: Drive, seen: Machine) -> Iterator[Number]:

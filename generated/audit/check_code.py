@@ -862,22 +862,43 @@ def check_header(path: Path) -> int:
     return len(checks) + 1
 
 
+#: What stands around the polynomials of sine and cosine: nearest quarter turn, rest, exchange and signs by quadrant.
+SINE_LINES = (
+    "const double magic = 6755399441055744.0;",
+    "const double k = turned.number - magic;",
+    "const double z = r * r;",
+    "s.number = MW_FMA(r * z, u, r);",
+    "const double w = MW_FNMA(z, 0.5, 1.0);",
+    "c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));",
+    "const unsigned long long quadrant = turned.bits, odd = 0 - (quadrant & 1);",
+    "const unsigned long long exchanged = (s.bits ^ c.bits) & odd;",
+    "const unsigned long long sign = quadrant << 62 & 0x8000000000000000;",
+    "s.bits ^= exchanged ^ sign;",
+    "c.bits ^= exchanged ^ (sign ^ (odd & 0x8000000000000000));",
+    "*sine = s.number;",
+    "*cosine = c.number;",
+)
+
+
 def check_kernels(text: str) -> None:
-    """Sine and cosine: polynomials and constants of the reduction against enclosures, in exact arithmetic."""
+    """Sine and cosine: polynomials and constants against enclosures in exact arithmetic, and what stands around."""
     body = re.search(r"_sincos\(double a, double \*sine, double \*cosine\)\n{\n(.*?)\n}", text, re.DOTALL)
     require(body, "no kernel of sine and cosine")
+    for line in SINE_LINES:
+        require(line in body[1], f"sincos: {line} is not there")
     pi = CHECK.number_of("pi").middle
-    half, first, second, third = (
-        Fraction(float(found))
-        for found in re.search(
-            r"MW_FMA\(a, ([\d.]+), magic\);.*?k \* ([\d.e-]+)\) - k \* ([\d.e-]+)\) - k \* ([\d.e-]+);",
-            body[1],
-            re.DOTALL,
-        ).groups()
+    reduced = re.search(
+        r"turned\.number = MW_FMA\(a, ([\d.]+), magic\);.*?"
+        r"const double r = \(\(a - k \* ([\d.e-]+)\) - k \* ([\d.e-]+)\) - k \* ([\d.e-]+);",
+        body[1],
+        re.DOTALL,
     )
+    require(reduced, "sincos: no reduction to a quarter turn")
+    half, first, second, third = (Fraction(float(found)) for found in reduced.groups())
     require(abs(half - 2 / pi) < Fraction(1, 2**53), "sincos: 2/pi is another number")
     require(abs(first + second + third - pi / 2) < Fraction(1, 10**35), "sincos: pi/2 is another number")
-    fused = re.search(r"MW_FNMA\(k, ([\d.e-]+), MW_FNMA\(k, ([\d.e-]+), a\)\)", body[1])
+    fused = re.search(r"const double r = MW_FNMA\(k, ([\d.e-]+), MW_FNMA\(k, ([\d.e-]+), a\)\);", body[1])
+    require(fused, "sincos: no reduction to a quarter turn")
     turns = sum(Fraction(float(found)) for found in fused.groups())
     require(abs(turns - pi / 2) < Fraction(1, 10**30), "sincos: pi/2 is another number")
     lines = re.findall(r"const double (\w+) = (.+?);", body[1])
@@ -893,9 +914,6 @@ def check_kernels(text: str) -> None:
         require(
             abs(1 - z / 2 + z * z * v - cosine.middle) <= Fraction(1, 2**53), "sincos: the polynomial of the cosine"
         )
-    for line in ("s.number = MW_FMA(r * z, u, r);", "const double w = MW_FNMA(z, 0.5, 1.0);",
-                 "c.number = w + MW_FMA(z * z, v, MW_FNMA(z, 0.5, 1.0 - w));"):  # fmt: skip
-        require(line in body[1], f"sincos: {line} is not there")
 
 
 #: What stands around the polynomial of atan2: the ratio to the nearest of 0 and 45 degrees, octants, quadrants.

@@ -27,7 +27,7 @@ import json
 import re
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatch
 from fractions import Fraction
 from pathlib import Path
@@ -67,25 +67,47 @@ class Statement:
     text: str
 
 
+#: An abbreviation of a section without statements: it holds in all sections that follow.
+LET_ALONE = "let"
 LET = re.compile(r"let (\w+): (.*)")
 LINE = re.compile(r"(\w+)((?: [\w/]+)*): (.*?) *\| (.+)")
 
 
 def read_printed(text: str) -> list[tuple[list[str], list[Statement]]]:
-    """Sections: patterns of the names of drives, and what is printed of them."""
+    """Sections: patterns of the names of drives, and what is printed of them; abbreviations, where there is nothing
+    else.
+    """
     sections: list[tuple[list[str], list[Statement]]] = []
     for part in re.split(r"^(?=\[)", re.sub(r"\n +", " ", text), flags=re.M)[1:]:
         head, *lines = part.splitlines()
         names = head.strip("[]").split()
         words = [name.split(":") for name in names if not PATTERN.search(name)]
         found: dict[str, Statement] = {}
+        let: dict[str, object] = {}
         for word in words or [["$", "%"]]:
-            let: dict[str, object] = {}
+            let = {}
             for line in lines:
                 if line and not line.startswith("#"):
                     _read_line(line.replace("$", word[0]).replace("%", word[-1]), let, found)
-        sections.append(([name for name in names if PATTERN.search(name)], list(found.values())))
+        shared = [Statement(LET_ALONE, (name,), (value,), "", "") for name, value in let.items()]
+        patterns = [pattern for name in names if PATTERN.search(name) for pattern in alternatives(name)]
+        sections.append((patterns, list(found.values()) or shared))
     return sections
+
+
+def alternatives(pattern: str) -> list[str]:
+    """``a_{b,c}`` is ``a_b`` and ``a_c``."""
+    match = re.search(r"{([^{}]*)}", pattern)
+    if not match:
+        return [pattern]
+    words = (pattern[: match.start()] + word + pattern[match.end() :] for word in match[1].split(","))
+    return [found for word in words for found in alternatives(word)]
+
+
+def is_about(name: str, patterns: list[str]) -> bool:
+    """Is a drive among those named? A pattern after an exclamation mark leaves drives out."""
+    left_out = [pattern[1:] for pattern in patterns if pattern.startswith("!")]
+    return any(fnmatch(name, p) for p in patterns) and not any(fnmatch(name, p) for p in left_out)
 
 
 def _read_line(line: str, let: dict[str, object], found: dict[str, Statement]) -> None:
@@ -418,8 +440,9 @@ def said_of_surface(entry: dict) -> Iterator[tuple[tuple[str, ...], object]]:
     if any(step["step"] == "envelope" for step in entry["surface"]["made"]):
         yield ("generation", name), None
     for margin in entry["margins"]:
-        if margin["along"] is None:
-            yield ("margin", name, margin["event"]), margin["positive"]
+        along = margin["along"]
+        kind = ("margin", name, margin["event"]) if along is None else ("growth", name, margin["event"], along)
+        yield kind, margin["positive"]
     if entry["regular"] is not None:
         yield ("regular", name), entry["regular"]
     for symbol, value in entry.get("reference", {}).items():
@@ -564,8 +587,15 @@ def check_slope(drive: Described, name: str, of: str, symbol: str, rng: Random) 
 
 def statements_of(name: str, printed: list) -> list[Statement]:
     """What is printed of a drive."""
-    chosen = (found for patterns, found in printed if any(fnmatch(name, pattern) for pattern in patterns))
-    return [statement for found in chosen for statement in found]
+    common: dict[str, object] = {}
+    chosen: list[Statement] = []
+    for statement in (s for patterns, found in printed if is_about(name, patterns) for s in found):
+        sides = tuple(replaced(side, common) for side in statement.sides)
+        if statement.kind == LET_ALONE:
+            common[statement.about[0]] = sides[0]
+        else:
+            chosen.append(replace(statement, sides=sides))
+    return chosen
 
 
 def checks_of(drive: Described, name: str, printed: list) -> Iterator[tuple[str, tuple]]:
@@ -586,8 +616,8 @@ def check_drive(path: Path, printed: list) -> int:
     try:
         drive, draws = Described(json.loads(path.read_text(encoding="utf-8"))), (Draws(1), Draws(-1))
         checks = list(checks_of(drive, path.stem, printed))
-        own = [pattern for patterns, _ in printed for pattern in patterns if pattern != "*"]
-        require(any(fnmatch(path.stem, pattern) for pattern in own), "nothing printed is known of this drive")
+        known = any(is_about(path.stem, [p for p in patterns if p != "*"]) for patterns, _ in printed)
+        require(known, "nothing printed is known of this drive")
         check_said(drive, statements_of(path.stem, printed))
         for words, check in checks:
             try:

@@ -201,6 +201,48 @@ static const unsigned short cylindrical_worm_za_za_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_za_za_certified_along_output[] = { 61,60,54,96,106,79,90,116,93,85 };
 
+static const unsigned short cylindrical_worm_za_za_certified_flank_0_input[] = { 120,119,13,14,15,10,16,45,46,48,47,49,50,51 };
+static const mw_wide cylindrical_worm_za_za_certified_flank_0_constant[] = { { 0.0, 0.0, 0.0 } };
+static const unsigned short cylindrical_worm_za_za_certified_flank_0_operation[] = {
+7,14,0,15, 2,16,1,15, 2,17,1,14, 2,18,0,2, 1,19,1,3, 2,19,4,19, 0,19,5,19, 2,19,19,6, 0,19,18,19, 2,18,1,7, 
+2,20,18,15, 2,21,8,14, 1,21,20,21, 2,20,2,14, 2,22,9,16, 1,22,20,22, 2,22,21,22, 2,18,18,14, 2,21,8,15, 0,21,18,21, 
+2,18,9,17, 2,20,2,15, 0,20,18,20, 2,20,21,20, 1,20,22,20, 2,22,10,1, 2,21,15,16, 2,18,14,17, 0,18,21,18, 2,18,22,18, 
+1,18,20,18, 2,18,18,11, 5,18,18,18, 3,20,16,16, 3,22,17,17, 0,22,20,22, 6,22,22,22, 1,20,12,22, 1,22,22,13, 5,21,17,17, 
+};
+static const unsigned short cylindrical_worm_za_za_certified_flank_0_output[] = { 16,17,19,18,20,22,15,14,9,21,16,2 };
+
+static const unsigned short cylindrical_worm_za_za_certified_flank_1_input[] = { 120,119,2,3,4,5,6,7,8,9,10,11,12,20,21,22,25,30,31,32,33,34,36,52,53,54,55,56,57,58 };
+static const mw_wide cylindrical_worm_za_za_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_za_za_certified_flank_1_operation[] = {
+7,31,0,32, 2,33,1,32, 1,33,33,2, 2,34,1,3, 2,35,1,4, 2,36,35,31, 2,37,32,3, 0,37,36,37, 2,36,37,5, 2,38,1,6, 
+0,38,36,38, 2,36,33,7, 2,39,38,36, 1,40,1,8, 2,40,9,40, 0,40,40,10, 2,41,40,11, 2,42,1,5, 2,43,31,42, 1,41,41,43, 
+2,35,32,35, 2,44,31,3, 1,44,35,44, 2,35,44,7, 2,45,41,35, 0,45,39,45, 0,45,34,45, 2,45,45,12, 4,34,30,44, 2,45,45,34, 
+0,39,0,45, 2,39,7,39, 7,46,39,47, 2,39,33,47, 2,40,40,13, 2,48,45,14, 1,48,40,48, 2,40,15,48, 1,40,43,40, 2,43,40,46, 
+1,43,39,43, 2,39,33,46, 2,49,40,47, 0,49,39,49, 2,48,5,48, 2,39,1,15, 2,50,31,39, 0,50,48,50, 2,48,1,16, 2,51,15,37, 
+1,51,48,51, 2,48,32,47, 2,52,31,5, 1,53,17,52, 2,53,35,53, 2,54,32,18, 2,54,41,54, 0,54,53,54, 2,53,31,19, 0,53,6,53, 
+2,53,36,53, 2,55,32,7, 2,55,38,55, 0,55,53,55, 0,55,54,55, 0,55,3,55, 2,55,12,55, 2,54,32,4, 2,54,45,54, 1,54,55,54, 
+2,54,34,54, 2,55,7,54, 2,53,55,46, 2,56,33,53, 1,56,48,56, 2,54,14,54, 1,54,20,54, 2,48,15,54, 1,48,52,48, 2,52,48,46, 
+2,55,55,47, 2,57,40,55, 0,57,52,57, 1,57,56,57, 2,42,32,42, 2,56,44,5, 2,56,36,56, 2,36,1,31, 2,52,7,36, 2,52,38,52, 
+1,52,56,52, 2,35,35,42, 2,56,37,7, 2,56,41,56, 0,56,35,56, 1,56,52,56, 2,56,12,56, 2,45,37,45, 0,45,56,45, 2,45,34,45, 
+2,34,45,21, 0,34,42,34, 2,42,34,47, 0,56,30,45, 2,56,7,56, 2,37,56,46, 2,52,40,37, 1,52,42,52, 2,56,56,47, 2,42,33,56, 
+2,35,36,46, 1,35,42,35, 0,35,52,35, 2,52,57,35, 2,48,48,47, 2,53,40,53, 1,53,48,53, 2,48,32,46, 2,55,33,55, 0,55,48,55, 
+0,55,53,55, 2,34,34,46, 2,56,40,56, 0,56,34,56, 2,36,36,47, 2,37,33,37, 0,37,36,37, 0,37,56,37, 2,56,55,37, 0,56,52,56, 
+2,56,51,56, 2,51,38,46, 2,52,44,47, 1,52,51,52, 2,45,45,22, 2,39,32,39, 1,39,45,39, 2,45,39,55, 2,31,31,15, 2,54,5,54, 
+0,54,31,54, 2,31,54,35, 0,31,45,31, 2,31,52,31, 2,47,38,47, 2,46,44,46, 0,46,47,46, 2,47,39,57, 2,38,54,37, 1,38,47,38, 
+2,38,46,38, 0,38,31,38, 1,38,56,38, 2,38,38,23, 3,56,43,43, 3,31,49,49, 0,31,56,31, 6,31,31,31, 1,56,24,31, 1,31,25,31, 
+3,31,31,31, 3,46,50,50, 0,46,31,46, 6,46,46,46, 0,46,46,26, 9,31,50,50, 2,31,50,31, 1,31,27,31, 1,47,28,1, 2,44,44,29, 
+5,37,37,37, 5,39,39,39, 
+};
+static const unsigned short cylindrical_worm_za_za_certified_flank_1_output[] = { 43,49,50,38,56,46,31,47,44,57,55,54,37,35,39 };
+
+static const unsigned short cylindrical_worm_za_za_certified_placement_input[] = { 119,120,1,17,37,18,78,19,64,38,61,62,63,96,97,98 };
+static const mw_wide cylindrical_worm_za_za_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_za_za_certified_placement_operation[] = {
+7,18,0,19, 5,20,18,18, 7,21,1,22, 2,23,2,22, 2,24,2,21, 2,25,3,21, 2,26,4,22, 0,26,25,26, 5,26,26,26, 2,25,3,22, 
+2,27,4,21, 1,27,25,27, 2,25,5,21, 2,28,6,22, 1,28,25,28, 2,22,5,22, 2,21,6,21, 0,21,22,21, 5,21,21,21, 
+};
+static const unsigned short cylindrical_worm_za_za_certified_placement_output[] = { 19,20,16,16,18,19,16,16,16,16,17,16,16,16,17,16,16,16,23,24,7,8,26,27,9,10,28,21,11,12,13,14,15,8,10,12 };
+
 static const unsigned short cylindrical_worm_za_za_certified_rule_0_input[] = { 0 };
 static const mw_wide cylindrical_worm_za_za_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short cylindrical_worm_za_za_certified_rule_0_operation[] = {
@@ -399,7 +441,13 @@ static const mw_certified cylindrical_worm_za_za_certified = {
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_za_za_certified_instant_input, cylindrical_worm_za_za_certified_instant_constant, cylindrical_worm_za_za_certified_instant_operation, cylindrical_worm_za_za_certified_instant_output },
     { 103, 47, 2, 278, 119, 30, cylindrical_worm_za_za_certified_equations_input, cylindrical_worm_za_za_certified_equations_constant, cylindrical_worm_za_za_certified_equations_operation, cylindrical_worm_za_za_certified_equations_output },
     { 128, 55, 3, 568, 568, 24, cylindrical_worm_za_za_certified_observed_input, cylindrical_worm_za_za_certified_observed_constant, cylindrical_worm_za_za_certified_observed_operation, cylindrical_worm_za_za_certified_observed_output },
-    { 119, 44, 1, 449, 449, 10, cylindrical_worm_za_za_certified_along_input, cylindrical_worm_za_za_certified_along_constant, cylindrical_worm_za_za_certified_along_operation, cylindrical_worm_za_za_certified_along_output }
+    { 119, 44, 1, 449, 449, 10, cylindrical_worm_za_za_certified_along_input, cylindrical_worm_za_za_certified_along_constant, cylindrical_worm_za_za_certified_along_operation, cylindrical_worm_za_za_certified_along_output },
+    {
+        { 23, 14, 0, 40, 39, 12, cylindrical_worm_za_za_certified_flank_0_input, cylindrical_worm_za_za_certified_flank_0_constant, cylindrical_worm_za_za_certified_flank_0_operation, cylindrical_worm_za_za_certified_flank_0_output },
+        { 58, 30, 1, 172, 170, 15, cylindrical_worm_za_za_certified_flank_1_input, cylindrical_worm_za_za_certified_flank_1_constant, cylindrical_worm_za_za_certified_flank_1_operation, cylindrical_worm_za_za_certified_flank_1_output }
+    },
+    { 29, 16, 2, 19, 19, 36, cylindrical_worm_za_za_certified_placement_input, cylindrical_worm_za_za_certified_placement_constant, cylindrical_worm_za_za_certified_placement_operation, cylindrical_worm_za_za_certified_placement_output },
+    1
 };
 
 #endif

@@ -256,6 +256,56 @@ static const unsigned short cylindrical_worm_zi_zi_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_zi_zi_certified_along_output[] = { 60,129,138,150,158,106,120,167,142,130 };
 
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_input[] = { 113,112,14,15,16,17,6,23,24,41,42,43,44 };
+static const mw_wide cylindrical_worm_zi_zi_certified_flank_0_constant[] = { { 1.0, 0.0, 0.0 }, { 0.5, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_operation[] = {
+7,15,0,16, 2,17,1,16, 2,18,1,15, 2,19,0,2, 1,20,1,3, 0,21,1,3, 2,22,20,21, 6,23,22,22, 8,24,23,3, 7,25,24,26, 
+4,27,13,26, 2,28,25,27, 1,24,4,24, 0,24,28,24, 2,24,2,24, 0,24,5,24, 2,24,6,24, 0,24,19,24, 2,19,1,3, 0,22,22,7, 
+2,22,23,22, 4,22,19,22, 3,19,28,28, 2,19,19,8, 2,19,22,19, 2,22,6,1, 2,19,19,22, 2,29,16,19, 2,30,8,15, 1,30,29,30, 
+2,29,2,15, 0,21,20,21, 4,31,14,23, 2,31,21,31, 2,31,3,31, 3,23,23,23, 0,23,7,23, 4,23,31,23, 2,26,26,23, 2,25,25,23, 
+2,25,28,25, 0,25,26,25, 2,25,27,25, 1,23,25,23, 2,23,23,9, 2,25,23,17, 1,25,29,25, 2,25,30,25, 2,19,15,19, 2,30,8,16, 
+0,30,19,30, 2,19,23,18, 2,29,2,16, 0,29,19,29, 2,29,30,29, 1,29,25,29, 2,25,16,17, 2,30,15,18, 0,30,25,30, 2,30,22,30, 
+1,30,29,30, 2,30,30,10, 5,30,30,30, 3,29,17,17, 3,22,18,18, 0,22,29,22, 6,22,22,22, 1,29,11,22, 1,22,22,12, 5,25,18,18, 
+};
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_output[] = { 17,18,24,30,29,22,20,16,15,23,25,17,2 };
+
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_input[] = { 113,112,2,3,4,5,6,7,8,9,10,11,12,13,21,25,30,29,31,33,45,46,47,48,49,50,51 };
+static const mw_wide cylindrical_worm_zi_zi_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 }, { 0.5, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_operation[] = {
+7,29,0,30, 2,31,1,30, 1,31,31,2, 2,32,1,3, 2,33,1,4, 1,34,1,4, 0,35,1,4, 2,36,34,35, 6,37,36,36, 0,36,36,5, 
+2,38,37,36, 4,38,27,38, 2,33,33,38, 8,39,37,4, 7,40,39,41, 4,42,27,41, 2,43,40,42, 3,44,43,43, 2,44,44,3, 2,45,33,44, 
+2,46,6,1, 2,47,45,46, 2,48,29,47, 2,49,30,3, 0,48,48,49, 2,50,48,7, 2,51,1,8, 0,51,50,51, 2,50,31,9, 2,52,51,50, 
+0,53,43,10, 1,39,53,39, 2,39,39,11, 0,39,12,39, 2,53,8,39, 2,54,1,7, 2,55,29,54, 1,53,53,55, 2,56,30,46, 2,57,45,56, 
+2,58,3,29, 1,57,57,58, 2,59,57,9, 2,60,53,59, 0,60,52,60, 0,60,32,60, 2,60,60,13, 4,32,27,57, 2,60,60,32, 0,52,0,60, 
+2,52,9,52, 7,61,52,62, 2,52,31,62, 2,39,6,39, 2,63,11,60, 1,63,39,63, 2,39,14,63, 1,39,55,39, 2,55,39,61, 1,55,52,55, 
+2,52,31,61, 2,64,39,62, 0,64,52,64, 2,63,7,63, 2,52,1,14, 2,65,29,52, 0,65,63,65, 2,63,1,15, 2,48,14,48, 1,48,63,48, 
+2,63,30,62, 0,35,34,35, 4,66,28,37, 2,66,35,66, 2,67,4,66, 3,68,37,37, 0,68,5,68, 4,68,67,68, 2,41,41,68, 2,40,40,68, 
+2,40,43,40, 0,40,41,40, 2,40,42,40, 1,68,40,68, 2,42,68,16, 2,41,29,7, 1,42,42,41, 2,42,59,42, 2,66,36,66, 2,35,37,35, 
+0,35,66,35, 2,35,33,35, 1,35,4,35, 2,35,38,35, 2,35,44,35, 2,40,43,40, 0,40,40,40, 2,40,3,40, 2,40,33,40, 0,40,35,40, 
+2,56,56,40, 2,35,6,30, 2,35,45,35, 0,35,56,35, 2,56,9,35, 2,56,53,56, 0,56,42,56, 2,40,46,40, 2,42,6,45, 0,42,40,42, 
+2,42,29,42, 2,42,7,42, 0,42,8,42, 2,42,50,42, 2,40,30,9, 2,40,51,40, 0,40,42,40, 0,40,56,40, 0,40,3,40, 2,40,13,40, 
+2,35,60,35, 1,35,40,35, 2,35,32,35, 2,40,9,35, 2,56,40,61, 2,42,31,56, 1,42,63,42, 2,68,68,17, 2,35,11,35, 1,35,68,35, 
+2,68,14,35, 1,68,41,68, 2,41,68,61, 2,40,40,62, 2,63,39,40, 0,63,41,63, 1,63,42,63, 2,54,30,54, 2,47,30,47, 1,58,47,58, 
+2,58,7,58, 2,58,50,58, 2,50,1,29, 2,47,9,50, 2,47,51,47, 1,47,58,47, 2,59,59,54, 2,46,46,29, 2,46,45,46, 0,46,49,46, 
+2,49,9,46, 2,49,53,49, 0,49,59,49, 1,49,47,49, 2,49,13,49, 2,46,60,46, 0,46,49,46, 2,46,32,46, 2,32,46,18, 0,32,54,32, 
+2,54,32,62, 0,49,27,46, 2,49,9,49, 2,60,49,61, 2,47,39,60, 1,47,54,47, 2,49,49,62, 2,54,31,49, 2,59,50,61, 1,59,54,59, 
+0,59,47,59, 2,47,63,59, 2,68,68,62, 2,56,39,56, 1,56,68,56, 2,68,30,61, 2,40,31,40, 0,40,68,40, 0,40,56,40, 2,32,32,61, 
+2,49,39,49, 0,49,32,49, 2,50,50,62, 2,60,31,60, 0,60,50,60, 0,60,49,60, 2,49,40,60, 0,49,47,49, 2,49,48,49, 2,48,51,61, 
+2,47,57,62, 1,47,48,47, 2,46,46,19, 2,52,30,52, 1,52,46,52, 2,46,52,40, 2,29,29,14, 2,35,7,35, 0,35,29,35, 2,29,35,59, 
+0,29,46,29, 2,29,47,29, 2,62,51,62, 2,61,57,61, 0,61,62,61, 2,62,52,63, 2,51,35,60, 1,51,62,51, 2,51,61,51, 0,51,29,51, 
+1,51,49,51, 2,51,51,20, 3,49,55,55, 3,29,64,64, 0,29,49,29, 6,29,29,29, 1,49,21,29, 1,29,22,29, 3,29,29,29, 3,61,65,65, 
+0,61,29,61, 6,61,61,61, 0,61,61,23, 9,29,65,65, 2,29,65,29, 1,29,24,29, 1,62,25,1, 2,57,57,26, 5,60,60,60, 5,52,52,52, 
+};
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_output[] = { 55,64,65,51,49,61,29,62,57,34,63,40,35,60,59,52 };
+
+static const unsigned short cylindrical_worm_zi_zi_certified_placement_input[] = { 112,113,1,18,36,19,34,20,56,37,54,35,55,89,90,91 };
+static const mw_wide cylindrical_worm_zi_zi_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zi_zi_certified_placement_operation[] = {
+7,18,0,19, 5,20,18,18, 7,21,1,22, 2,23,2,22, 2,24,2,21, 2,25,3,21, 2,26,4,22, 0,26,25,26, 5,26,26,26, 2,25,3,22, 
+2,27,4,21, 1,27,25,27, 2,25,5,21, 2,28,6,22, 1,28,25,28, 2,22,5,22, 2,21,6,21, 0,21,22,21, 5,21,21,21, 
+};
+static const unsigned short cylindrical_worm_zi_zi_certified_placement_output[] = { 19,20,16,16,18,19,16,16,16,16,17,16,16,16,17,16,16,16,23,24,7,8,26,27,9,10,28,21,11,12,13,14,15,8,10,12 };
+
 static const unsigned short cylindrical_worm_zi_zi_certified_rule_0_input[] = { 0 };
 static const mw_wide cylindrical_worm_zi_zi_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short cylindrical_worm_zi_zi_certified_rule_0_operation[] = {
@@ -454,7 +504,13 @@ static const mw_certified cylindrical_worm_zi_zi_certified = {
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_zi_zi_certified_instant_input, cylindrical_worm_zi_zi_certified_instant_constant, cylindrical_worm_zi_zi_certified_instant_operation, cylindrical_worm_zi_zi_certified_instant_output },
     { 120, 45, 3, 390, 157, 30, cylindrical_worm_zi_zi_certified_equations_input, cylindrical_worm_zi_zi_certified_equations_constant, cylindrical_worm_zi_zi_certified_equations_operation, cylindrical_worm_zi_zi_certified_equations_output },
     { 134, 50, 3, 677, 677, 26, cylindrical_worm_zi_zi_certified_observed_input, cylindrical_worm_zi_zi_certified_observed_constant, cylindrical_worm_zi_zi_certified_observed_operation, cylindrical_worm_zi_zi_certified_observed_output },
-    { 171, 42, 2, 691, 691, 10, cylindrical_worm_zi_zi_certified_along_input, cylindrical_worm_zi_zi_certified_along_constant, cylindrical_worm_zi_zi_certified_along_operation, cylindrical_worm_zi_zi_certified_along_output }
+    { 171, 42, 2, 691, 691, 10, cylindrical_worm_zi_zi_certified_along_input, cylindrical_worm_zi_zi_certified_along_constant, cylindrical_worm_zi_zi_certified_along_operation, cylindrical_worm_zi_zi_certified_along_output },
+    {
+        { 32, 13, 2, 70, 69, 13, cylindrical_worm_zi_zi_certified_flank_0_input, cylindrical_worm_zi_zi_certified_flank_0_constant, cylindrical_worm_zi_zi_certified_flank_0_operation, cylindrical_worm_zi_zi_certified_flank_0_output },
+        { 69, 27, 2, 230, 228, 16, cylindrical_worm_zi_zi_certified_flank_1_input, cylindrical_worm_zi_zi_certified_flank_1_constant, cylindrical_worm_zi_zi_certified_flank_1_operation, cylindrical_worm_zi_zi_certified_flank_1_output }
+    },
+    { 29, 16, 2, 19, 19, 36, cylindrical_worm_zi_zi_certified_placement_input, cylindrical_worm_zi_zi_certified_placement_constant, cylindrical_worm_zi_zi_certified_placement_operation, cylindrical_worm_zi_zi_certified_placement_output },
+    1
 };
 
 #endif

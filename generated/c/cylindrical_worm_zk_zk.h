@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 411, set_phi 2, R 233, R and J 593, step 677, observe 845.
- * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
+ * Equations (hash f61e08677e1e0eba8a8e4f4aab475360f22960c86025ef12f3e954b1ff7add54):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -60,7 +60,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 3
+#define MW_MODEL_ABI 4
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -212,7 +212,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 3
+#if MW_MODEL_ABI != 4
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -222,7 +222,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zk_NO 64
 #define cylindrical_worm_zk_zk_ND 7
 #define cylindrical_worm_zk_zk_NSTART 2
-#define cylindrical_worm_zk_zk_ABI 3
+#define cylindrical_worm_zk_zk_ABI 4
 #define cylindrical_worm_zk_zk_SPEC_HASH "c25c73ed9ca0f89dd53d6c9b0973bec52d7304cfb6c6204e629253ec0c693216"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

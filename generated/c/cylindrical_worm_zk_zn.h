@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 450, set_phi 2, R 201, R and J 504, step 593, observe 752.
- * Equations (hash a2ac739e41679d06addf33dc8507b8350eedc8db6a43e8ca2fca659a1b3bb500):
+ * Equations (hash f61e08677e1e0eba8a8e4f4aab475360f22960c86025ef12f3e954b1ff7add54):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis
@@ -65,7 +65,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 3
+#define MW_MODEL_ABI 4
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -217,7 +217,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 3
+#if MW_MODEL_ABI != 4
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -227,7 +227,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zn_NO 63
 #define cylindrical_worm_zk_zn_ND 7
 #define cylindrical_worm_zk_zn_NSTART 2
-#define cylindrical_worm_zk_zn_ABI 3
+#define cylindrical_worm_zk_zn_ABI 4
 #define cylindrical_worm_zk_zn_SPEC_HASH "3bbf4578781d1d4b8f1831aee6e379bf479ec02bc30e5ccdddfb5b2f335f6ed8"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

@@ -287,6 +287,62 @@ static const unsigned short cylindrical_worm_zk_zn_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_zk_zn_certified_along_output[] = { 157,156,115,166,175,152,97,77,124,148 };
 
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_0_input[] = { 155,0,1,2,3,4,5,6,7,8,9,10,11,12,156,14,15,16,37,38,48,47,49,43,72,73,74,25 };
+static const mw_wide cylindrical_worm_zk_zn_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_0_operation[] = {
+2,30,0,28, 7,31,30,32, 3,30,31,31, 2,30,30,1, 7,33,0,34, 2,35,34,2, 2,36,31,1, 2,37,32,36, 2,38,3,33, 1,39,37,38, 
+2,39,4,39, 1,39,5,39, 2,40,35,39, 2,41,33,6, 1,41,41,7, 2,42,3,34, 0,43,42,30, 2,44,41,43, 2,45,33,8, 0,45,9,45, 
+2,46,45,10, 0,46,44,46, 1,46,40,46, 2,40,33,11, 0,40,12,40, 2,44,40,35, 2,47,13,41, 2,48,34,47, 1,48,44,48, 4,48,29,48, 
+2,46,46,48, 2,44,13,46, 1,44,3,44, 2,49,34,44, 0,30,30,49, 7,50,14,51, 2,52,30,51, 2,44,33,44, 1,37,37,44, 2,53,4,37, 
+2,54,15,46, 1,54,16,54, 2,55,17,54, 1,55,53,55, 2,53,55,50, 1,53,52,53, 2,52,30,50, 2,56,55,51, 0,56,52,56, 2,52,14,10, 
+2,37,18,37, 2,54,54,19, 0,54,37,54, 0,54,52,54, 2,52,35,51, 2,37,41,50, 0,37,52,37, 2,52,20,32, 2,52,32,52, 2,57,28,31, 
+2,57,36,57, 1,57,52,57, 2,52,34,21, 2,36,6,34, 2,36,43,36, 2,32,28,32, 2,32,31,32, 0,32,32,32, 2,32,1,32, 1,38,32,38, 
+2,38,41,38, 0,38,36,38, 0,38,52,38, 2,52,33,2, 2,39,39,52, 1,42,57,42, 2,42,4,42, 2,42,35,42, 0,42,39,42, 0,42,38,42, 
+2,38,34,11, 2,38,35,38, 2,52,40,52, 1,52,38,52, 2,38,34,22, 2,38,34,38, 2,47,33,47, 1,47,38,47, 1,47,52,47, 2,47,46,47, 
+0,47,42,47, 2,47,48,47, 2,48,13,47, 2,33,33,48, 0,33,49,33, 1,33,57,33, 2,57,4,33, 2,49,12,47, 1,49,57,49, 2,57,49,51, 
+2,48,34,48, 1,44,48,44, 0,44,32,44, 2,32,44,50, 0,32,57,32, 2,57,10,32, 2,47,23,47, 2,33,18,33, 0,33,47,33, 2,47,33,53, 
+1,47,57,47, 2,47,37,47, 2,35,35,50, 2,41,41,51, 1,41,35,41, 2,35,33,56, 2,51,44,51, 2,50,49,50, 1,50,51,50, 2,51,10,50, 
+0,51,35,51, 2,51,41,51, 1,51,47,51, 2,47,53,50, 2,41,56,32, 0,41,47,41, 2,41,45,41, 1,41,51,41, 2,41,41,24, 3,51,53,53, 
+3,45,56,56, 0,45,51,45, 6,45,45,45, 1,51,25,45, 1,45,45,26, 2,49,55,49, 0,49,49,49, 2,44,30,44, 0,44,44,44, 0,44,49,44, 
+2,44,27,44, 5,49,56,56, 
+};
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_0_output[] = { 53,56,54,41,51,45,44,50,32,33,49,53,10 };
+
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_1_input[] = { 156,155,20,18,19,28,23,24,25,22,26,27,21,29,30,31,32,33,34,35,56,59,51,52,53,54,55,57,44,75,76,77,78,79,80,81 };
+static const mw_wide cylindrical_worm_zk_zn_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_1_operation[] = {
+7,37,0,38, 2,39,1,2, 2,40,37,39, 2,41,1,3, 0,41,41,4, 2,42,41,38, 1,43,42,5, 0,43,40,43, 2,44,1,6, 1,44,44,7, 
+2,45,8,41, 2,45,44,45, 2,46,41,9, 0,46,46,10, 2,47,1,11, 2,47,46,47, 1,47,45,47, 2,45,8,37, 2,48,45,46, 2,49,8,38, 
+2,50,44,49, 1,50,48,50, 2,48,12,50, 2,51,3,41, 2,52,1,13, 0,52,51,52, 2,51,52,14, 0,51,48,51, 2,48,51,15, 2,53,43,48, 
+1,53,47,53, 2,47,1,16, 2,54,41,37, 2,39,39,38, 1,39,54,39, 2,54,39,12, 1,47,47,54, 2,45,44,45, 2,49,46,49, 0,49,45,49, 
+2,45,49,15, 2,55,47,45, 1,55,53,55, 2,55,55,17, 4,53,36,49, 2,55,55,53, 1,56,0,55, 2,56,15,56, 7,57,56,58, 2,56,43,58, 
+2,59,1,9, 2,60,55,18, 0,60,59,60, 2,59,19,60, 1,59,54,59, 2,54,59,57, 1,54,56,54, 2,56,59,58, 2,61,43,57, 0,61,56,61, 
+2,56,39,19, 2,60,12,60, 0,60,56,60, 2,56,51,57, 2,62,49,58, 1,62,56,62, 0,40,42,40, 2,42,12,40, 2,56,45,42, 2,63,50,15, 
+2,63,47,63, 0,63,56,63, 2,56,49,20, 2,56,43,56, 2,64,39,48, 1,64,56,64, 1,64,63,64, 2,64,17,64, 2,63,50,55, 0,63,64,63, 
+2,63,53,63, 2,64,63,21, 2,40,19,40, 0,40,64,40, 2,64,3,38, 2,56,37,2, 0,56,64,56, 2,64,56,57, 2,41,41,22, 2,44,44,23, 
+0,44,41,44, 2,41,1,24, 2,46,46,11, 0,46,41,46, 1,46,44,46, 2,48,48,56, 2,44,37,25, 2,41,38,22, 1,41,44,41, 2,41,12,41, 
+0,41,26,41, 2,41,15,41, 2,41,43,41, 0,41,48,41, 1,41,46,41, 2,46,3,37, 2,48,2,38, 1,48,46,48, 2,46,12,48, 1,44,16,46, 
+2,44,45,44, 2,38,38,25, 2,37,37,22, 0,37,38,37, 2,38,15,37, 2,38,47,38, 0,38,44,38, 1,38,41,38, 2,38,17,38, 2,37,55,37, 
+1,37,38,37, 2,37,53,37, 2,53,15,37, 2,38,53,58, 2,55,43,38, 1,55,64,55, 2,37,18,37, 0,37,9,37, 2,64,19,37, 1,64,46,64, 
+2,46,64,58, 2,53,53,57, 2,41,59,53, 0,41,46,41, 0,41,55,41, 2,55,40,41, 2,37,12,37, 2,48,19,48, 0,48,37,48, 1,37,36,63, 
+2,37,15,37, 2,46,37,58, 2,44,43,46, 2,47,39,57, 1,47,44,47, 2,63,63,27, 1,63,42,63, 2,42,63,58, 2,37,37,57, 2,44,59,37, 
+1,44,42,44, 0,44,47,44, 2,47,48,44, 1,47,55,47, 2,47,62,47, 2,51,51,58, 2,62,49,57, 0,62,51,62, 2,63,63,57, 2,46,59,46, 
+0,46,63,46, 2,39,39,58, 2,37,43,37, 0,37,39,37, 0,37,46,37, 2,46,48,37, 2,58,56,58, 2,53,43,53, 0,53,58,53, 2,57,64,57, 
+2,38,59,38, 1,38,57,38, 1,38,53,38, 2,53,40,38, 0,53,46,53, 2,53,62,53, 0,53,47,53, 2,52,52,28, 2,50,19,50, 1,50,52,50, 
+2,52,38,44, 2,47,41,37, 0,47,52,47, 2,47,50,47, 0,47,53,47, 2,47,47,29, 3,53,54,54, 3,50,61,61, 0,50,53,50, 6,50,50,50, 
+1,53,30,50, 1,50,31,50, 3,50,50,50, 3,52,60,60, 0,52,50,52, 6,52,52,52, 0,52,52,32, 9,50,60,60, 2,50,60,50, 1,50,33,50, 
+1,62,34,1, 2,49,49,35, 5,37,37,37, 
+};
+static const unsigned short cylindrical_worm_zk_zn_certified_flank_1_output[] = { 54,61,60,47,53,52,50,62,49,38,41,48,37,44,40 };
+
+static const unsigned short cylindrical_worm_zk_zn_certified_placement_input[] = { 155,156,17,39,62,36,109,40,87,63,84,85,86,129,130,131 };
+static const mw_wide cylindrical_worm_zk_zn_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zk_zn_certified_placement_operation[] = {
+7,18,0,19, 5,20,18,18, 7,21,1,22, 2,23,2,22, 2,24,2,21, 2,25,3,21, 2,26,4,22, 0,26,25,26, 5,26,26,26, 2,25,3,22, 
+2,27,4,21, 1,27,25,27, 2,25,5,21, 2,28,6,22, 1,28,25,28, 2,22,5,22, 2,21,6,21, 0,21,22,21, 5,21,21,21, 
+};
+static const unsigned short cylindrical_worm_zk_zn_certified_placement_output[] = { 19,20,16,16,18,19,16,16,16,16,17,16,16,16,17,16,16,16,23,24,7,8,26,27,9,10,28,21,11,12,13,14,15,8,10,12 };
+
 static const unsigned short cylindrical_worm_zk_zn_certified_rule_0_input[] = { 0 };
 static const mw_wide cylindrical_worm_zk_zn_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short cylindrical_worm_zk_zn_certified_rule_0_operation[] = {
@@ -485,7 +541,13 @@ static const mw_certified cylindrical_worm_zk_zn_certified = {
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_zk_zn_certified_instant_input, cylindrical_worm_zk_zn_certified_instant_constant, cylindrical_worm_zk_zn_certified_instant_operation, cylindrical_worm_zk_zn_certified_instant_output },
     { 140, 72, 3, 489, 196, 30, cylindrical_worm_zk_zn_certified_equations_input, cylindrical_worm_zk_zn_certified_equations_constant, cylindrical_worm_zk_zn_certified_equations_operation, cylindrical_worm_zk_zn_certified_equations_output },
     { 153, 75, 3, 719, 719, 25, cylindrical_worm_zk_zn_certified_observed_input, cylindrical_worm_zk_zn_certified_observed_constant, cylindrical_worm_zk_zn_certified_observed_operation, cylindrical_worm_zk_zn_certified_observed_output },
-    { 177, 67, 2, 811, 811, 10, cylindrical_worm_zk_zn_certified_along_input, cylindrical_worm_zk_zn_certified_along_constant, cylindrical_worm_zk_zn_certified_along_operation, cylindrical_worm_zk_zn_certified_along_output }
+    { 177, 67, 2, 811, 811, 10, cylindrical_worm_zk_zn_certified_along_input, cylindrical_worm_zk_zn_certified_along_constant, cylindrical_worm_zk_zn_certified_along_operation, cylindrical_worm_zk_zn_certified_along_output },
+    {
+        { 58, 28, 2, 142, 141, 13, cylindrical_worm_zk_zn_certified_flank_0_input, cylindrical_worm_zk_zn_certified_flank_0_constant, cylindrical_worm_zk_zn_certified_flank_0_operation, cylindrical_worm_zk_zn_certified_flank_0_output },
+        { 65, 36, 1, 203, 202, 15, cylindrical_worm_zk_zn_certified_flank_1_input, cylindrical_worm_zk_zn_certified_flank_1_constant, cylindrical_worm_zk_zn_certified_flank_1_operation, cylindrical_worm_zk_zn_certified_flank_1_output }
+    },
+    { 29, 16, 2, 19, 19, 36, cylindrical_worm_zk_zn_certified_placement_input, cylindrical_worm_zk_zn_certified_placement_constant, cylindrical_worm_zk_zn_certified_placement_operation, cylindrical_worm_zk_zn_certified_placement_output },
+    1
 };
 
 #endif

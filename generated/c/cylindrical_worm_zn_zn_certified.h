@@ -229,6 +229,53 @@ static const unsigned short cylindrical_worm_zn_zn_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_zn_zn_certified_along_output[] = { 112,110,69,108,123,106,107,126,86,124 };
 
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_0_input[] = { 144,1,2,145,0,24,25,54,55,12,56,49,57,58,59 };
+static const mw_wide cylindrical_worm_zn_zn_certified_flank_0_constant[] = { { 0.0, 0.0, 0.0 } };
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_0_operation[] = {
+2,15,0,1, 0,15,15,2, 7,16,3,17, 2,18,15,17, 2,19,0,4, 2,20,19,16, 0,20,18,20, 2,18,15,16, 2,19,19,17, 1,19,18,19, 
+2,18,3,5, 2,21,0,6, 0,21,18,21, 2,18,0,7, 1,18,18,8, 2,18,9,18, 2,22,16,18, 2,23,15,6, 0,23,23,10, 2,23,9,23, 
+2,24,17,23, 0,24,22,24, 2,22,1,16, 2,25,4,17, 1,25,22,25, 2,22,5,25, 2,26,6,20, 1,26,22,26, 2,26,24,26, 2,23,16,23, 
+2,18,17,18, 1,18,23,18, 2,23,6,19, 2,16,4,16, 2,17,1,17, 0,17,16,17, 2,16,5,17, 0,16,23,16, 2,16,18,16, 1,16,26,16, 
+2,26,0,11, 2,15,1,15, 0,15,26,15, 2,15,9,15, 2,26,20,17, 2,18,19,25, 0,18,26,18, 2,18,15,18, 1,18,16,18, 2,18,18,12, 
+3,16,20,20, 3,15,19,19, 0,15,16,15, 6,15,15,15, 1,16,13,15, 1,15,15,14, 5,26,19,19, 
+};
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_0_output[] = { 20,19,21,18,16,15,17,25,6,26,20,5 };
+
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_1_input[] = { 145,144,7,5,6,15,10,11,12,9,13,14,8,16,17,18,19,20,21,22,39,42,34,35,36,37,38,40,30,60,61,62,63,64,65,66 };
+static const mw_wide cylindrical_worm_zn_zn_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_1_operation[] = {
+7,37,0,38, 2,39,1,2, 2,40,37,39, 2,41,1,3, 0,41,41,4, 2,42,41,38, 1,43,42,5, 0,43,40,43, 2,44,1,6, 1,44,44,7, 
+2,45,8,41, 2,45,44,45, 2,46,41,9, 0,46,46,10, 2,47,1,11, 2,47,46,47, 1,47,45,47, 2,45,8,37, 2,48,45,46, 2,49,8,38, 
+2,50,44,49, 1,50,48,50, 2,48,12,50, 2,51,3,41, 2,52,1,13, 0,52,51,52, 2,51,52,14, 0,51,48,51, 2,48,51,15, 2,53,43,48, 
+1,53,47,53, 2,47,1,16, 2,54,41,37, 2,39,39,38, 1,39,54,39, 2,54,39,12, 1,47,47,54, 2,45,44,45, 2,49,46,49, 0,49,45,49, 
+2,45,49,15, 2,55,47,45, 1,55,53,55, 2,55,55,17, 4,53,36,49, 2,55,55,53, 1,56,0,55, 2,56,15,56, 7,57,56,58, 2,56,43,58, 
+2,59,1,9, 2,60,55,18, 0,60,59,60, 2,59,19,60, 1,59,54,59, 2,54,59,57, 1,54,56,54, 2,56,59,58, 2,61,43,57, 0,61,56,61, 
+2,56,39,19, 2,60,12,60, 0,60,56,60, 2,56,51,57, 2,62,49,58, 1,62,56,62, 0,40,42,40, 2,42,12,40, 2,56,45,42, 2,63,50,15, 
+2,63,47,63, 0,63,56,63, 2,56,49,20, 2,56,43,56, 2,64,39,48, 1,64,56,64, 1,64,63,64, 2,64,17,64, 2,63,50,55, 0,63,64,63, 
+2,63,53,63, 2,64,63,21, 2,40,19,40, 0,40,64,40, 2,64,3,38, 2,56,37,2, 0,56,64,56, 2,64,56,57, 2,41,41,22, 2,44,44,23, 
+0,44,41,44, 2,41,1,24, 2,46,46,11, 0,46,41,46, 1,46,44,46, 2,48,48,56, 2,44,37,25, 2,41,38,22, 1,41,44,41, 2,41,12,41, 
+0,41,26,41, 2,41,15,41, 2,41,43,41, 0,41,48,41, 1,41,46,41, 2,46,3,37, 2,48,2,38, 1,48,46,48, 2,46,12,48, 1,44,16,46, 
+2,44,45,44, 2,38,38,25, 2,37,37,22, 0,37,38,37, 2,38,15,37, 2,38,47,38, 0,38,44,38, 1,38,41,38, 2,38,17,38, 2,37,55,37, 
+1,37,38,37, 2,37,53,37, 2,53,15,37, 2,38,53,58, 2,55,43,38, 1,55,64,55, 2,37,18,37, 0,37,9,37, 2,64,19,37, 1,64,46,64, 
+2,46,64,58, 2,53,53,57, 2,41,59,53, 0,41,46,41, 0,41,55,41, 2,55,40,41, 2,37,12,37, 2,48,19,48, 0,48,37,48, 1,37,36,63, 
+2,37,15,37, 2,46,37,58, 2,44,43,46, 2,47,39,57, 1,47,44,47, 2,63,63,27, 1,63,42,63, 2,42,63,58, 2,37,37,57, 2,44,59,37, 
+1,44,42,44, 0,44,47,44, 2,47,48,44, 1,47,55,47, 2,47,62,47, 2,51,51,58, 2,62,49,57, 0,62,51,62, 2,63,63,57, 2,46,59,46, 
+0,46,63,46, 2,39,39,58, 2,37,43,37, 0,37,39,37, 0,37,46,37, 2,46,48,37, 2,58,56,58, 2,53,43,53, 0,53,58,53, 2,57,64,57, 
+2,38,59,38, 1,38,57,38, 1,38,53,38, 2,53,40,38, 0,53,46,53, 2,53,62,53, 0,53,47,53, 2,52,52,28, 2,50,19,50, 1,50,52,50, 
+2,52,38,44, 2,47,41,37, 0,47,52,47, 2,47,50,47, 0,47,53,47, 2,47,47,29, 3,53,54,54, 3,50,61,61, 0,50,53,50, 6,50,50,50, 
+1,53,30,50, 1,50,31,50, 3,50,50,50, 3,52,60,60, 0,52,50,52, 6,52,52,52, 0,52,52,32, 9,50,60,60, 2,50,60,50, 1,50,33,50, 
+1,62,34,1, 2,49,49,35, 5,37,37,37, 
+};
+static const unsigned short cylindrical_worm_zn_zn_certified_flank_1_output[] = { 54,61,60,47,53,52,50,62,49,38,41,48,37,44,40 };
+
+static const unsigned short cylindrical_worm_zn_zn_certified_placement_input[] = { 144,145,4,26,43,23,97,27,75,44,72,73,74,117,118,119 };
+static const mw_wide cylindrical_worm_zn_zn_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short cylindrical_worm_zn_zn_certified_placement_operation[] = {
+7,18,0,19, 5,20,18,18, 7,21,1,22, 2,23,2,22, 2,24,2,21, 2,25,3,21, 2,26,4,22, 0,26,25,26, 5,26,26,26, 2,25,3,22, 
+2,27,4,21, 1,27,25,27, 2,25,5,21, 2,28,6,22, 1,28,25,28, 2,22,5,22, 2,21,6,21, 0,21,22,21, 5,21,21,21, 
+};
+static const unsigned short cylindrical_worm_zn_zn_certified_placement_output[] = { 19,20,16,16,18,19,16,16,16,16,17,16,16,16,17,16,16,16,23,24,7,8,26,27,9,10,28,21,11,12,13,14,15,8,10,12 };
+
 static const unsigned short cylindrical_worm_zn_zn_certified_rule_0_input[] = { 0 };
 static const mw_wide cylindrical_worm_zn_zn_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short cylindrical_worm_zn_zn_certified_rule_0_operation[] = {
@@ -427,7 +474,13 @@ static const mw_certified cylindrical_worm_zn_zn_certified = {
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_zn_zn_certified_instant_input, cylindrical_worm_zn_zn_certified_instant_constant, cylindrical_worm_zn_zn_certified_instant_operation, cylindrical_worm_zn_zn_certified_instant_output },
     { 103, 53, 2, 310, 142, 30, cylindrical_worm_zn_zn_certified_equations_input, cylindrical_worm_zn_zn_certified_equations_constant, cylindrical_worm_zn_zn_certified_equations_operation, cylindrical_worm_zn_zn_certified_equations_output },
     { 141, 65, 3, 634, 634, 24, cylindrical_worm_zn_zn_certified_observed_input, cylindrical_worm_zn_zn_certified_observed_constant, cylindrical_worm_zn_zn_certified_observed_operation, cylindrical_worm_zn_zn_certified_observed_output },
-    { 130, 53, 1, 524, 524, 10, cylindrical_worm_zn_zn_certified_along_input, cylindrical_worm_zn_zn_certified_along_constant, cylindrical_worm_zn_zn_certified_along_operation, cylindrical_worm_zn_zn_certified_along_output }
+    { 130, 53, 1, 524, 524, 10, cylindrical_worm_zn_zn_certified_along_input, cylindrical_worm_zn_zn_certified_along_constant, cylindrical_worm_zn_zn_certified_along_operation, cylindrical_worm_zn_zn_certified_along_output },
+    {
+        { 27, 15, 0, 57, 56, 12, cylindrical_worm_zn_zn_certified_flank_0_input, cylindrical_worm_zn_zn_certified_flank_0_constant, cylindrical_worm_zn_zn_certified_flank_0_operation, cylindrical_worm_zn_zn_certified_flank_0_output },
+        { 65, 36, 1, 203, 202, 15, cylindrical_worm_zn_zn_certified_flank_1_input, cylindrical_worm_zn_zn_certified_flank_1_constant, cylindrical_worm_zn_zn_certified_flank_1_operation, cylindrical_worm_zn_zn_certified_flank_1_output }
+    },
+    { 29, 16, 2, 19, 19, 36, cylindrical_worm_zn_zn_certified_placement_input, cylindrical_worm_zn_zn_certified_placement_constant, cylindrical_worm_zn_zn_certified_placement_operation, cylindrical_worm_zn_zn_certified_placement_output },
+    1
 };
 
 #endif

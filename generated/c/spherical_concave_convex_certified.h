@@ -226,6 +226,55 @@ static const unsigned short spherical_concave_convex_certified_along_operation[]
 };
 static const unsigned short spherical_concave_convex_certified_along_output[] = { 100,76,107,115,136,71,52,58,121,66 };
 
+static const unsigned short spherical_concave_convex_certified_flank_0_input[] = { 102,10,101,1,11,15,4,16,6,17,8,18,13,19,26,32,45,29,24,46,47,48,49,50,51 };
+static const mw_wide spherical_concave_convex_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_concave_convex_certified_flank_0_operation[] = {
+2,27,0,25, 7,28,27,29, 3,27,28,28, 2,27,27,1, 2,30,2,3, 1,30,30,4, 7,31,0,32, 2,33,30,32, 0,34,33,5, 0,34,27,34, 
+2,27,34,6, 0,27,27,7, 2,35,2,8, 1,35,9,35, 2,36,32,10, 2,36,35,36, 1,36,27,36, 2,36,36,11, 4,27,26,32, 2,36,36,27, 
+7,37,36,38, 2,39,34,38, 2,40,12,35, 2,41,36,13, 0,41,40,41, 2,40,41,37, 1,40,39,40, 2,39,41,38, 2,42,34,37, 0,42,39,42, 
+2,39,28,1, 2,43,29,39, 2,30,30,31, 1,43,43,30, 2,44,32,14, 2,45,44,38, 2,46,6,37, 1,46,45,46, 2,45,15,29, 2,45,29,45, 
+2,47,25,28, 2,47,39,47, 1,47,45,47, 1,33,47,33, 2,47,3,32, 2,45,47,37, 2,39,32,16, 2,32,32,17, 0,32,39,32, 2,32,11,32, 
+2,32,32,27, 2,39,32,38, 2,48,34,39, 0,48,45,48, 2,45,13,32, 1,45,45,18, 2,49,45,38, 2,32,32,37, 2,50,41,32, 1,50,49,50, 
+0,50,48,50, 2,48,33,50, 2,49,3,31, 2,29,25,29, 2,29,28,29, 0,29,29,29, 2,29,1,29, 1,30,29,30, 2,29,30,37, 2,28,10,31, 
+2,28,35,28, 2,35,6,30, 0,35,28,35, 2,35,11,35, 2,36,36,31, 0,36,35,36, 2,36,27,36, 2,27,36,38, 2,35,34,27, 0,35,29,35, 
+2,29,13,36, 2,28,29,38, 2,36,36,37, 2,51,41,36, 1,51,28,51, 0,51,35,51, 2,35,49,51, 0,35,48,35, 2,35,46,35, 2,46,6,38, 
+2,44,44,37, 0,44,46,44, 2,30,30,38, 2,36,34,36, 1,36,30,36, 2,29,29,37, 2,27,41,27, 0,27,29,27, 1,27,36,27, 2,36,49,27, 
+2,38,47,38, 2,32,34,32, 1,32,38,32, 2,37,45,37, 2,39,41,39, 0,39,37,39, 1,39,32,39, 2,32,33,39, 0,32,36,32, 2,32,44,32, 
+1,32,35,32, 2,31,31,14, 2,35,39,51, 2,44,50,27, 1,44,35,44, 2,44,31,44, 1,44,32,44, 2,44,44,19, 3,32,43,43, 1,31,20,32, 
+6,31,31,31, 0,31,21,31, 4,31,32,31, 3,32,40,40, 3,35,42,42, 0,35,32,35, 6,35,35,35, 1,35,22,35, 0,35,31,35, 9,31,43,43, 
+2,31,43,31, 1,31,23,31, 1,32,24,2, 5,49,49,49, 
+};
+static const unsigned short spherical_concave_convex_certified_flank_0_output[] = { 40,42,43,44,35,31,32,2,39,50,49,27,51,33 };
+
+static const unsigned short spherical_concave_convex_certified_flank_1_input[] = { 102,0,101,1,2,3,4,5,6,7,8,9,13,14,44,26,40,45,29,24,52,53,54,55,56,57 };
+static const mw_wide spherical_concave_convex_certified_flank_1_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_concave_convex_certified_flank_1_operation[] = {
+2,28,0,26, 7,29,28,30, 3,28,29,29, 2,28,28,1, 7,31,0,32, 2,33,2,3, 1,33,33,4, 2,34,32,33, 0,35,34,5, 0,35,28,35, 
+2,28,6,35, 0,28,28,7, 2,36,2,8, 1,36,9,36, 2,37,10,36, 2,38,32,37, 1,38,28,38, 2,38,38,11, 4,28,27,32, 2,38,38,28, 
+7,39,38,40, 2,41,35,40, 2,36,12,36, 2,42,38,13, 0,42,36,42, 2,36,42,39, 1,36,41,36, 2,41,42,40, 2,43,35,39, 0,43,41,43, 
+2,33,33,31, 2,41,29,14, 2,44,30,41, 0,44,33,44, 2,45,32,15, 2,46,45,40, 2,47,6,39, 1,47,46,47, 2,46,16,30, 2,46,30,46, 
+2,48,26,29, 2,41,48,41, 1,41,46,41, 0,41,34,41, 2,34,3,32, 2,46,34,39, 2,48,32,17, 2,32,32,18, 0,32,48,32, 2,32,11,32, 
+2,32,32,28, 2,48,32,40, 2,49,35,48, 0,49,46,49, 2,46,13,32, 1,46,46,19, 2,50,46,40, 2,32,32,39, 2,51,42,32, 1,51,50,51, 
+0,51,49,51, 2,49,41,51, 2,50,3,31, 2,30,26,30, 2,30,29,30, 0,30,30,30, 2,30,1,30, 1,33,30,33, 2,30,33,39, 2,37,37,31, 
+2,29,6,33, 0,29,37,29, 2,29,11,29, 2,38,38,31, 0,38,29,38, 2,38,28,38, 2,28,38,40, 2,29,35,28, 0,29,30,29, 2,30,13,38, 
+2,37,30,40, 2,38,38,39, 2,52,42,38, 1,52,37,52, 0,52,29,52, 2,29,50,52, 1,29,49,29, 2,29,47,29, 2,47,6,40, 2,45,45,39, 
+0,45,47,45, 2,33,33,40, 2,38,35,38, 1,38,33,38, 2,30,30,39, 2,28,42,28, 0,28,30,28, 1,28,38,28, 2,38,50,28, 2,40,34,40, 
+2,32,35,32, 1,32,40,32, 2,39,46,39, 2,48,42,48, 0,48,39,48, 1,48,32,48, 2,32,41,48, 1,32,38,32, 2,32,45,32, 0,32,29,32, 
+2,31,31,15, 2,29,48,52, 2,45,51,28, 1,45,29,45, 2,45,31,45, 0,45,32,45, 2,45,45,20, 3,32,36,36, 3,31,43,43, 0,31,32,31, 
+6,31,31,31, 1,31,21,31, 3,32,44,44, 1,29,22,32, 6,29,29,29, 0,29,23,29, 4,29,32,29, 1,29,31,29, 9,31,44,44, 2,31,44,31, 
+1,31,24,31, 1,32,25,2, 
+};
+static const unsigned short spherical_concave_convex_certified_flank_1_output[] = { 36,43,44,45,29,31,32,2,48,51,50,28,52,41 };
+
+static const unsigned short spherical_concave_convex_certified_placement_input[] = { 101,74,20,22,36,23,39,102,75,12,82,58,43 };
+static const mw_wide spherical_concave_convex_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { -1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_concave_convex_certified_placement_operation[] = {
+0,16,0,1, 7,17,16,18, 2,16,2,18, 2,19,2,17, 5,19,19,19, 2,20,3,17, 2,21,4,18, 0,21,20,21, 2,20,3,18, 2,22,4,17, 
+1,22,20,22, 2,20,5,17, 2,23,6,18, 1,23,20,23, 2,18,5,18, 2,17,6,17, 0,17,18,17, 0,18,7,8, 7,20,18,24, 5,24,24,24, 
+5,18,20,20, 
+};
+static const unsigned short spherical_concave_convex_certified_placement_output[] = { 16,19,9,13,21,22,10,13,23,17,11,13,9,10,11,13,13,13,24,18,13,12,20,24,13,13,13,13,14,13,13,13,15,12,13,13 };
+
 static const unsigned short spherical_concave_convex_certified_rule_0_input[] = { 0 };
 static const mw_wide spherical_concave_convex_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short spherical_concave_convex_certified_rule_0_operation[] = {
@@ -386,7 +435,13 @@ static const mw_certified spherical_concave_convex_certified = {
     { 13, 8, 0, 7, 7, 5, spherical_concave_convex_certified_instant_input, spherical_concave_convex_certified_instant_constant, spherical_concave_convex_certified_instant_operation, spherical_concave_convex_certified_instant_output },
     { 107, 48, 3, 369, 138, 30, spherical_concave_convex_certified_equations_input, spherical_concave_convex_certified_equations_constant, spherical_concave_convex_certified_equations_operation, spherical_concave_convex_certified_equations_output },
     { 138, 57, 3, 660, 660, 25, spherical_concave_convex_certified_observed_input, spherical_concave_convex_certified_observed_constant, spherical_concave_convex_certified_observed_operation, spherical_concave_convex_certified_observed_output },
-    { 141, 43, 2, 589, 589, 10, spherical_concave_convex_certified_along_input, spherical_concave_convex_certified_along_constant, spherical_concave_convex_certified_along_operation, spherical_concave_convex_certified_along_output }
+    { 141, 43, 2, 589, 589, 10, spherical_concave_convex_certified_along_input, spherical_concave_convex_certified_along_constant, spherical_concave_convex_certified_along_operation, spherical_concave_convex_certified_along_output },
+    {
+        { 52, 25, 2, 134, 133, 14, spherical_concave_convex_certified_flank_0_input, spherical_concave_convex_certified_flank_0_constant, spherical_concave_convex_certified_flank_0_operation, spherical_concave_convex_certified_flank_0_output },
+        { 53, 26, 2, 132, 132, 14, spherical_concave_convex_certified_flank_1_input, spherical_concave_convex_certified_flank_1_constant, spherical_concave_convex_certified_flank_1_operation, spherical_concave_convex_certified_flank_1_output }
+    },
+    { 25, 13, 3, 21, 21, 36, spherical_concave_convex_certified_placement_input, spherical_concave_convex_certified_placement_constant, spherical_concave_convex_certified_placement_operation, spherical_concave_convex_certified_placement_output },
+    1
 };
 
 #endif

@@ -227,6 +227,55 @@ static const unsigned short spherical_convex_concave_certified_along_operation[]
 };
 static const unsigned short spherical_convex_concave_certified_along_output[] = { 102,73,100,120,127,76,54,60,115,56 };
 
+static const unsigned short spherical_convex_concave_certified_flank_0_input[] = { 103,12,102,1,13,14,4,15,6,16,8,17,10,18,20,28,34,46,31,26,47,48,49,50,51,52 };
+static const mw_wide spherical_convex_concave_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_convex_concave_certified_flank_0_operation[] = {
+2,28,0,26, 7,29,28,30, 3,28,29,29, 2,28,28,1, 2,31,2,3, 1,31,31,4, 7,32,0,33, 2,34,31,33, 0,35,34,5, 0,35,28,35, 
+2,28,35,6, 0,28,28,7, 2,36,2,8, 1,36,9,36, 2,37,33,10, 2,37,36,37, 1,37,28,37, 2,37,37,11, 4,28,27,33, 2,37,37,28, 
+7,38,37,39, 2,40,35,39, 2,41,12,36, 2,42,37,13, 0,42,41,42, 2,41,42,38, 1,41,40,41, 2,40,42,39, 2,43,35,38, 0,43,40,43, 
+2,31,31,32, 2,40,30,14, 2,44,29,40, 0,44,31,44, 2,45,33,15, 2,46,45,39, 2,47,6,38, 1,47,46,47, 2,30,26,30, 2,40,40,30, 
+2,46,16,29, 2,46,29,46, 1,46,40,46, 0,46,34,46, 2,34,3,33, 2,40,34,38, 2,48,33,17, 2,33,33,18, 0,33,48,33, 2,33,11,33, 
+2,33,33,28, 2,48,33,39, 2,49,35,48, 0,49,40,49, 2,40,13,33, 1,40,40,19, 2,50,40,39, 2,33,33,38, 2,51,42,33, 1,51,50,51, 
+0,51,49,51, 2,49,46,51, 2,50,3,32, 2,30,29,30, 0,30,30,30, 2,30,1,30, 1,31,30,31, 2,30,31,38, 2,29,32,10, 2,29,36,29, 
+2,36,6,31, 0,36,29,36, 2,36,11,36, 2,37,32,37, 0,37,36,37, 2,37,28,37, 2,28,37,39, 2,36,35,28, 0,36,30,36, 2,30,13,37, 
+2,29,30,39, 2,37,37,38, 2,52,42,37, 1,52,29,52, 0,52,36,52, 2,36,50,52, 1,36,49,36, 2,36,47,36, 2,47,6,39, 2,45,45,38, 
+0,45,47,45, 2,31,31,39, 2,37,35,37, 1,37,31,37, 2,30,30,38, 2,28,42,28, 0,28,30,28, 1,28,37,28, 2,37,50,28, 2,39,34,39, 
+2,33,35,33, 1,33,39,33, 2,38,40,38, 2,48,42,48, 0,48,38,48, 1,48,33,48, 2,33,46,48, 1,33,37,33, 2,33,45,33, 0,33,36,33, 
+2,32,32,15, 2,36,48,52, 2,45,51,28, 1,45,36,45, 2,45,32,45, 0,45,33,45, 2,45,45,20, 3,33,41,41, 3,32,43,43, 0,32,33,32, 
+6,32,32,32, 1,32,21,32, 3,33,44,44, 1,36,22,33, 6,36,36,36, 0,36,23,36, 4,36,33,36, 1,36,32,36, 9,32,44,44, 2,32,44,32, 
+1,32,24,32, 1,33,25,2, 
+};
+static const unsigned short spherical_convex_concave_certified_flank_0_output[] = { 41,43,44,45,36,32,33,2,48,51,50,28,52,46 };
+
+static const unsigned short spherical_convex_concave_certified_flank_1_input[] = { 103,0,102,1,2,3,4,5,6,7,8,9,10,11,28,42,46,31,26,53,54,55,56,57,58 };
+static const mw_wide spherical_convex_concave_certified_flank_1_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_convex_concave_certified_flank_1_operation[] = {
+2,27,0,25, 7,28,27,29, 3,27,28,28, 2,27,27,1, 7,30,0,31, 2,32,2,3, 1,32,32,4, 2,33,31,32, 0,34,33,5, 0,34,27,34, 
+2,27,6,34, 0,27,27,7, 2,35,2,8, 1,35,9,35, 2,36,10,35, 2,37,31,36, 1,37,27,37, 2,37,37,11, 4,27,26,31, 2,37,37,27, 
+7,38,37,39, 2,40,34,39, 2,35,12,35, 2,41,37,13, 0,41,35,41, 2,35,41,38, 1,35,40,35, 2,40,41,39, 2,42,34,38, 0,42,40,42, 
+2,40,28,1, 2,43,29,40, 2,32,32,30, 1,43,43,32, 2,44,31,14, 2,45,44,39, 2,46,6,38, 1,46,45,46, 2,45,15,29, 2,45,29,45, 
+2,47,25,28, 2,40,47,40, 1,40,45,40, 1,33,40,33, 2,40,3,31, 2,45,40,38, 2,47,31,16, 2,31,31,17, 0,31,47,31, 2,31,11,31, 
+2,31,31,27, 2,47,31,39, 2,48,34,47, 0,48,45,48, 2,45,13,31, 1,45,45,18, 2,49,45,39, 2,31,31,38, 2,50,41,31, 1,50,49,50, 
+0,50,48,50, 2,48,33,50, 2,49,3,30, 2,29,25,29, 2,29,28,29, 0,29,29,29, 2,29,1,29, 1,32,29,32, 2,29,32,38, 2,36,36,30, 
+2,28,6,32, 0,28,36,28, 2,28,11,28, 2,37,37,30, 0,37,28,37, 2,37,27,37, 2,27,37,39, 2,28,34,27, 0,28,29,28, 2,29,13,37, 
+2,36,29,39, 2,37,37,38, 2,51,41,37, 1,51,36,51, 0,51,28,51, 2,28,49,51, 0,28,48,28, 2,28,46,28, 2,46,6,39, 2,44,44,38, 
+0,44,46,44, 2,32,32,39, 2,37,34,37, 1,37,32,37, 2,29,29,38, 2,27,41,27, 0,27,29,27, 1,27,37,27, 2,37,49,27, 2,39,40,39, 
+2,31,34,31, 1,31,39,31, 2,38,45,38, 2,47,41,47, 0,47,38,47, 1,47,31,47, 2,31,33,47, 0,31,37,31, 2,31,44,31, 1,31,28,31, 
+2,30,30,14, 2,28,47,51, 2,44,50,27, 1,44,28,44, 2,44,30,44, 1,44,31,44, 2,44,44,19, 3,31,43,43, 1,30,20,31, 6,30,30,30, 
+0,30,21,30, 4,30,31,30, 3,31,35,35, 3,28,42,42, 0,28,31,28, 6,28,28,28, 1,28,22,28, 0,28,30,28, 9,30,43,43, 2,30,43,30, 
+1,30,23,30, 1,31,24,2, 5,49,49,49, 
+};
+static const unsigned short spherical_convex_concave_certified_flank_1_output[] = { 35,42,43,44,28,30,31,2,47,50,49,27,51,33 };
+
+static const unsigned short spherical_convex_concave_certified_placement_input[] = { 102,75,19,23,38,24,41,103,76,21,83,59,45 };
+static const mw_wide spherical_convex_concave_certified_placement_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { -1.0, 0.0, 0.0 },  };
+static const unsigned short spherical_convex_concave_certified_placement_operation[] = {
+0,16,0,1, 7,17,16,18, 2,16,2,18, 2,19,2,17, 5,19,19,19, 2,20,3,17, 2,21,4,18, 0,21,20,21, 2,20,3,18, 2,22,4,17, 
+1,22,20,22, 2,20,5,17, 2,23,6,18, 1,23,20,23, 2,18,5,18, 2,17,6,17, 0,17,18,17, 0,18,7,8, 7,20,18,24, 5,24,24,24, 
+5,18,20,20, 
+};
+static const unsigned short spherical_convex_concave_certified_placement_output[] = { 16,19,9,13,21,22,10,13,23,17,11,13,9,10,11,13,13,13,24,18,13,12,20,24,13,13,13,13,14,13,13,13,15,12,13,13 };
+
 static const unsigned short spherical_convex_concave_certified_rule_0_input[] = { 0 };
 static const mw_wide spherical_convex_concave_certified_rule_0_constant[] = { { 1.0, 0.0, 0.0 },  };
 static const unsigned short spherical_convex_concave_certified_rule_0_operation[] = {
@@ -387,7 +436,13 @@ static const mw_certified spherical_convex_concave_certified = {
     { 13, 8, 0, 7, 7, 5, spherical_convex_concave_certified_instant_input, spherical_convex_concave_certified_instant_constant, spherical_convex_concave_certified_instant_operation, spherical_convex_concave_certified_instant_output },
     { 110, 50, 3, 365, 139, 30, spherical_convex_concave_certified_equations_input, spherical_convex_concave_certified_equations_constant, spherical_convex_concave_certified_equations_operation, spherical_convex_concave_certified_equations_output },
     { 138, 57, 3, 660, 660, 25, spherical_convex_concave_certified_observed_input, spherical_convex_concave_certified_observed_constant, spherical_convex_concave_certified_observed_operation, spherical_convex_concave_certified_observed_output },
-    { 141, 45, 2, 591, 591, 10, spherical_convex_concave_certified_along_input, spherical_convex_concave_certified_along_constant, spherical_convex_concave_certified_along_operation, spherical_convex_concave_certified_along_output }
+    { 141, 45, 2, 591, 591, 10, spherical_convex_concave_certified_along_input, spherical_convex_concave_certified_along_constant, spherical_convex_concave_certified_along_operation, spherical_convex_concave_certified_along_output },
+    {
+        { 53, 26, 2, 132, 132, 14, spherical_convex_concave_certified_flank_0_input, spherical_convex_concave_certified_flank_0_constant, spherical_convex_concave_certified_flank_0_operation, spherical_convex_concave_certified_flank_0_output },
+        { 52, 25, 2, 133, 132, 14, spherical_convex_concave_certified_flank_1_input, spherical_convex_concave_certified_flank_1_constant, spherical_convex_concave_certified_flank_1_operation, spherical_convex_concave_certified_flank_1_output }
+    },
+    { 25, 13, 3, 21, 21, 36, spherical_convex_concave_certified_placement_input, spherical_convex_concave_certified_placement_constant, spherical_convex_concave_certified_placement_operation, spherical_convex_concave_certified_placement_output },
+    1
 };
 
 #endif
