@@ -47,7 +47,7 @@ SETTINGS
 
 
 #: What a program with one header needs of the runtime.
-SOURCES = ("complete", "solve")
+SOURCES = ("complete", "solve", "trace")
 
 
 @pytest.fixture(scope="module")

@@ -99,6 +99,16 @@ def test_the_composite_pattern_holds_every_single_patch(name, analysed):
     assert np.nanmin(whole.running - whole.alone) > -1e-7
 
 
+def test_an_ease_off_known_at_single_places_alone_is_said_not_drawn(analysed):
+    """Two known places span no triangle."""
+    analysis = analysed("spherical-table-3-1-concave")
+    single = np.full_like(analysis.whole["wheel"].ease_off, np.nan)
+    single[:2] = 0.01, 0.02
+    whole = analysis.whole | {"wheel": replace(analysis.whole["wheel"], ease_off=single)}
+    figure = whole_figure.ease_off(replace(analysis, whole=whole), "wheel")
+    assert [text.get_text() for axes in figure.axes for text in axes.texts][0] == "beyond the positions of a pair"
+
+
 def test_a_thicker_compound_is_named(analysed):
     analysis = replace(analysed("spherical-table-3-1-concave"), marking=0.020)
     captions = [p.caption for p in pictures(analysis) if p.name.startswith("whole")]

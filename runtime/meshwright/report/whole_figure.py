@@ -150,11 +150,14 @@ def ease_off(analysis, member):
     whole = analysis.whole[member]
     sheet, values = Sheet(whole, member), 1000.0 * whole.ease_off
     figure, panels = sheet.axes()
+    known = np.isfinite(values[whole.triangles]).all(axis=1)
     levels = _levels(values)
     triangles = sheet.triangles
-    triangles.set_mask(~np.isfinite(values[whole.triangles]).all(axis=1))
+    triangles.set_mask(~known)
     for axes in panels:
-        if len(levels) > 1:
+        if not known.any():
+            axes.text(0.5, 0.5, "beyond the positions of a pair", transform=axes.transAxes, ha="center", va="center")
+        elif len(levels) > 1:
             shown = np.where(np.isfinite(values), values, 0.0)
             axes.tricontourf(triangles, shown, levels=levels, cmap="viridis_r", alpha=0.55, extend="both")
             drawn = axes.tricontour(triangles, shown, levels=levels, colors=style.INK, linewidths=0.6)
