@@ -44,6 +44,10 @@ solver:
 cmake: setup
 	@command -v cmake >/dev/null || test -x $(VENV)/bin/cmake || $(PY) -m pip install --quiet cmake
 
+# Open CASCADE, which checks every solid that is written; without it those tests are not run.
+cad: setup
+	@$(PY) -c "import OCP" 2>/dev/null || $(PY) -m pip install --quiet --no-compile --editable '.[cad]'
+
 # Regenerate generated/: the drives that packaged designs use; with DRIVES="name …" those, with DRIVES=all all.
 generate: $(LEAN)
 	$(PY) -m derive $(DRIVES)
@@ -112,7 +116,7 @@ benchmark: setup build
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is.
-validate: setup build solver cmake sanitizers emulators coq
+validate: setup build solver cmake cad sanitizers emulators coq
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadfile
 
 # An emulator of ARM64, where it can be had without asking.
