@@ -13,13 +13,13 @@ from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.rigid import RigidTeeth
 from meshwright.fe import loaded
 from meshwright.fe.blocks import Block
-from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.compliance import ToothCompliance, without_negative
 from meshwright.fe.elastic import flexibility
 from meshwright.fe.free_edges import free_edge_displacements
 from meshwright.fe.gap import ContactGrid
 from meshwright.fe.halfspace import equal_cells, image_factor, mean_displacement
 from meshwright.fe.hexahedra import nodal_areas
-from meshwright.fe.loaded import loaded_contact, without_negative
+from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.material import Material
 from meshwright.fe.model import Load
 from meshwright.fe.pair import first_touches

@@ -156,3 +156,14 @@ def spline_weights(count: int, places: Floats) -> Floats:
     """
     sums = np.tri(count + 1, count, -1) / count
     return CubicSpline(np.linspace(0.0, 1.0, count + 1), sums).derivative()(places)
+
+
+def without_negative(compliance: Floats) -> Floats:
+    """The nearest matrix to a symmetric one (K, K) that has no negative eigenvalue.
+
+    Source: N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra and its
+    Applications 103 (1988).
+    """
+    values, vectors = np.linalg.eigh(compliance)
+    negative = values < 0.0
+    return compliance - (vectors[:, negative] * values[negative]) @ vectors[:, negative].T

@@ -12,7 +12,8 @@ it moves alike. What the patches know of the same images is taken off the compli
 
 The images of loads on one side of an edge store a positive energy: 1/r is reflection positive (K. Osterwalder and R.
 Schrader, Axioms for Euclidean Green's functions, 1973), and weights on both sides are a congruence. Distances from an
-edge are therefore those of the flank's own coordinates: no cell lies beyond the edge that has its image.
+edge are therefore those of the flank's own coordinates: no cell lies beyond the edge that has its image. Displacements
+are those of the middles of cells, which leaves a remainder of either sign: what of it is negative is left out.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from itertools import combinations
 
 import numpy as np
 
-from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance
+from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance, without_negative
 from meshwright.fe.gap import Bools, ContactGrid
 from meshwright.fe.halfspace import far_or_near, image_factor
 from meshwright.fe.hexahedra import Floats, Ints
@@ -65,7 +66,9 @@ def free_edge_displacements(
     if not edges:
         return None
     whole, sets = np.zeros((len(grid.gap),) * 2), list(_sets(edges))
-    whole[np.ix_(cells, cells)] = sum(_images(of, material) for of in sets)
+    images = np.sum([_images(of, material) for of in sets], axis=0)
+    near = np.flatnonzero(images.any(axis=0))
+    whole[np.ix_(cells[near], cells[near])] = without_negative(images[np.ix_(near, near)])
     if tooth is None:
         return whole, None
     return whole, np.sum([_known(tooth, material, tuple((e.axis, e.end) for e in of)) for of in sets], axis=0)

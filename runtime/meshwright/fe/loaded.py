@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.ndimage import binary_dilation
 
-from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.compliance import ToothCompliance, without_negative
 from meshwright.fe.free_edges import free_edge_displacements
 from meshwright.fe.gap import Bools, ContactGrid, contact_grid
 from meshwright.fe.gate import LARGEST_ROTATION
@@ -361,17 +361,6 @@ def _smooth(
     blocks = [[tooth.between(seen, pressed) for pressed in later] for seen in later]
     whole = np.block([[nothing if block is None else block for block in row] for row in blocks])
     return weights, without_negative(whole - block_diag(*(nothing if k is None else k for k in known)))
-
-
-def without_negative(compliance: Floats) -> Floats:
-    """The nearest matrix to a symmetric one (K, K) that has no negative eigenvalue.
-
-    Source: N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra and its
-    Applications 103 (1988).
-    """
-    values, vectors = np.linalg.eigh(compliance)
-    negative = values < 0.0
-    return compliance - (vectors[:, negative] * values[negative]) @ vectors[:, negative].T
 
 
 def active_set(
