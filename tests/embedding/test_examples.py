@@ -136,7 +136,7 @@ def test_from_the_wheel_to_a_report_of_a_drive_of_ones_own_takes_half_a_minute(t
     c.run(meshwright, "new", "cylindrical-worm", "--m", "4", "--z", "2:40", "--out", "pair.toml", cwd=folder)
     c.run(meshwright, "report", "pair.toml", "--html", "report.html", cwd=folder)
     taken = os.times()
-    assert "<canvas" in (folder / "report.html").read_text(encoding="utf-8")
+    assert "new TeethView(" in (folder / "report.html").read_text(encoding="utf-8")
     assert taken.children_user + taken.children_system - begun.children_user - begun.children_system < 30.0
 
 

@@ -113,12 +113,15 @@ def test_half_spaces_give_hertz(drive_and_gear):
 
 @pytest.mark.validate
 def test_what_the_blank_leaves_open_is_said(capsys, tmp_path):
-    """And that, being so narrow, it has no pair in contact at some angles."""
+    """And that, being so narrow (contact ratio 0.69), it has edges of its faces alone in contact at some angles."""
     bare = without_blank("zk-zn-60", tmp_path)
-    assert main(["loaded", bare, "--torque-nm", "20", "--phi-deg=-60,0", "--pairs", "1"]) == 1
-    shown = capsys.readouterr().out
-    assert "wheel_face_width_mm = " in shown and "no tooth pair touches" in shown
-    assert re.search(r"contact ratio 0\.69\d: the assumed blank leaves gaps .* face of the wheel", shown)
+    assert main(["loaded", bare, "--torque-nm", "20", "--phi-deg=-60,0", "--pairs", "1"]) == 0
+    assumed, *_, between, beside, inside = capsys.readouterr().out.splitlines()
+    assert "wheel_face_width_mm = " in assumed
+    assert between.split()[0] == "-60" and inside.split()[0] == "0"
+    assert re.findall(r"pair \S+ touches first with the edge of the wheel \(face\)", beside) == [
+        f"pair {later} touches first with the edge of the wheel (face)" for later in ("-1", "+0")
+    ]
 
 
 def test_contact_ratio_of_the_whole_blank():
