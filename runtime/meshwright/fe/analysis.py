@@ -14,11 +14,11 @@ from meshwright.base.files import remove_parts, write_json, write_text
 from meshwright.fe import stress
 from meshwright.fe.compliance import ToothCompliance
 from meshwright.fe.deck import write
-from meshwright.fe.gate import Check, accept
+from meshwright.fe.gate import LARGEST_ROTATION, Check, accept
 from meshwright.fe.grading import MeshDensity
 from meshwright.fe.hertz import elliptic_contact
 from meshwright.fe.hexahedra import HexMesh
-from meshwright.fe.loaded import LoadedContact, LoadedPair, loaded_contact
+from meshwright.fe.loaded import FAR_TOO_FAR, LoadedContact, LoadedPair, loaded_contact
 from meshwright.fe.material import contact_modulus, max_principal, von_mises
 from meshwright.fe.model import Load, PairModel, build_model
 from meshwright.fe.pair import GearPair, tangencies_only
@@ -69,9 +69,15 @@ def prepare(
 ) -> Prepared:
     """Find the forces semi-analytically, build the mesh for them and write the input into ``folder``.
 
-    Whoever calls this holds the lock of the folder.
+    Whoever calls this holds the lock of the folder. Raises ArithmeticError where the loaded contact does not settle, or
+    the teeth give way so far that no mesh can be made for it.
     """
     loaded = loaded_contact(tangencies_only(gear), pinion_angle, settings.pairs, load, compliance)
+    if abs(loaded.rotation) > FAR_TOO_FAR * LARGEST_ROTATION:
+        raise ArithmeticError(
+            f"the loaded member would turn by {loaded.rotation:.3g} rad, where up to {LARGEST_ROTATION:g} rad are "
+            "small: choose a smaller torque"
+        )
     forces = np.array([pair.force for pair in loaded.pairs])
     model = build_model(gear, pinion_angle, settings.pairs, load, forces, settings.density)
     text = write(model.deck)

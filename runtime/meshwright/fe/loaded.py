@@ -32,8 +32,8 @@ _LEAST_SHARE = 0.05
 _ACTIVE_SET_STEPS = 200
 # An ellipse of which no more than this lies on both flanks is no guide to where they touch.
 _LEAST_USED = 0.15
-# Beyond so many times the rotation up to which there are figures, more cells are not worth their while.
-_FAR_TOO_FAR = 2.0
+#: Beyond so many times the rotation up to which there are figures, more cells are not worth their while.
+FAR_TOO_FAR = 2.0
 # Flanks touch where they would overlap by so much of what is closed there, about: by half of it under Hertz's ellipse.
 _TOUCHING = 0.5
 # Teeth give way about so many times as far as the half-spaces of their contact.
@@ -151,7 +151,7 @@ def loaded_contact(
         pressures, rotation = _equilibrium(gear, used, grids, load, compliance, start)
         before = {of.contact.pairs_later: (g, p) for of, g, p in zip(used, grids, pressures, strict=True)}
         forces = np.array([grid.area * p.sum() for grid, p in zip(grids, pressures, strict=True)])
-        if abs(rotation) > _FAR_TOO_FAR * LARGEST_ROTATION:
+        if abs(rotation) > FAR_TOO_FAR * LARGEST_ROTATION:
             break
     solved = tuple(
         LoadedPair(
