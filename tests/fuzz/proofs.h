@@ -182,6 +182,34 @@ static double *solved_start(reader *r, fuzzed *f, double phi)
     return x;
 }
 
+/* First contact within ranges of the flanks' parameters about a certified contact, or wherever a number may lie. */
+static void first_proof(reader *r, fuzzed *f, const mw_wide *s, double at, const mw_certificate *contact)
+{
+    const mw_model *m = f->m;
+    double flanks[8], *scale = numbers((size_t)m->nx), *work = numbers(mw_certify_first_work());
+    mw_first_certificate *c = room(1, sizeof *c);
+    m->set_phi(f->s, at);
+    m->scale(f->s, scale);
+    for (int i = 0; i < 4; i++) {
+        const int k = m->bodies[i / 2].unknowns[i % 2];
+        const double middle = contact->outcome == MW_UNIQUE ? contact->x[k].hi : number(r, 0.0);
+        for (int side = 0; side < 2; side++) flanks[2 * i + side] = number(r, middle + (side ? 1.0 : -1.0) * ldexp(scale[k], -(int)(byte(r) % 16)));
+    }
+    const double slack = number(r, 1e-7), reach = number(r, 1e-3);
+    const int effort = 8 * byte(r);
+    if (mw_certify_first(m, s, as_wide(at, 0.0), contact, flanks, slack, reach, effort, work, c) != c->outcome)
+        fail("first contact: two words for one outcome");
+    calls++;
+    note(r, &c->outcome, sizeof c->outcome);
+    if ((c->outcome == MW_FIRST_UNKNOWN) != (c->reason != MW_REASON_NONE)) fail("first contact: not known, without its reason");
+    if (c->outcome == MW_FIRST_UNKNOWN) return;
+    if (contact->outcome != MW_UNIQUE) fail("first contact of a contact that is not certified");
+    if (!(slack > 0.0 && reach > slack)) fail("first contact over no angles");
+    if (c->outcome == MW_FIRST_REFUTED && !(c->apart.mid + c->apart.radius < 0.0)) fail("an overlap that is none");
+    for (int i = 0; c->outcome == MW_FIRST_REFUTED && i < 2; i++)
+        if (!(c->wheel[i] >= flanks[4 + 2 * i] && c->wheel[i] <= flanks[5 + 2 * i])) fail("an overlap beyond the flanks");
+}
+
 static void certificate(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
@@ -193,6 +221,7 @@ static void certificate(reader *r, fuzzed *f)
     const double radius = number(r, 0.0);
     must_be_sound(r, m, c, mw_certify(m, s, as_wide(at, radius), x, byte(r) & 1, c));
     if (f->completed && all && radius < 1e-12 && c->outcome == MW_UNIQUE) must_agree(r, f, at, x, NULL, c);
+    if (byte(r) < 128) first_proof(r, f, s, at, c);
     m->set_phi(f->s, at);
     m->scale(f->s, d);
     const double share = ldexp(1.0, -(int)(byte(r) % 40));
