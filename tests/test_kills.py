@@ -189,7 +189,7 @@ def analysis(monkeypatch):
         (folder / "pressure.png").write_bytes(b"a picture")
         return {"pressure": "pressure.png"}
 
-    loaded = SimpleNamespace(pairs=[SimpleNamespace(force=f) for f in forces], pinion_angle=0.0)
+    loaded = SimpleNamespace(pairs=[SimpleNamespace(force=f) for f in forces], pinion_angle=0.0, rotation=1e-4)
     for name, stands_in in {
         "loaded_contact": lambda *given: loaded, "build_model": lambda *given: model, "write": lambda *given: deck,
         "run_ccx": solved, "judge": accepted, "draw": drawn,

@@ -5,11 +5,10 @@ of a second; a terminal shows how far it is. Teeth are linear elastic and turn b
 turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of pressure
 there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
 a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
-Where
-the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with the free
-edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the cells.
-Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not found, or
-the torque is too large for the method.
+Where the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with
+the free edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the
+cells. Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not
+found, or the torque is too large for the method.
 """
 
 import numpy as np
@@ -24,6 +23,9 @@ from meshwright.contact.results import ARCSEC
 from meshwright.shop.tables import read_csv
 
 SCHEMA = "meshwright.loaded/1"
+
+#: Transmission errors of a point, under load and of rigid teeth.
+ERRORS = "loaded_transmission_error_arcsec", "unloaded_transmission_error_arcsec"
 
 #: Steps of the work besides one an angle.
 STEPS = 4
@@ -102,7 +104,7 @@ def _mirrored(point, mirror):
         }
         for pair in point["pairs"]
     ]  # fmt: skip
-    errors = {key: mirror.sign * point[key] for key in point if key.endswith("transmission_error_arcsec")}
+    errors = {key: mirror.sign * point[key] for key in ERRORS}
     return point | {"pairs": pairs} | errors
 
 
@@ -111,8 +113,7 @@ def _nothing(angle):
         "pinion_angle_deg": float(np.degrees(angle)),
         "status": "no_contact",
         "message": "no tooth pair touches at this angle",
-        "loaded_transmission_error_arcsec": None,
-        "unloaded_transmission_error_arcsec": None,
+        **dict.fromkeys(ERRORS),
         "mesh_stiffness_n_per_um": None,
         "rotation_rad": None,
         "pairs": [],
@@ -132,11 +133,11 @@ def _point(fe, gear, mirror, angle, pairs, load, compliance):
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
     total = sum(pair.force for pair in found.pairs)
     lines = _lines(gear, angle, found.unloaded_error, found.pairs)
+    errors = found.transmission_error, found.unloaded_error
     return point | {
         "status": "converged",
         "message": "; ".join(_edge_note(pair, mirror) for pair in found.pairs if pair.cut_off),
-        "loaded_transmission_error_arcsec": found.transmission_error / ARCSEC,
-        "unloaded_transmission_error_arcsec": found.unloaded_error / ARCSEC,
+        **{key: error / ARCSEC for key, error in zip(ERRORS, errors, strict=True)},
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
         "pairs": [_pair(pair, total) | {"line_mm": line} for pair, line in zip(found.pairs, lines, strict=True)],

@@ -104,8 +104,7 @@ def first_contacts(drive, angles, result=None):
 
 def first_contact_of(mesh):
     """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
-    path = mesh.window.path
-    search = None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
+    search = _searched(mesh)
     if search is None:
         return None
 
@@ -120,8 +119,7 @@ def pair_errors(mesh):
     """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
     first, NaN where they never do; None where the blank does not bound them.
     """
-    drive, path = mesh.drive, mesh.window.path
-    search, _ = _Search.of(drive, path.angles, path.unknowns)
+    search = _searched(mesh)
     if search is None:
         return None
 
@@ -130,6 +128,12 @@ def pair_errors(mesh):
         return mesh.mirror * np.array([math.nan if f is None else f.wheel_turn for f in found])
 
     return errors
+
+
+def _searched(mesh):
+    """The search from the contacts of a mesh's path; None without one, or where the blank does not bound the flanks."""
+    path = mesh.window.path
+    return None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
 
 
 def _gathered(drive, angles, found, reason):

@@ -114,10 +114,15 @@ def _check_point_contact(drive: Drive) -> None:
         )
 
 
-def _touch(drive: Drive, angle: float) -> Touch | None:
+def _path_to(drive: Drive, angle: float) -> TCA:
     """The contact followed from angle 0: equations of a thread have the contact of a turn earlier as a solution too."""
     steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
-    path = drive.tca(np.linspace(0.0, angle, steps + 1))
+    return drive.tca(np.linspace(0.0, angle, steps + 1))
+
+
+def _touch(drive: Drive, angle: float) -> Touch | None:
+    """The tangency of the reference pair at an angle, None off its flanks."""
+    path = _path_to(drive, angle)
     return _tangency(path, -1) if not any(flag.startswith("off_") for flag in path.flags[-1]) else None
 
 
@@ -147,9 +152,8 @@ def _edge(drive: Drive, first: Callable[[Floats], FirstContacts] | None, angle: 
     found = first(np.array([angle]))
     if found.kinds[0] in (None, "tangency"):
         return None
-    steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
-    path = drive.tca(np.linspace(0.0, angle, steps + 1))
-    near = next((t for t in (_tangency(path, k) for k in range(steps, -1, -1)) if t is not None), None)
+    path = _path_to(drive, angle)
+    near = next((t for t in (_tangency(path, k) for k in reversed(range(len(path.angles)))) if t is not None), None)
     if near is None:
         return None
     normal = found.normals[0] / np.linalg.norm(found.normals[0])
