@@ -57,8 +57,8 @@ class RigidTeeth:
         return found if found is not None and math.isfinite(found.ahead(0, middle)) else None
 
     def ahead(self, number, angle, least=-math.inf):
-        """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does. Where
-        it touches at no more than ``least``, some error that is no higher: that takes far less to find.
+        """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does.
+        Where it touches at no more than ``least``, some error that is no higher: that takes far less to find.
         """
         here = self.known[angle]
         error, exceeded = here.get(number, (-math.inf, math.inf))
