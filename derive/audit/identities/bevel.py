@@ -138,7 +138,7 @@ MACHINE_LETTERS = {
 MODIFIED_ROLL = {f"c_{n}_{{}}": "0" for n in range(2, 7)} | {"R_{}": "work/phi_cradle_{}"}
 LENGTHS = {"E_m_{}": "c*Em", "X_B_{}": "c*XB", "X_D_{}": "c*XD", "H_{}": "c*H", "S_r_{}": "c*Sr"}
 APEX = {"X_B_{}": "XB + l*tan(gamma)", "X_D_{}": "XD - l/cos(gamma)"}
-CROWN = dict.fromkeys(("E_m_{}", "X_B_{}", "X_D_{}", "H_{}"), "0")
+CROWN: dict[str, str] = dict.fromkeys(("E_m_{}", "X_B_{}", "X_D_{}", "H_{}"), "0")
 
 
 def _machine(member: str) -> dict:
