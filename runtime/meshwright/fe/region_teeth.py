@@ -19,7 +19,7 @@ from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide
 from meshwright.fe.tooth_patches import Tooth
 from meshwright.flank.known_side import KnownSide
-from meshwright.flank.lines import Lines, solve
+from meshwright.flank.lines import solve
 from meshwright.flank.sides import RegionSide, Side
 
 # Sections in which the turn of a tooth about the axis is followed.
@@ -98,21 +98,16 @@ class _Curves:
 
     def _ends(self, values: Floats, share: float) -> Floats:
         """Profile parameters (K,) at a share of the way from the root end to the tip end."""
-        found = self.known.at(values)[0 if self.region == "flank" else 1]
+        found = self.known.lines(self.region, values)
         ends = [end[:, found.region.profile] for end in (found.lower, found.upper)]
         low, high = ends if self.upward else ends[::-1]
         return low + share * (high - low)
-
-    @property
-    def _lines(self) -> Lines:
-        """Those in the known sections."""
-        return getattr(self.known, self.region)
 
     def surface(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
         """Points and normals (..., 3) at profile parameters in sections; not a number where the surface is not."""
         profile, section = np.broadcast_arrays(profile, section)
         flat, values = profile.ravel().astype(float), section.ravel().astype(float)
-        region = self._lines.region
+        region = self.known.lines(self.region).region
         found = region.flank(solve(region, flat, values, self._near(flat, values)))
         points, normals = ((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
         return points, normals
@@ -120,8 +115,8 @@ class _Curves:
     def _near(self, profile: Floats, values: Floats) -> Floats:
         """Parameters (N, k) near places, between those of known sections."""
         if not self.table:
-            self.table.append(self._lines.places(np.linspace(0.0, 1.0, _ACROSS)))
-        (table,), of = self.table, self._lines.region.profile
+            self.table.append(self.known.lines(self.region).places(np.linspace(0.0, 1.0, _ACROSS)))
+        (table,), of = self.table, self.known.lines(self.region).region.profile
         column, rest = self.known.beside(values)
         rows = [(1.0 - rest) * table[k, column] + rest * table[k, column + 1] for k in (0, -1)]
         low, high = rows[0][:, of], rows[1][:, of]

@@ -58,6 +58,14 @@ class KnownSide:
                 ends[joint][both.any(axis=0) & ~both.all(axis=0)] = ELSEWHERE
         return cls(side, values, flank, fillet, ends)
 
+    def lines(self, name: str, values: Floats | None = None) -> Lines:
+        """Those of flank or fillet in sections (K,), None for the known ones."""
+        flank, fillet = (self.flank, self.fillet) if values is None else self.at(values)
+        found = flank if name == "flank" else fillet
+        if found is None:
+            raise ValueError(f"this side has no {name}")
+        return found
+
     def at(self, values: Floats) -> tuple[Lines, Lines | None]:
         """Flank and fillet in sections (K,), kept."""
         key = values.tobytes()
@@ -73,8 +81,8 @@ class KnownSide:
             flank, fillet = self._crossing(flank, fillet, sure)
         if sure.all():
             return flank, fillet
-        exact = self.side.at(values[~sure])
-        return _put(flank, ~sure, exact[0]), fillet and _put(fillet, ~sure, exact[1])
+        exact, beside = self.side.at(values[~sure])
+        return _put(flank, ~sure, exact), fillet and beside and _put(fillet, ~sure, beside)
 
     def _between_alike(self, values: Floats) -> Bools:
         """Whether (K,) lines end for the same reasons, known ones, in the known sections on either side."""
@@ -115,9 +123,7 @@ class KnownSide:
         found = self.side.crossing_near(both[0], both[1], [q.copy() for q in places])
         points = [lines.region.flank(q).points for lines, q in zip(both, found, strict=True)]
         sure[crossed] &= np.linalg.norm(points[0] - points[1], axis=1) < ROUNDING
-        return tuple(
-            _moved(lines, upper, crossed, q) for lines, upper, q in zip((flank, fillet), joints, found, strict=True)
-        )
+        return _moved(flank, joints[0], crossed, found[0]), _moved(fillet, joints[1], crossed, found[1])
 
 
 def _end(lines: Lines, upper: bool) -> Floats:
