@@ -118,12 +118,13 @@ def beside(plan: Schedule) -> list[float]:
 
 def solve(plan: Schedule, parameters: Values, angle: float) -> Values:
     """Start system, then contact, by full Newton steps in the current mpmath precision."""
-    inputs = _start(plan, parameters, angle)
+    inputs = near(plan, parameters, angle)
     _iteration(plan.tape, plan.residual, plan.jacobian, plan.unknowns)(inputs)
     return inputs
 
 
-def _start(plan: Schedule, parameters: Values, angle: float) -> Values:
+def near(plan: Schedule, parameters: Values, angle: float) -> Values:
+    """Inputs (symbol → number) close to a contact: the solution of the start system."""
     drive = plan.drive
     inputs = dict(parameters)
     inputs[drive.instant] = mpmath.mpf(angle)
