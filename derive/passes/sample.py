@@ -148,7 +148,10 @@ def _iteration(
 
     def iterate(inputs: Values, tolerance: float | None = None) -> None:
         for _ in range(60):
-            numbers = evaluate(inputs)
+            try:
+                numbers = evaluate(inputs)
+            except (AttributeError, TypeError) as error:  # what mpmath's real functions say to complex numbers
+                raise ArithmeticError(f"the sample of {unknowns} leaves the real numbers; choose another") from error
             change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
