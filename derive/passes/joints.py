@@ -1,5 +1,6 @@
 """Where a region of a tooth, such as its fillet, joins the flank: at the sample design, for either flank."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -11,7 +12,7 @@ from derive.language.drive import Drive, Margin
 from derive.language.symbols import Table
 from derive.language.validate import Joint
 from derive.passes.plan import Flank, Schedule
-from derive.passes.sample import DIGITS, Completion, Values, in_double, near, solve
+from derive.passes.sample import DIGITS, Completion, Values, in_double, near, solution, solve
 
 Row: TypeAlias = list[float]
 
@@ -39,12 +40,12 @@ class _Place:
 
     def way(self) -> Row:
         """The unit direction across the joint in which the margin there grows, its conditions kept."""
-        matrix, n = mpmath.fp.matrix, len(self.tangents)
         # least |tangents · q| with slopes · q = (1, 0 …): Lagrange's equations
         rows = [
             [_dot(a, b) for b in self.tangents] + [row[k] for row in self.slopes] for k, a in enumerate(self.tangents)
         ] + [[*row, *[0.0] * len(self.slopes)] for row in self.slopes]
-        change = mpmath.fp.lu_solve(matrix(rows), matrix([0.0] * n + [1.0] + [0.0] * (len(self.slopes) - 1)))
+        wanted = [0.0] * len(self.tangents) + [1.0] + [0.0] * (len(self.slopes) - 1)
+        change = _solved(rows, wanted)
         return _unit([sum(change[k] * t[axis] for k, t in enumerate(self.tangents)) for axis in range(3)])
 
 
@@ -117,13 +118,17 @@ def _contact(plan: Schedule, design: Values) -> Values:
         return near(plan, design, plan.drive.sample_angle)
 
 
+def _excess(value: mpmath.mpf) -> mpmath.mpf:
+    return max(value, mpmath.mpf(0))
+
+
 def _fill(drive: Drive, design: Values) -> None:
     """Fill in the sizes of blank and tools that a design leaves open."""
     for rule in drive.proportions:
         if mpmath.isnan(design[rule.target]):
             value = sp.sympify(drive.definitions.resolve(rule.value))
             known = sorted(value.free_symbols, key=str)
-            number = sp.lambdify(known, value, [{"excess": lambda x: max(x, 0)}, "mpmath"])
+            number = sp.lambdify(known, value, [{"excess": _excess}, "mpmath"])
             design[rule.target] = mpmath.mpf(number(*(design[q] for q in known)))
 
 
@@ -148,7 +153,7 @@ def _joint(
         ways = -_dot(one.way(), other.way())
     except (ArithmeticError, ValueError):
         return None
-    if not mpmath.fp.norm([a - b for a, b in zip(one.point, other.point, strict=True)]) < APART:
+    if not math.dist(one.point, other.point) < APART:
         return None
     normals = _dot(one.normal, other.normal)
     if not abs(normals) > TANGENT:
@@ -159,13 +164,15 @@ def _joint(
 def _least(equations: Callable[[Row], tuple[Row, list[Row]]], q: Row) -> Row:
     """Where the sum of squares of some equations, given with their slopes, is least, from a place near it."""
     damping, (values, slopes) = DAMPING, equations(q)
+    if not math.isfinite(_dot(values, values)):
+        raise ArithmeticError("a size of the sample is missing")
     for _ in range(STEPS):
         step = _damped(values, slopes, damping)
         further = [a - b for a, b in zip(q, step, strict=True)]
         try:
             trial = equations(further)
         except (ArithmeticError, ValueError):
-            trial = [float("nan")], []
+            trial = [math.inf], list[Row]()
         if not _dot(trial[0], trial[0]) <= _dot(values, values):
             damping *= 10.0
         else:
@@ -177,16 +184,21 @@ def _least(equations: Callable[[Row], tuple[Row, list[Row]]], q: Row) -> Row:
 
 def _damped(values: Row, slopes: list[Row], damping: float) -> Row:
     columns = list(zip(*slopes, strict=True))
-    matrix = mpmath.fp.matrix([[_dot(a, b) for b in columns] for a in columns])
+    matrix = [[_dot(a, b) for b in columns] for a in columns]
     for k in range(len(columns)):
-        matrix[k, k] *= 1.0 + damping
-    return list(mpmath.fp.lu_solve(matrix, mpmath.fp.matrix([_dot(a, values) for a in columns])))
+        matrix[k][k] *= 1.0 + damping
+    return _solved(matrix, [_dot(a, values) for a in columns])
+
+
+def _solved(matrix: list[Row], right: Row) -> Row:
+    numbers = [[mpmath.mpf(a) for a in (*row, b)] for row, b in zip(matrix, right, strict=True)]
+    return [float(x) for x in solution(numbers)]
 
 
 def _unit(vector: Row) -> Row:
-    length = mpmath.fp.norm(vector)
+    length = math.hypot(*vector)
     return [c / length for c in vector]
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(p * q for p, q in zip(a, b, strict=True))
+    return sum((p * q for p, q in zip(a, b, strict=True)), 0.0)

@@ -152,7 +152,7 @@ def _iteration(
                 numbers = evaluate(inputs)
             except (AttributeError, TypeError) as error:  # what mpmath's real functions say to complex numbers
                 raise ArithmeticError(f"the sample of {unknowns} leaves the real numbers; choose another") from error
-            change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
+            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
             if max(map(abs, change), default=0) < (tolerance or exact):
@@ -162,7 +162,7 @@ def _iteration(
     return iterate
 
 
-def _change(rows: Rows) -> list[mpmath.mpf]:
+def solution(rows: Rows) -> list[mpmath.mpf]:
     """Solution of matrix · change = residual, given as rows (matrix | residual); directions that the equations do not
     see stay put.
 
