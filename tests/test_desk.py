@@ -177,6 +177,9 @@ REFUSED = {
     "new cylindrical-worm --m 4 --z 2:40 --set design.wheel_tooth=40": "wheel_tooth.*unknown key",
     "new cylindrical-worm --m 4 --z 2:40 --set hand=left": "hand.*unknown key",
     "new cylindrical-worm --m 4 --z 2:40 --set flank=middle": "flank = 'middle'",
+    "new cylindrical-worm --m 4 --z 2:40 --a 500": "x_2 = 95: profile shift.* -1 to 1: change one of --m, --z, --a",
+    "new cylindrical-worm --m 4 --z 2:40 --a 10": "no design follows from --m --z --a.*throat",
+    "new cylindrical-gears --m 3 --z 19:53 --a 120": "x_sum = 5.26.*change one of --m, --z, --a",
 }
 
 
@@ -195,6 +198,23 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     (tmp_path / "mine.toml").write_text("precious")
     assert main(["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--name", "mine"]) == 2
     assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"
+    assert main(["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--out", "mine.toml"]) == 2
+    assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"
+    (tmp_path / "plain-za.toml").write_text(design.packaged_text("plain-za"))
+    assert main(["tca", "plain-za.toml", "--phi-deg", "0", "--json", "./plain-za.toml"]) == 2
+    assert "is the design itself" in capsys.readouterr().err
+    assert (tmp_path / "plain-za.toml").read_text() == design.packaged_text("plain-za")
+
+
+def test_a_helical_pair_is_parallel_and_without_backlash_at_its_centre_distance(tmp_path, monkeypatch, capsys):
+    """Sum of the profile shifts by involutes of the working and the reference transverse pressure angle (ISO 21771)."""
+    monkeypatch.chdir(tmp_path)
+    assert main("new cylindrical-gears --m 3 --z 19:53 --a 114 --name h --set design.pinion_helix_angle_deg=18".split()) == 0
+    made = tomllib.loads((tmp_path / "h.toml").read_text())["design"]
+    assert made["wheel_helix_angle_deg"] == -18
+    capsys.readouterr()
+    assert main(["ratio", "h.toml", "--set", "design.pinion_profile_crowning_um=0", "--json", "-"]) == 0
+    assert abs(json.loads(capsys.readouterr().out)["backlash_arcsec"]) < 0.2  # shifts are rounded to 1e-4 modules
 
 
 def test_bash_completes_designs_and_commands(tmp_path, capsys):

@@ -31,7 +31,9 @@ def worm():
         why="diameter quotient: the wheel needs no further profile shift at the centre distance given, else 10",
     )  # fmt: skip
     q = quotient.symbol
-    radius = Suggestion("design.worm_pitch_radius_mm", (q * m / 2,), "diameter quotient times module", "r_1", 4)
+    radius = Suggestion(
+        "design.worm_pitch_radius_mm", (q * m / 2,), "half the module times the diameter quotient", "r_1", 4
+    )
     r_1 = radius.symbol
     lead = Suggestion("", (sp.atan2(m * z_1 / 2, r_1),), name="lambda_1")
     lam = lead.symbol
@@ -57,6 +59,10 @@ def worm():
         distance, values=(r_1 + r_2 + x * m,), why="reference radii and a profile shift of half a module", words=arc
     )
     distance_asked = replace(distance, values=(a,), why="as asked for", decimals=None)
+    wheel_shift = Suggestion(
+        "", ((distance.symbol - r_1 - r_2) / m,), "profile shift coefficient of the wheel, by the centre distance",
+        "x_2", 4, within=(-1, 1),
+    )  # fmt: skip
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
     cutting = Suggestion(
         "design.cutting_center_distance_mm", (A + hob.symbol - r_1 - m / (100 * sp.sin(alpha)),),
@@ -85,7 +91,7 @@ def worm():
             lead,
             pressure,
             replace(pressure, values=(sp.Integer(23),), why="usual for form C", words=arc),
-            distance, distance_arc, distance_asked,
+            distance, distance_arc, distance_asked, wheel_shift,
             hob, hob_arc,
             threads,
             cutting,
@@ -142,17 +148,36 @@ def spherical():
 
 
 def cylindrical():
+    """Involute gears on parallel axes; a centre distance that is given is met without backlash by profile shift, half
+    of it each (ISO 21771:2007, working transverse pressure angle and sum of profile shift coefficients).
+    """
+    helix = Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand", "beta_deg")
+    pressure = Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53", "alpha_deg")
+    beta, alpha = sp.rad(helix.symbol), sp.rad(pressure.symbol)
+    reference = Suggestion("", (m * (z_1 + z_2) / (2 * sp.cos(beta)),), "reference centre distance", "a_0", 4)
+    transverse = sp.atan2(sp.tan(alpha), sp.cos(beta))
+    cosine = m * (z_1 + z_2) * sp.cos(transverse) / (2 * sp.cos(beta) * a)
+    working = sp.atan2(sp.sqrt(1 - cosine**2), cosine)
+    shifts = (z_1 + z_2) * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
+    shift = Suggestion(
+        "", (shifts,), "sum of the profile shift coefficients, by the centre distance", "x_sum", 4, within=(-1, 2)
+    )
+    half = "half of what meets the centre distance without backlash"
     return Outline(
         {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
         {},
         (
             Suggestion("design.normal_module_mm", (m,)),
-            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53"),
+            pressure,
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
-            Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand"),
-            Suggestion("design.wheel_helix_angle_deg", (sp.Integer(0),), "the opposite hand on parallel axes"),
+            helix,
+            Suggestion("design.wheel_helix_angle_deg", (-helix.symbol,), "the opposite hand on parallel axes"),
+            reference,
             Suggestion("design.center_distance_mm", (a,), "as asked for; without it: no backlash"),
+            shift,
+            Suggestion("design.pinion_profile_shift_coefficient", (shift.symbol / 2,), half),
+            Suggestion("design.wheel_profile_shift_coefficient", (shift.symbol / 2,), half),
             Suggestion("design.face_width_mm", (10 * m,), "ten modules", decimals=2),
             Suggestion(
                 "design.pinion_lead_crowning_um", (sp.Integer(8),),

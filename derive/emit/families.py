@@ -9,6 +9,8 @@ JSON Schema and errors offer from it what is derived and compiled on first use.
 
 import json
 
+import sympy as sp
+
 from derive.emit import metadata
 from derive.exchange import rexs
 from derive.language.description import prefix
@@ -41,6 +43,7 @@ def _outline(outline):
         {
             "place": s.place, "name": s.symbol.name, "values": [prefix(v) for v in s.values], "why": s.why,
             "decimals": s.decimals, "whole": s.whole, "words": s.words,
+            "within": s.within and [prefix(sp.sympify(bound)) for bound in s.within],
         }
         for s in outline.suggestions
     ]  # fmt: skip

@@ -20,7 +20,8 @@ class Suggestion:
 
     Without a place it only has a ``name`` by which later suggestions use it. ``decimals`` round it, ``whole`` makes it
     an integer. ``why`` becomes the comment in the file. ``words`` are those of the drives that it is for ("key" →
-    words), if not for all; of two suggestions for one place or name, the later counts if it is a number.
+    words), if not for all; of two suggestions for one place or name, the later counts if it is a number. ``within`` are
+    the least and the largest value of a sound design: beyond them the options contradict each other.
     """
 
     place: str
@@ -30,6 +31,7 @@ class Suggestion:
     decimals: int | None = None
     whole: bool = False
     words: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    within: tuple[sp.Expr | float, sp.Expr | float] | None = None
 
     @property
     def symbol(self) -> sp.Symbol:

@@ -9,6 +9,7 @@ import gc
 import os
 import re
 import sys
+from pathlib import Path
 
 from meshwright import commands
 from meshwright.base import drives
@@ -88,6 +89,17 @@ def joined(arguments):
     return result
 
 
+def _refuse_overwriting(options):
+    """A file that is read is not written to: a slip of the keyboard costs no design."""
+    given = {name: value for name, value in vars(options).items() if isinstance(value, str | Path)}
+    design = Path(given.pop("design", ""))
+    if not design.is_file():
+        return
+    for name, value in given.items():
+        if Path(value).is_file() and Path(value).samefile(design):
+            raise UsageError(f"--{name.replace('_', '-')} {value}: is the design itself; name another file")
+
+
 def main(arguments=None):
     """Run one command; returns the exit status."""
     # Matrices here are small: a second thread of the linear algebra mostly waits for the first, at full load.
@@ -102,6 +114,7 @@ def main(arguments=None):
         options = parser(_named(words)).parse_args(words)
         _refuse_empty(options)
         _refuse_mixed(options)
+        _refuse_overwriting(options)
         with drives.searched_first(options.drives):
             status = options.run(options)
         sys.stdout.flush()

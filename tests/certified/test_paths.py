@@ -12,8 +12,11 @@ from meshwright.base.library import ffi, library
 from meshwright.cli import main
 from meshwright.contact.certified_path import certified_path
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.certified import certified_window
+from meshwright.cycle.windows import contact_window
 from meshwright.design.design import packaged_names
 from tests.certified.test_points import DIGITS, exact_error
+from tests.quick import quick
 
 
 def test_a_turn_of_the_worm_is_one_branch_and_its_error_lies_in_a_narrow_tube():
@@ -79,10 +82,18 @@ def test_the_mesh_cycle_of_every_packaged_drive_is_covered_or_the_place_is_named
     assert named <= {"wide", "fold", "no_contact", "joint", "design", "tube"} and (lines or named)
 
 
-def test_the_command_bounds_ends_contact_ratio_and_peak_to_peak_error(capsys):
-    assert main(["ratio", "recess-action-standard", "--certify", "--json", "-"]) in (0, 1)
+#: One of a kind: contact that crosses the middle of a face, where its margin has a corner, among them.
+ENDED = ("recess-action-standard", "plain-za", "spherical-table-2-3", "bevel-formate")
+
+
+@pytest.mark.parametrize("name", quick(packaged_names(), *ENDED))
+def test_the_command_bounds_ends_contact_ratio_and_peak_to_peak_error(name, capsys):
+    assert main(["ratio", name, "--certify", "--json", "-"]) in (0, 1)
     found = json.loads(capsys.readouterr().out)
     certificate = found["certificate"]
+    if certificate is None or certificate["contact_ratio"] is None:
+        assert name not in ENDED and (certificate is None or certificate["outcome"] == "unknown")
+        return
     assert certificate["outcome"] == "unique" and not certificate["gaps"]
     for key, value, width in (
         ("contact_ratio", found["contact_ratio"], 1e-6),
@@ -95,6 +106,25 @@ def test_the_command_bounds_ends_contact_ratio_and_peak_to_peak_error(capsys):
         low, high = certificate[end]["pinion_angle_deg"]
         assert low - 1e-7 <= angle <= high + 1e-7 and high - low < 1e-3
         assert certificate[end]["event"] in (found["begin"]["event"], found["end"]["event"])
+
+
+def test_what_is_not_shown_widens_the_bounds_of_an_end():
+    """A margin that a piece does not enclose is neither positive nor lost there: the end lies between what is shown."""
+    drive = Drive.load("recess-action-standard")
+    path = certified_window(drive, contact_window(drive)).path
+    middle = 0.5 * (path.begin + path.end)
+    event, low, high = path.first_exit(middle, 1)
+    blurred = next(k for k, (begin, _) in enumerate(path.ends) if begin > middle)
+    path.pieces[blurred].margin[0].radius = np.inf
+    assert path.first_exit(middle, 1) == (event, pytest.approx(path.ends[blurred][0]), high)
+    assert path.ends[blurred][0] < low
+
+
+def test_a_line_of_contact_has_ends_and_no_certificate(capsys):
+    modified = [f"design.pinion_{side}_crowning_um=0" for side in ("lead", "profile")]
+    options = [word for text in modified for word in ("--set", text)]
+    assert main(["ratio", "helical-crowned", *options, "--set", "misalignment.horizontal_deg=0"]) in (0, 1)
+    assert "certified" not in capsys.readouterr().out
 
 
 def test_bounds_of_a_polynomial_hold_its_values():

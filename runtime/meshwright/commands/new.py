@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
+from meshwright.base.errors import DesignError, UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
@@ -34,7 +34,7 @@ def add_arguments(parser):
         "--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="a value of your own; repeatable"
     )
     parser.add_argument("--name", help="name of the design and, unless --out says otherwise, of the file")
-    parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml, which must not exist")
+    parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml; it must not exist")
     plain = parser.format_help
     parser.format_help = lambda: plain() + _offered()
 
@@ -74,9 +74,14 @@ def run(options):
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
     first = outline.first_design(family, name, words, given, dict(common.setting(text) for text in options.set))
-    designs.check(designs.parsed(first.text, name))
+    try:
+        designs.check(designs.parsed(first.text, name))
+    except DesignError as error:
+        asked = " ".join(f"--{key}" for key in family.outline["options"])
+        refused = f"no design follows from {asked} by the family's proportions, unless --set changes them"
+        raise UsageError(f"{refused}: {error}") from None
     place = options.out or f"{name}.toml"
-    if options.out is None and Path(place).exists():
+    if place != "-" and Path(place).exists():
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
     write_text(place, first.text)
     if place != "-":

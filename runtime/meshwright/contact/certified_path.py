@@ -119,38 +119,38 @@ class CertifiedPath:
         """Where the first margin is lost from ``start`` on: (event, low, high), angles in rad; None within the path.
 
         Between ``start`` and the nearer of both angles every margin is shown to be positive, and that of the event is
-        shown to be negative at the other.
+        shown to be negative at the other. Where no margin is shown to be either, the two are as far apart as that goes.
         """
         order = range(len(self.pieces)) if direction > 0 else range(len(self.pieces) - 1, -1, -1)
+        held = None
         for k in order:
             low, high = self.ends[k]
             near, far = (max(low, start), high) if direction > 0 else (min(high, start), low)
             if (far - near) * direction <= 0.0:
                 continue
-            found = [e for e in (self._exit(k, i, near, far) for i in range(self.pieces[k].margins)) if e]
-            if found:
-                return min(found, key=lambda e: direction * e[1])
+            piece = self.pieces[k]
+            # the design sets no limit where a margin is infinite
+            margins = [i for i in range(piece.margins) if math.isfinite(piece.margin[i].c[0])]
+            if held is None:
+                angles = [self._until(piece, piece.margin[i], near, far) for i in margins]
+                held = near = min((a for a in angles if a is not None), key=lambda a: direction * a, default=None)
+                if held is None:
+                    continue
+            lost = [(self.event(i), self._lost(piece, piece.margin[i], near, far)) for i in margins]
+            lost = [(event, angle) for event, angle in lost if angle is not None]
+            if lost:
+                event, angle = min(lost, key=lambda found: direction * found[1])
+                return event, held, angle
         return None
 
-    def _exit(self, k, i, near, far):
-        """The exit of one margin in a piece, seen from ``near``."""
-        piece = self.pieces[k]
-        polynomial = piece.margin[i]
-        if not math.isfinite(polynomial.c[0]):  # the design sets no such limit
-            return None
-        positive = self._until(piece, polynomial, near, far)
-        if positive is None:
-            return None
-        step = (far - near) * 2.0**-BRACKET
-        for _ in range(BRACKET):  # from there on until it is surely lost
-            beyond = positive + step
-            if abs(beyond - near) >= abs(far - near):
-                return (self.event(i), positive, far)
-            ball = library().mw_piece_at(piece, ffi.addressof(polynomial), beyond)
+    def _lost(self, piece, polynomial, near, far):
+        """An angle from ``near`` to ``far`` where a margin is surely negative, close to the first; None if none is."""
+        for step in (*(2.0 ** np.arange(-BRACKET, 0.0)), 1.0):
+            angle = far if step == 1.0 else near + (far - near) * step
+            ball = library().mw_piece_at(piece, ffi.addressof(polynomial), angle)
             if ball.mid + ball.radius < 0.0:
-                return (self.event(i), positive, beyond)
-            step *= 2.0
-        return (self.event(i), positive, far)
+                return angle
+        return None
 
     def _until(self, piece, polynomial, near, far):
         """The angle up to which a margin is surely positive, None if it is as far as ``far``."""

@@ -57,15 +57,19 @@ def _angles(pair):
 
 
 def _outwards(value, direction):
-    """A number beyond what a change of unit rounded."""
+    """A number beyond what a change of unit rounded; zero it leaves alone."""
+    if value == 0.0:
+        return 0.0
     for _ in range(4):
         value = math.nextafter(value, direction * math.inf)
     return value
 
 
 def certified_window(drive, window):
-    """The :class:`CertifiedWindow` of a :class:`~meshwright.cycle.windows.Window` with both ends; None without."""
-    if not window.complete:
+    """The :class:`CertifiedWindow` of a :class:`~meshwright.cycle.windows.Window` with both ends and a path; None
+    without: a line of contact has no path.
+    """
+    if window.path is None or not window.complete:
         return None
     lower, upper = window.bounds
     beyond = BEYOND * drive.pitch()

@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import dataclass
 
+from meshwright.base.errors import UsageError
 from meshwright.design.expression import value
 
 #: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
@@ -12,7 +13,7 @@ ALONE = "as given; no other size follows it"
 
 @dataclass(frozen=True)
 class FirstDesign:
-    """The text of a design file, and what it assumes: (key, value, reason)."""
+    """The text of a design file, and what it assumes: (key or name, value, reason)."""
 
     text: str
     assumed: tuple[tuple[str, object, str], ...]
@@ -22,10 +23,11 @@ def first_design(family, name, words, given, own):
     """The :class:`FirstDesign` of a :class:`~meshwright.design.description.Family`.
 
     ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" (or "key", above the
-    tables) that replace suggestions or stand beside them.
+    tables) that replace suggestions or stand beside them. Raises :class:`UsageError` where the options contradict each
+    other.
     """
     usable = _places(family, words)
-    symbols, chosen = dict(given), {}
+    symbols, chosen, told = dict(given), {}, []
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
     for suggestion in family.outline["suggestions"]:
         place = suggestion["place"]
@@ -36,7 +38,10 @@ def first_design(family, name, words, given, own):
             continue
         if place in own and isinstance(own[place], int | float):
             number = own[place]
+        _check(suggestion, number, symbols, family.outline["options"])
         symbols[suggestion["name"]] = number
+        if not place and suggestion["why"] and math.isfinite(number):
+            told.append((suggestion["name"], number, suggestion["why"]))
         if place and place not in own and math.isfinite(number):
             chosen[place] = number, suggestion["why"]
     alone = {place: (number, ALONE) for place, number in own.items() if place not in suggested}
@@ -55,7 +60,20 @@ def first_design(family, name, words, given, own):
                 entry = f"{place.partition('.')[2]} = {_toml(number)}"
                 lines.append(f"{entry:<44}  # {why}" if why else entry)
     assumed = tuple((place, number, why) for place, (number, why) in (chosen | alone).items())
-    return FirstDesign("\n".join(lines) + "\n", assumed)
+    return FirstDesign("\n".join(lines) + "\n", (*told, *assumed))
+
+
+def _check(suggestion, number, symbols, options):
+    """Raise :class:`UsageError` for a number beyond those of a sound design."""
+    if not suggestion.get("within") or math.isnan(number):
+        return
+    least, most = (value(bound, symbols) for bound in suggestion["within"])
+    if not least <= number <= most:
+        asked = ", ".join(f"--{name}" for name in options)
+        raise UsageError(
+            f"{suggestion['name']} = {number:g}: {suggestion['why']}; sound designs have {least:g} to {most:g}: "
+            f"change one of {asked}"
+        )
 
 
 def _places(family, words):
@@ -74,7 +92,7 @@ def _number(suggestion, symbols):
     found = next((v for e in suggestion["values"] if math.isfinite(v := value(e, symbols))), math.nan)
     if suggestion["whole"] and math.isfinite(found):
         return int(found)
-    return found if suggestion["decimals"] is None else round(found, suggestion["decimals"])
+    return (found if suggestion["decimals"] is None else round(found, suggestion["decimals"])) + 0.0  # no minus before 0
 
 
 def _toml(number):
