@@ -14,7 +14,7 @@ shown = $(compiled) --now $$($1 -m derive.packaged $(PUBLISHED))
 CHECKERS := check_description check check_code check_bounded check_print
 
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels
-.PHONY: precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
+.PHONY: wheels-run machines precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # What can be made.
 help:
@@ -115,8 +115,8 @@ benchmark: setup build
 	$(VENV)/bin/meshwright benchmark generated/benchmark
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
-# each file, with SIZE=full all that there is.
-validate: setup build solver cmake cad sanitizers emulators coq
+# each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
+validate: setup build solver cmake cad sanitizers emulators coq site
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadfile
 
 # An emulator of ARM64, where it can be had without asking.
@@ -162,6 +162,17 @@ site: setup build
 # Wheels for Linux, macOS and Windows in dist/, all cross-compiled here; with TARGETS="linux-aarch64 …" those.
 wheels: setup build
 	$(PY) runtime/wheels.py dist $(TARGETS:%=--target %)
+
+# What runs wheels of other machines, where it can be had without asking: Wine, musl, the C library of ARM64, an emulator.
+machines: emulators
+	@command -v wine >/dev/null && test -e /lib/ld-musl-$$(uname -m).so.1 || { test "$$(id -u)" = 0 \
+		&& command -v apt-get >/dev/null && apt-get update -qq \
+		&& apt-get install -y -qq --no-install-recommends wine wine64 musl; } >/dev/null 2>&1 || true
+
+# Read the symbols of the wheels in dist/ and run what there is a machine for; says what was not run.
+wheels-run: setup build machines
+	$(PY) -m pip install --quiet lief
+	$(PY) -m pytest -v -rs -m slow tests/embedding/test_wheels.py
 
 # Build and run the examples: C, C++, ctypes, CMake, pkg-config, wheel, CasADi, WebAssembly, Cortex-M7, ARM64.
 examples: setup build cmake

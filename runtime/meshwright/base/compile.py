@@ -127,16 +127,16 @@ def digest(*parts):
 
 @contextmanager
 def replaced(path):
-    """A name beside ``path`` whose file takes its place at the end; after an error it is removed."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    os.close(handle)
-    try:
-        yield Path(temporary)
+    """An empty file of the same name in a folder beside ``path``; takes its place at the end, unless there is an error.
+
+    The name is the same because a linker may write it into what it makes: a library of Windows is known by it.
+    """
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+        temporary = Path(folder) / path.name
+        temporary.touch()
+        yield temporary
         os.chmod(temporary, 0o755 if path.suffix == ".so" else 0o644)
         os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
 
 
 def _run(command, what):

@@ -10,11 +10,11 @@ from typing import Literal
 import numpy as np
 
 from meshwright.base.errors import DesignError, UsageError
+from meshwright.contact.flags import on_flanks
 from meshwright.contact.placement import about_z, placed
 from meshwright.contact.results import TCA
 from meshwright.cycle.first_contact import FirstContacts, first_contact_of
 from meshwright.cycle.pairs import Mesh
-from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window
 from meshwright.design.design import packaged_names
 from meshwright.drive import Drive
@@ -71,7 +71,7 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
     window = mesh.window
     edge = cache(partial(_edge, drive, first_contact_of(mesh)))
-    teeth = RigidTeeth.of(mesh)
+    teeth = mesh.rigid
     leader = cache(lambda angle: None if teeth is None else teeth.leader(angle)[0])
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
@@ -123,7 +123,7 @@ def _path_to(drive: Drive, angle: float) -> TCA:
 def _touch(drive: Drive, angle: float) -> Touch | None:
     """The tangency of the reference pair at an angle, None off its flanks."""
     path = _path_to(drive, angle)
-    return _tangency(path, -1) if not any(flag.startswith("off_") for flag in path.flags[-1]) else None
+    return _tangency(path, -1) if on_flanks(path.flags[-1]) else None
 
 
 def _tangency(path: TCA, k: int) -> Touch | None:
