@@ -93,7 +93,9 @@ def first_contact(drive, angle):
 
 
 def first_over_turn(drive, begin, end):
-    """CPU seconds of the proof that a pair touches first at every angle of a range, what it says, and parts of the wheel's flank."""
+    """CPU seconds of the proof that a pair touches first at every angle of a range, what it says, and how many parts of
+    the wheel's flank it looks at.
+    """
     start = time.process_time()
     found = drive.certify_first_path(begin, end, neighbours=0)
     return time.process_time() - start, found.outcome, sum(span.parts for span in found.spans)

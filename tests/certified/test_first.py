@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.cli import main
 from meshwright.base.library import ffi
+from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle import certified_first_path
 from tests.independent.first_touch import FirstTouch
@@ -163,10 +163,11 @@ def test_over_a_range_a_wheel_turned_into_the_worm_is_never_first(monkeypatch):
     begin, end = np.radians([2400.0, 2402.0])
     words = {}
     for turn in (-ARCSEC, ARCSEC):
-        turns = {"pinion": 0.0, "wheel": turn}
-        monkeypatch.setattr(
-            certified_first_path._Search, "_turn", lambda self, member, later, turns=turns: ffi.new("mw_wide *", [turns[member], 0.0, 0.0])[0]
-        )  # fmt: skip
+
+        def turned(_, member, __, turn=turn):
+            return ffi.new("mw_wide *", [turn if member == "wheel" else 0.0, 0.0, 0.0])[0]
+
+        monkeypatch.setattr(certified_first_path._Search, "_turn", turned)
         words[np.sign(turn)] = drive.certify_first_path(begin, end, neighbours=0).outcome
     opening = _opening(drive, drive.tca([begin]))
     assert words == {opening: "first", -opening: "not_first"}

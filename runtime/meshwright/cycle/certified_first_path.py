@@ -1,5 +1,6 @@
-"""First contact with a proof at every angle of a range: as the wheel comes up to the contact of a certified path, no place
-of the one bounded flank meets one of the other's, nor of neighbouring pairs; or the angle and place where one does.
+"""First contact with a proof at every angle of a range: as the wheel comes up to the contact of a certified path, no
+place of the one bounded flank meets one of the other's, nor do those of neighbouring pairs; or the angle and place
+where one does.
 """
 
 import math
@@ -14,11 +15,11 @@ from meshwright.contact.model import DriveModel
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle import certified_first as single
 
-#: First and shortest range of angles looked at at once, in pinion pitches, the former also where the flanks overlap; the path is certified beyond both ends by
-#: ``BESIDE``, its transmission error to this share of the slack.
+#: First and shortest range of angles looked at at once, in pinion pitches, the former also where flanks overlap; the
+#: path is certified beyond both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
 FIRST, SHORTEST, BESIDE, TUBE = 2.0**-4, 2.0**-8, 1e-6, 0.02
 
-#: Parts of the wheel's flank that a first range takes at most, and a longer one as a multiple of what the last one took.
+#: Parts of the wheel's flank that a first range takes at most; those of a longer one as a multiple of the last one's.
 MOST, FEWER = 4000, 3
 
 
@@ -42,9 +43,9 @@ class Span:
 
 @dataclass(frozen=True)
 class FirstAlongPath:
-    """First contact from ``begin`` to ``end``, rad, of the right-hand drive: of each pair of ``pairs`` spans without a gap.
+    """First contact from ``begin`` to ``end``, rad, of the right-hand drive: of each of ``pairs`` spans without a gap.
 
-    ``slack``, rad of the wheel, is the overlap below which nothing is said, ``reach`` by how much the wheel is turned back.
+    ``slack``, rad of the wheel, is the overlap below which nothing is said; by ``reach`` the wheel is turned back.
     """
 
     drive: DriveModel
@@ -152,10 +153,10 @@ class _Search:
             pointer(entry, "mw_first_certificate[]"), pointer(angle),
         )  # fmt: skip
         (entry,) = entry
-        apart = entry["apart"]
+        overlap = -float(entry["apart"]["mid"] + entry["apart"]["radius"])
         return Span(
             later, begin, end, single.OUTCOMES[entry["outcome"]], text(library().mw_reason_word(int(entry["reason"]))),
-            int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), -float(apart["mid"] + apart["radius"]),
+            int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
         )  # fmt: skip
 
     def _turn(self, member, later):
