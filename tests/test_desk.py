@@ -1,5 +1,6 @@
 """The first minutes at the command line: designs printed, words explained, misspelt keys named."""
 
+import json
 import math
 import shutil
 import subprocess
@@ -200,16 +201,19 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"
     assert main(["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--out", "mine.toml"]) == 2
     assert "exists already" in capsys.readouterr().err and (tmp_path / "mine.toml").read_text() == "precious"
-    (tmp_path / "plain-za.toml").write_text(design.packaged_text("plain-za"))
+    assert main(["show", "plain-za"]) == 0
+    text = capsys.readouterr().out
+    (tmp_path / "plain-za.toml").write_text(text)
     assert main(["tca", "plain-za.toml", "--phi-deg", "0", "--json", "./plain-za.toml"]) == 2
     assert "is the design itself" in capsys.readouterr().err
-    assert (tmp_path / "plain-za.toml").read_text() == design.packaged_text("plain-za")
+    assert (tmp_path / "plain-za.toml").read_text() == text
 
 
 def test_a_helical_pair_is_parallel_and_without_backlash_at_its_centre_distance(tmp_path, monkeypatch, capsys):
     """Sum of the profile shifts by involutes of the working and the reference transverse pressure angle (ISO 21771)."""
     monkeypatch.chdir(tmp_path)
-    assert main("new cylindrical-gears --m 3 --z 19:53 --a 114 --name h --set design.pinion_helix_angle_deg=18".split()) == 0
+    given = ["--m", "3", "--z", "19:53", "--a", "114", "--set", "design.pinion_helix_angle_deg=18"]
+    assert main(["new", "cylindrical-gears", *given, "--name", "h"]) == 0
     made = tomllib.loads((tmp_path / "h.toml").read_text())["design"]
     assert made["wheel_helix_angle_deg"] == -18
     capsys.readouterr()

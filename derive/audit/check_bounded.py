@@ -421,7 +421,7 @@ def main_texts(drive: Drive, result: str, rng: Random) -> tuple[Machine, list]:
 
 #: Operations by number: what C writes for register a and register b.
 OPERATIONS = ("{a} + {b}", "{a} - {b}", "{a} * {b}", "{a} * {a}", "{a} / {b}", "-{a}", "sqrt({a})", "sincos",
-              "atan2({a}, {b})", "SIGN({a})")  # fmt: skip
+              "atan2({a}, {b})", "{a} * SIGN({a})", "SIGN({a})")  # fmt: skip
 SINE = OPERATIONS.index("sincos")
 CODE_OF = re.compile(r"{ (\d+), (\d+), (\d+), (\d+), (\d+), (\d+), (\w+)_input, (\w+)_constant, (\w+)_operation, "
                      r"(\w+)_output }")  # fmt: skip

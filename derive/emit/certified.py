@@ -20,7 +20,7 @@ from derive.program.enclosure import Enclosure
 from derive.program.routine import routine
 
 #: Operations by number, as in mw_certified.h. A square is its own operation: it is never negative.
-OPERATIONS = ("add", "sub", "mul", "sqr", "div", "neg", "sqrt", "sincos", "atan2", "sign")
+OPERATIONS = ("add", "sub", "mul", "sqr", "div", "neg", "sqrt", "sincos", "atan2", "magnitude", "sign")
 
 #: Most factors 1 + 2⁻⁵³ by which radii of one function may be off: their reader allows for 2⁻⁴⁰.
 DEEPEST = 8000
@@ -55,7 +55,9 @@ def code(tape, outputs, leaves, leading=None):
 
 def operations_of(tape, outputs, known):
     """(operation, nodes that it computes, arguments) in an order of evaluation that leads to ``outputs``."""
-    return _operations(tape, reciprocals(routine(tape, outputs, known)).steps)
+    found = list(_operations(tape, reciprocals(routine(tape, outputs, known)).steps))
+    read = {*outputs}.union(*(args for _, _, args in found))
+    return [step for step in found if read & {*step[1]}]  # nobody reads the sign of what is a magnitude
 
 
 class _Writer:
@@ -120,7 +122,7 @@ class _Writer:
 
 def _operations(tape, steps):
     """(operation, nodes that it computes, arguments); sine and cosine of one angle are one operation."""
-    wanted, done = {i for i, _ in steps}, set()
+    made, done = dict(steps), set()
     for i, step in steps:
         if i in done:
             continue
@@ -128,9 +130,11 @@ def _operations(tape, steps):
             pair = [tape.find(op, *step.args) for op in ("sin", "cos")]
             done |= {k for k in pair if k is not None}
             # a cosine alone: its sine goes to a register of its own, which nobody reads
-            yield "sincos", [("unread", i) if k is None or k not in wanted else k for k in pair], step.args
+            yield "sincos", [("unread", i) if k is None or k not in made else k for k in pair], step.args
         elif step.op == "mul" and step.args[0] == step.args[1]:
             yield "sqr", [i], step.args[:1]
+        elif step.op == "mul" and (size := next((a for a in step.args if tape.find("sign", a) in step.args), None)):
+            yield "magnitude", [i], (size,)  # enclosed at 0 too, where a sign alone is not
         else:
             yield step.op, [i], step.args
 

@@ -10,6 +10,7 @@ enum {
     MW_OP_ADD, MW_OP_SUB, MW_OP_MUL, MW_OP_SQR, MW_OP_DIV, MW_OP_NEG, MW_OP_SQRT,
     MW_OP_SINCOS,                /* r = sin a, b = cos a */
     MW_OP_ATAN2,                 /* angle of the point (b, a) */
+    MW_OP_MAGNITUDE,             /* a times its sign */
     MW_OP_SIGN                   /* -1 below 0, else 1 */
 };
 

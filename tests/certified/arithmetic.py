@@ -14,7 +14,7 @@ from meshwright.base.compile import FLAGS, compiler
 
 C = Path(__file__).resolve().parent.parent.parent / "runtime" / "c"
 BINARY = ("add", "sub", "mul", "div", "atan2")
-UNARY = ("sqr", "neg", "sqrt", "sign")
+UNARY = ("sqr", "neg", "sqrt", "magnitude", "sign")
 NUMBER = {"ball": ("mw_ball", "mwc_", 2), "wide": ("mw_wide", "mwc_wide_", 3)}
 
 _LOOPS = """

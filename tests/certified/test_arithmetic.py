@@ -45,6 +45,7 @@ EXACT = {
     "div": lambda a, b: a / b,
     "sqr": lambda a: a * a,
     "neg": lambda a: -a,
+    "magnitude": abs,
 }
 BALLS = {
     "sqrt": lambda a: arb(a).sqrt(),
@@ -236,6 +237,8 @@ def cases(kind, rng):
     yield "neg", a, None
     yield "sign", a, None
     yield "sqrt", np.abs(a), None
+    yield "magnitude", a, None
+    yield "magnitude", numbers(rng, kind, radii=(-2, 4)), None  # of either sign
     angles = numbers(rng, kind, radii=(-60, -20), least=-6, most=9)
     yield "sincos", angles, None
     extremes = np.concatenate([np.arange(-8, 9) * np.pi / 2, np.arange(-8, 9) * np.pi / 4])

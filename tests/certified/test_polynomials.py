@@ -13,7 +13,7 @@ from tests.certified.arithmetic import C
 from tests.certified.test_arithmetic import arb
 
 ORDER, COUNT = 8, 25
-BINARY, UNARY = ("add", "sub", "mul", "div", "atan2"), ("sqr", "neg", "sqrt", "sincos")
+BINARY, UNARY = ("add", "sub", "mul", "div", "atan2"), ("sqr", "neg", "sqrt", "magnitude", "sincos")
 
 _LOOP = """
 void run_{op}(int n, const mw_polynomial *a, const mw_polynomial *b, mw_polynomial *r, mw_polynomial *s)
@@ -49,7 +49,7 @@ def compiled(folder, replaced=None):
         text = text.replace(*replaced)
     text = text.replace('#include "../mw_certify.h"', '#include "mw_certify.h"').replace('"ball.h"', '"certify/ball.h"')
     calls = [(op, f"r[k] = mwc_poly_{op}(a[k], b[k])") for op in BINARY]
-    calls += [(op, f"r[k] = mwc_poly_{op}(a[k])") for op in UNARY[:3]]
+    calls += [(op, f"r[k] = mwc_poly_{op}(a[k])") for op in UNARY[:-1]]
     calls.append(("sincos", "mwc_poly_sincos(a[k], &r[k], &s[k])"))
     source, library = folder / "polynomial.c", folder / "polynomial.so"
     loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
@@ -72,7 +72,7 @@ def at(row, t):
 
 
 EXACT = {"add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
-         "sqr": lambda a, _: a * a, "neg": lambda a, _: -a}  # fmt: skip
+         "sqr": lambda a, _: a * a, "neg": lambda a, _: -a, "magnitude": lambda a, _: abs(a)}  # fmt: skip
 BALLS = {"sqrt": [lambda a, _: a.sqrt()], "atan2": [flint.arb.atan2],
          "sincos": [lambda a, _: a.sin(), lambda a, _: a.cos()]}  # fmt: skip
 
@@ -121,6 +121,9 @@ def cases(rng):
         yield op, *(polynomials(rng, 8 * COUNT, 0.0, slice(0, 1)) for _ in range(2))
     for radii in (0.3, 0.6):
         yield "sqrt", *(polynomials(rng, COUNT, radii, slice(0, 1)) for _ in range(2))
+    across = polynomials(rng, COUNT, 0.3)
+    across[:, 0] = rng.uniform(-0.2, 0.2, COUNT)
+    yield "magnitude", across, across
     last = np.zeros((4, ORDER + 2))
     last[:, ORDER] = rng.uniform(1, 2, 4)
     yield "mul", last, last

@@ -109,6 +109,14 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
 
+/* From 0 to the largest size, where the sign is not known. */
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
+
 /* By value: a compiler that takes several points at once does not do so with places in memory. */
 typedef struct mwc_turn {
     mw_ball sine, cosine;

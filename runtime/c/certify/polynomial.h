@@ -190,9 +190,19 @@ static mw_polynomial mwc_poly_atan2(mw_polynomial y, mw_polynomial x)
         sum = mwc_poly_sub(share, mwc_poly_mul(z, sum));
     }
     sum = mwc_poly_add(mwc_poly_of_ball(mwc_make(t, 0.0)), mwc_poly_mul(d, sum));
-    sum.radius += 2e-14;
-    const int near = mwc_poly_most(&d) < 0.5 && along.c[0] > 0.0;
+    const double most = mwc_poly_most(&d), fourth = most * most * most * most, eighth = fourth * fourth;
+    sum.radius += eighth * eighth * eighth * eighth * eighth * most / 41.0 * MWC_SUMMED;
+    const int near = most < 0.5 && along.c[0] > 0.0;
     return uncut && right && near ? sum : mwc_poly_undefined(sum);
+}
+
+/* From 0 to the largest size, where the sign is not known everywhere. */
+static inline mw_polynomial mwc_poly_magnitude(mw_polynomial a)
+{
+    if (mwc_poly_least(&a) > 0.0) return a.c[0] < 0.0 ? mwc_poly_neg(a) : a;
+    const double half = 0.5 * mwc_poly_most(&a);
+    const mw_polynomial size = mwc_poly_of_ball(mwc_make(half, half * (1.0 + 8.0 * MWC_U)));
+    return half < HUGE_VAL ? size : mwc_poly_undefined(size);
 }
 
 static inline mw_polynomial mwc_poly_sign(mw_polynomial a)

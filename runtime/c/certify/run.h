@@ -23,6 +23,7 @@ static void MWC_RUN(const mw_code *code, int count, const MWC_NUMBER *arguments,
         case MW_OP_SQRT: *result = MWC_DO(sqrt)(*a); break;
         case MW_OP_SINCOS: MWC_DO(sincos)(*a, result, registers + i[3]); break;
         case MW_OP_ATAN2: *result = MWC_DO(atan2)(*a, *b); break;
+        case MW_OP_MAGNITUDE: *result = MWC_DO(magnitude)(*a); break;
         default: *result = MWC_DO(sign)(*a); break;
         }
     }

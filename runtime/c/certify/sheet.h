@@ -349,6 +349,15 @@ static mwc_sheet mwc_sheet_atan2(mwc_sheet y, mwc_sheet x)
     return uncut && right && near ? sum : mwc_sheet_undefined(sum);
 }
 
+/* From 0 to the largest size, where the sign is not known everywhere. */
+static inline mwc_sheet mwc_sheet_magnitude(mwc_sheet a)
+{
+    if (mwc_sheet_least(&a) > 0.0) return a.c[0] < 0.0 ? mwc_sheet_neg(a) : a;
+    const double half = 0.5 * mwc_sheet_most(&a);
+    const mwc_sheet size = mwc_sheet_of_ball(mwc_make(half, half * (1.0 + 8.0 * MWC_U)));
+    return half < HUGE_VAL ? size : mwc_sheet_undefined(size);
+}
+
 /* -1 below 0, else 1, and anything between where both occur: a function that is continuous there is enclosed all the same. */
 static inline mwc_sheet mwc_sheet_sign(mwc_sheet a)
 {

@@ -123,6 +123,14 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
 }
 
+/* From 0 to the largest size, where the sign is not known. */
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
+}
+
 /* 1/n! for n = 1, 3, ... and for n = 0, 2, ..., and the doubles nearest to those that follow. */
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {

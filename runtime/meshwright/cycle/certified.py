@@ -84,6 +84,7 @@ def certified_window(drive, window):
     least, most = ends[1][1] - ends[0][2], ends[1][2] - ends[0][1]
     pitch = drive.pitch()
     ratio = tuple(_outwards(span / pitch, direction) for span, direction in ((least, -1), (most, 1)))
-    inside = path.within(ends[0][1], ends[1][2])
-    return CertifiedWindow(path, ends, ratio, inside.peak_to_peak)
+    # at least that of the window surely held, at most that of the one that may be
+    least, most = (path.within(*bounds).peak_to_peak for bounds in ((ends[0][2], ends[1][1]), (ends[0][1], ends[1][2])))
+    return CertifiedWindow(path, ends, ratio, (least[0], most[1]))
 

@@ -23,7 +23,7 @@ def line_ends(drive, limits):
     """
     tried = np.arange(PITCHES * SAMPLES_PER_PITCH) / SAMPLES_PER_PITCH * drive.pitch()
     around = drive.design.reference_angle + np.stack([tried, -tried], axis=1).ravel()[1:]
-    inside = next((float(a) for a in around if _depth(drive, a)[0] >= 0.0), None)
+    inside = next((float(a) for a in around if _depth(drive, limits, a)[0] >= 0.0), None)
     if inside is None:
         return None, None
     return tuple(_end(drive, limits, inside, sign) for sign in (-1.0, 1.0))
@@ -32,25 +32,25 @@ def line_ends(drive, limits):
 def _end(drive, limits, inside, sign):
     step, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, math.pi / drive.ratio
     while abs(inside - drive.design.reference_angle) < farthest:
-        depth, _ = _depth(drive, inside + step)
+        depth, _ = _depth(drive, limits, inside + step)
         if not math.isfinite(depth):
             return None
         if depth < 0.0:
             ends = inside, inside + step
-            angle = bracketed(lambda a: _depth(drive, a)[0], *ends, ANGLE_TOLERANCE)
-            _, index = _depth(drive, angle + 1e-6 * step)
-            return float(angle), next(m for m in limits if m.index == index)
+            angle = bracketed(lambda a: _depth(drive, limits, a)[0], *ends, ANGLE_TOLERANCE)
+            names = (_depth(drive, limits, angle + share * step)[1] for share in (1e-6, 1e-4, 1e-2, 1.0))
+            return float(angle), next(limit for limit in names if limit)
         inside += step
     return None
 
 
-def _depth(drive, angle):
-    """How deep the deepest point of the line lies, and which limit function (index in the observation) says so."""
+def _depth(drive, limits, angle):
+    """How deep the deepest point of the line lies within the limits, and which of them says so."""
     found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
     if found.status[0] != "line_contact":
         return math.nan, None
-    margins = deepest(drive, angle, found.solutions[0])
+    margins = deepest(drive, angle, found.solutions[0])[[limit.index for limit in limits]]
     if np.isnan(margins).all():
         return math.nan, None
-    index = int(np.nanargmin(margins))
-    return float(margins[index]), index
+    k = int(np.nanargmin(margins))
+    return float(margins[k]), limits[k]

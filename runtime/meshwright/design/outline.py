@@ -92,7 +92,9 @@ def _number(suggestion, symbols):
     found = next((v for e in suggestion["values"] if math.isfinite(v := value(e, symbols))), math.nan)
     if suggestion["whole"] and math.isfinite(found):
         return int(found)
-    return (found if suggestion["decimals"] is None else round(found, suggestion["decimals"])) + 0.0  # no minus before 0
+    if suggestion["decimals"] is not None:
+        found = round(found, suggestion["decimals"])
+    return found + 0.0  # no minus before 0
 
 
 def _toml(number):

@@ -11,6 +11,7 @@ from tests.derive.small import VALUES, lowered, p, x, y
 _APPLY = {
     "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "sqr": lambda a, _: a * a,
     "div": lambda a, b: a / b, "neg": lambda a, _: -a, "sqrt": lambda a, _: math.sqrt(a), "atan2": math.atan2,
+    "magnitude": lambda a, _: abs(a),
 }  # fmt: skip
 
 
@@ -34,6 +35,14 @@ def test_registers_are_used_again_without_losing_a_value():
     exact = [float(e.subs(VALUES)) for e in expressions]
     assert run(made, [VALUES[s] for s in symbols]) == pytest.approx(exact, rel=1e-14)
     assert made.registers < len(made.inputs) + len(made.constants) + len(made.instructions)
+
+
+def test_a_number_times_its_sign_is_a_magnitude():
+    tape, lower, nodes = lowered(sp.Abs(x) - sp.sqrt(y), sp.Abs(x - y))
+    made = code(tape, nodes, {lower(x): 0, lower(y): 1})
+    operations = [OPERATIONS[number] for number, *_ in made.instructions]
+    assert operations.count("magnitude") == 2 and "sign" not in operations
+    assert run(made, [-3.0, 4.0]) == [1.0, 7.0]
 
 
 def test_a_constant_that_is_no_double_has_a_radius():
