@@ -115,8 +115,8 @@ benchmark: setup build
 	$(VENV)/bin/meshwright benchmark generated/benchmark
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
-# each file, with SIZE=full all that there is.
-validate: setup build solver cmake cad sanitizers emulators coq
+# each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
+validate: setup build solver cmake cad sanitizers emulators coq site
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadfile
 
 # An emulator of ARM64, where it can be had without asking.

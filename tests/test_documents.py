@@ -33,6 +33,19 @@ def test_every_link_and_inclusion_leads_somewhere(path):
     assert [name for name in linked if not (path.parent / name).exists()] == []
 
 
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.stem)
+def test_every_file_of_the_tree_that_a_page_names_is_there(path):
+    """In a table's row the names after the first may be of the same folder."""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        folder = snippets.ROOT
+        for name in re.findall(r"`((?:derive|runtime|tests)/[\w./-]+|\w+\.py)`", line):
+            if "/" in name:
+                folder = (snippets.ROOT / name).parent
+            elif folder == snippets.ROOT:
+                continue
+            assert (snippets.ROOT / name).exists() or (folder / name).exists(), name
+
+
 def test_what_is_printed_must_agree():
     assert snippets.agrees("a … c\n…\nend", "a b c\nx\ny\nend\n")
     assert not snippets.agrees("a b\n", "a b c\n")

@@ -70,13 +70,6 @@ def scope(
     return Scope(key, definitions, merged, frozenset(signs) | (extends.signs if extends else frozenset()))
 
 
-def with_sign(context: Scope, key: str, name: str, value: int, described: Mapping[str, Tree]) -> Scope:
-    """The same scope for one of the two values of a sign, beside definitions read from a description."""
-    chosen: Tree = value if value > 0 else ("-", -value)
-    definitions = {name: chosen, **context.definitions, **described}
-    return Scope(key, definitions, context.jets, context.signs - {name})
-
-
 Texts = str | Sequence[str]
 
 

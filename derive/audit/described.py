@@ -79,7 +79,14 @@ class Described:
         return self.tree([value for name, value in self.data["rules"] if name == target][place - 1])
 
     def size(self, key: str) -> Tree:
-        return self.tree(next(entry["value"] for entry in self.data["sizes"] if entry["key"] == key))
+        return self.tree(self._size(key))
+
+    def operands(self, key: str) -> list[Tree]:
+        """Of a size that is an angle, what its arc function is taken of."""
+        return [self.tree(part) for part in self._size(key)[1:]]
+
+    def _size(self, key: str) -> Any:
+        return next(entry["value"] for entry in self.data["sizes"] if entry["key"] == key)
 
     def name(self, name: str) -> Tree:
         """A definition, or a name as the document writes it."""

@@ -90,6 +90,8 @@ class _Reader:
         return ("jet", node.id, *(0 for _ in self.jets[node.id])) if node.id in self.jets else node.id
 
     def _unaryop(self, node: ast.UnaryOp) -> Tree:
+        if not isinstance(node.op, ast.USub):
+            raise NotationError(f"operator not part of the notation: {self.text!r}")
         return ("-", self.read(node.operand))
 
     def _binop(self, node: ast.BinOp) -> Tree:

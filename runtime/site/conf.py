@@ -16,3 +16,4 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 autodoc_default_options = {"members": True, "show-inheritance": False}
 suppress_warnings = ["autodoc.mocked_object"]
+html_show_copyright = False

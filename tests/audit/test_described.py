@@ -4,16 +4,21 @@ And a statement says something: no derivative along what is not there, no two si
 """
 
 import copy
-import importlib
+import importlib.util
 
 import pytest
 
-from derive.audit import described, ledger, record
+from derive.audit import described, record
 from derive.audit.documents import face_worm, recess_action, spherical, zk_zn
-from derive.audit.identities import cylindrical_gears, cylindrical_worm, helicoids
+from derive.audit.identities import bevel, cylindrical_gears, cylindrical_worm, helicoids
+from derive.audit.identities import face_worm as face_worms
+from derive.audit.identities import spherical as spherical_gears
+from derive.prove import Outcome, decide
 from derive.prove.tree import symbols, walk
+from tests.quick import quick
 
 ZN, ZK = "cylindrical_worm_zn_zn", "cylindrical_worm_zk_zn"
+CYLINDRICAL, SPHERICAL, BEVEL, FACE = "cylindrical_gears", "spherical_convex_concave", "bevel_generated", "face_worm"
 
 
 def steps(data, member):
@@ -26,6 +31,15 @@ def made(data, member, word):
 
 def negated_angle(motion, place):
     motion[place][2] = ["*", -1, motion[place][2]]
+
+
+def inward(data, number):
+    surface = data["bodies"][number]["surface"]
+    surface["normal"] = [["*", -1, part] for part in surface["normal"]]
+
+
+def region(data, name):
+    return next(entry for entry in data["regions"] if entry["region"] == name)
 
 
 def rule(data, target, value):
@@ -90,15 +104,93 @@ EDITS = {
         ["za-normal"],
     ),
     "rack of another helix": (
-        "cylindrical_gears",
+        CYLINDRICAL,
         lambda d: steps(d, "pinion")[0]["motion"].__setitem__(0, ["translation", [0, "z_pinion", "z_pinion"]]),
         cylindrical_gears,
-        ["described"],
+        ["outward", "explicit", "tangent", "involute", "normal", "moment", "screw", "plunge", "mirror"],
+    ),
+    "rack that rolls on another circle": (
+        CYLINDRICAL, lambda d: made(d, "pinion", "envelope")["motion"][1][1].__setitem__(0, "m"), cylindrical_gears,
+        ["meshing", "tangent", "involute", "moment", "screw"],
+    ),
+    "turn of a gear by the solution of the other sign": (
+        CYLINDRICAL,
+        lambda d: made(d, "pinion", "solved").__setitem__("value", ["*", -1, made(d, "pinion", "solved")["value"]]),
+        cylindrical_gears,
+        ["explicit", "involute", "moment", "screw"],
+    ),
+    "rack's normal into the material": (
+        CYLINDRICAL, lambda d: inward(d, 0), cylindrical_gears, ["outward", "normal", "common-normal"],
+    ),
+    "wheel at the shaft angle's other sign": (
+        CYLINDRICAL, lambda d: negated_angle(d["bodies"][1]["motion"], 1), cylindrical_gears, ["common-normal"],
+    ),
+    "arc that curves the other way": (
+        SPHERICAL, lambda d: negated_angle(steps(d, "pinion")[0]["motion"], 0), spherical_gears, ["normal"],
+    ),
+    "arc about another centre": (
+        SPHERICAL, lambda d: steps(d, "wheel")[0]["motion"][0].__setitem__(3, [0, 0, "R_wheel"]), spherical_gears,
+        ["half-angle", "normal", "explicit", "moment"],
+    ),
+    "gear rolled the other way": (
+        SPHERICAL, lambda d: negated_angle(made(d, "wheel", "envelope")["motion"], 0), spherical_gears,
+        ["meshing", "tangent"],
+    ),
+    "edge inclined the other way": (
+        SPHERICAL, lambda d: steps(d, "pinion")[0]["curve"].__setitem__(1, ["*", "s", "l_pinion", ["sin", "alpha"]]),
+        spherical_gears, ["normal", "explicit", "tangent", "moment"],
+    ),
+    "blank offset to the other side": (
+        BEVEL, lambda d: made(d, "pinion", "envelope")["motion"][3][1].__setitem__(1, ["*", -1, "E_m_pinion"]), bevel,
+        ["hand", "formate-cradle"],
+    ),
+    "cradle turned the other way": (
+        BEVEL, lambda d: negated_angle(made(d, "pinion", "envelope")["motion"], 4), bevel,
+        ["meshing", "hand", "crown", "formate-cradle"],
+    ),
+    "helical motion of the other sign": (
+        BEVEL,
+        lambda d: made(d, "wheel", "envelope")["motion"][3][1].__setitem__(
+            2, ["+", ["*", -1, "X_B_gear"], ["*", "H_gear", "phi_cradle_gear"]]
+        ),
+        bevel,
+        ["meshing", "hand"],
+    ),
+    "swivel as tilt": (
+        BEVEL, lambda d: made(d, "wheel", "envelope")["motion"][6].__setitem__(1, "y"), bevel,
+        ["hand", "rotation-of-blade"],
+    ),
+    "blade's normal along the blade": (
+        BEVEL, lambda d: d["bodies"][0]["surface"]["normal"].reverse(), bevel,
+        ["swung-edge", "pole", "linear", "cone-normal", "stand-off"],
+    ),
+    "pinion mounted the other way": (
+        BEVEL, lambda d: negated_angle(d["bodies"][0]["motion"], 1), bevel, ["formate-cradle", "assembly-axis"],
+    ),
+    "rounding about a centre above the tip plane": (
+        BEVEL, lambda d: region(d, "fillet")["surface"]["made"][0]["curve"].__setitem__(2, "rho_f_pinion"), bevel,
+        ["fillet-join"],
+    ),
+    "parabola of the other sign": (
+        FACE, lambda d: steps(d, "pinion")[0]["curve"].__setitem__(0, ["*", "u_worm", ["sin", "alpha_g"]]), face_worms,
+        ["blade-normal"],
+    ),
+    "blade inclined the other way": (
+        FACE, lambda d: steps(d, "wheel")[0]["curve"].__setitem__(0, ["*", -1, "u_gear", ["sin", "alpha_g"]]),
+        face_worms, ["cone-normal", "fillet-join"],
+    ),
+    "rounding of the other half": (
+        FACE, lambda d: region(d, "fillet")["surface"]["made"][0]["curve"].__setitem__(2, ["*", -1, "h_d"]), face_worms,
+        ["fillet-join", "fillet-tangent"],
     ),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("edit", EDITS)
+#: One of each chapter, which is tried at once.
+FIRST = {module: edit for edit, (_, _, module, _) in EDITS.items()}.values()
+
+
+@pytest.mark.parametrize("edit", quick(EDITS, *FIRST))
 def test_an_edit_of_the_description_makes_statements_false(edit, monkeypatch):
     drive, change, module, keys = EDITS[edit]
     honest = described._description
@@ -110,15 +202,16 @@ def test_an_edit_of_the_description_makes_statements_false(edit, monkeypatch):
             change(data)
         return data
 
+    again = importlib.util.spec_from_file_location("edited", module.__file__)
+    chapter = importlib.util.module_from_spec(again)
     with monkeypatch.context() as patch:
         patch.setattr(described, "_description", edited)
-        chapter = importlib.reload(module).CHAPTER
-    importlib.reload(module)
-    claims = [claim for claim in chapter.claims if claim.key in keys]
-    assert len(claims) == len(keys)
-    found = ledger.build([ledger.Chapter(chapter.document, claims)]).verdicts[chapter.document.key]
-    for verdict in found:
-        assert all(str(reading.outcome) != "proved" for reading in verdict.readings), verdict.id
+        again.loader.exec_module(chapter)
+    claims = {claim.key: claim for claim in chapter.CHAPTER.claims}
+    for key in keys:
+        for label, texts in claims[key].read().items():
+            found = {decide(claims[key].scope.statement(label, text)).outcome for text in texts}
+            assert Outcome.REFUTED in found, (key, label)
 
 
 def statements():
@@ -162,8 +255,11 @@ def test_derivatives_are_along_what_is_there():
     assert not vacuous
 
 
-#: Print and description say it in the same words.
-IN_THE_SAME_WORDS = {"recess-action/eq-3", "recess-action/eq-37", "zk-zn/eq-6"}
+#: Print and description, or two parts of the description, say it in the same words.
+IN_THE_SAME_WORDS = {
+    "recess-action/eq-3", "recess-action/eq-37", "zk-zn/eq-6", "bevel/fillet-join", "bevel/tangent-cones",
+    "face_worm/fillet-join",
+}  # fmt: skip
 
 
 def test_no_two_sides_are_one_text():

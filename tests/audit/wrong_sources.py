@@ -5,8 +5,9 @@ Each edit is generated anew, of the drives that use the file one after the other
 fails) is counted apart, and so is what changes no byte of any of these drives and what changes no value: the program is
 another one, and each of its functions returns what it returned.
 
-``python -m tests.audit.wrong_sources [--count N] [--seed S] [--jobs J] [--log FILE] [--write]`` prints a line an edit;
-with a log, what stands in it is not run again; ``--write`` keeps the sums for the page of validation.
+``python -m tests.audit.wrong_sources [--count N] [--each M] [--seed S] [--jobs J] [--log FILE] [--write]`` prints a
+line an edit; with a log, what stands in it is not run again; ``--write`` keeps the sums for the page of validation.
+``M`` more edits each of passes, of program and of printers change numbers and the code in strings and templates.
 """
 
 import argparse
@@ -14,14 +15,17 @@ import ast
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import sys
 import tempfile
 import time
+import tokenize
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 from derive.audit.mutations import keep
@@ -51,8 +55,16 @@ DRIVES = {
     "passes/geometry.py": EVERY, "passes/linearise.py": EVERY, "passes/quotients.py": EVERY,
     "program/tape.py": EVERY, "program/formula.py": EVERY, "emit/c99.py": EVERY, "emit/lanes.py": EVERY,
     "emit/sensitivity.py": EVERY, "emit/bounded.py": EVERY, "emit/casadi.py": EVERY, "emit/certified.py": EVERY,
-    "emit/approximation.py": EVERY,
+    "emit/approximation.py": EVERY, "passes/schedule.py": EVERY, "passes/plan.py": EVERY,
+    "passes/pivot_order.py": EVERY, "program/enclosure.py": EVERY, "program/routine.py": EVERY,
+    "emit/templates/drive.h.jinja": EVERY, "emit/templates/functions.jinja": EVERY,
+    "emit/templates/lanes.h.jinja": EVERY, "emit/templates/sensitivity.h.jinja": EVERY,
+    "emit/templates/bounded.h.jinja": EVERY, "emit/templates/certified.h.jinja": EVERY,
 }  # fmt: skip
+#: What makes programs of descriptions, and C of programs: of each, more edits than signs and operations.
+COMPILER = ("passes/", "program/", "emit/")
+#: Of what it makes nothing but words: formulas in comments and on pages.
+WORDS = ("program/formula.py",)
 #: By whom an edit is judged that no checker refuses.
 UNREFUSED = ("survivor", "derivation", "same", "equal")
 OTHER = {"sin": "cos", "cos": "sin", "Rx": "Ry", "Ry": "Rz", "Rz": "Rx", "add": "sub", "sub": "add", "mul": "add"}
@@ -83,13 +95,82 @@ class Outcome:
 def edits(count: int, seed: int = SEED) -> Iterator[Edit]:
     """File by file in turn, seeded."""
     rng = random.Random(seed)
-    queues = {file: _edits_of(file, rng) for file in DRIVES if (ROOT / "derive" / file).is_file()}
+    python = [file for file in DRIVES if file.endswith(".py")]
+    return _in_turn({file: _edits_of(file, rng) for file in python}, count)
+
+
+def further(each: int, seed: int = SEED) -> Iterator[Edit]:
+    """Of passes, of program and of printers so many each, part by part and file by file in turn, seeded."""
+    parts = []
+    for part in COMPILER:
+        files = [file for file in DRIVES if file.startswith(part) and file not in WORDS]
+        queues = {file: _text_edits_of(file, random.Random(f"{seed} {file}")) for file in files}
+        parts.append(list(_in_turn(queues, each)))
+    for row in zip_longest(*parts):
+        yield from filter(None, row)
+
+
+def _in_turn(queues: dict[str, list[Edit]], count: int) -> Iterator[Edit]:
     made = 0
     while made < count and any(queues.values()):
         for queue in queues.values():
             if queue and made < count:
                 made += 1
                 yield queue.pop()
+
+
+#: In code that is printed: what stands there, and what is put there.
+PRINTED = (
+    (r" \+ ", " - "), (r" - ", " + "), (r" \* ", " + "), (r"MW_FMA\(", "MW_FMS("), (r"MW_FNMA\(", "MW_FMA("),
+    (r"MW_FMS\(", "MW_FMA("), (r"(?<=[\w)\]]) < (?=[\w(])", " > "), (r" != ", " == "), (r"\bsin\b", "cos"),
+    (r"\bcos\b", "sin"), (r"(?<![\w.\[])0\.5(?!\w)", "0.75"), (r"(?<![\w.\[])1\.0(?!\w)", "1.5"), (r"\[k\]", "[0]"),
+    (r"\[loop\.index0( \+ (?=offset))?", "[1 + loop.index0"),
+)  # fmt: skip
+#: A string that is one operator.
+OPERATORS = {'"+"': '"-"', '"-"': '"+"', '"*"': '"+"', '"/"': '"*"', '"sin"': '"cos"', '"cos"': '"sin"'}
+
+
+def _text_edits_of(file: str, rng: random.Random) -> list[Edit]:
+    text = (ROOT / "derive" / file).read_text(encoding="utf-8")
+    found = list(_template_changes(text) if file.endswith(".jinja") else _token_changes(text))
+    lines = text.splitlines(keepends=True)
+    made = {}
+    for number, column, old, new in found:
+        line = lines[number - 1]
+        changed = line[:column] + new + line[column + len(old) :]
+        if old == new:
+            continue
+        words = f"{line.strip()[:60]!r} @{column}: {old!r} -> {new!r}"
+        made[words] = Edit(file, number, words, "".join([*lines[: number - 1], changed, *lines[number:]]))
+    edits_ = list(made.values())
+    rng.shuffle(edits_)
+    return edits_
+
+
+def _template_changes(text: str) -> Iterator[tuple[int, int, str, str]]:
+    """Line, column, what stands there, and what is put there: lines of code alone."""
+    for number, line in enumerate(text.splitlines(), 1):
+        if not re.match(r"\s*(/?\*|{#|#|//|{%-? (from|macro|end))", line):
+            code = line.partition("/*")[0]
+            for pattern, other in PRINTED:
+                yield from ((number, m.start(), m[0], other) for m in re.finditer(pattern, code))
+
+
+def _token_changes(text: str) -> Iterator[tuple[int, int, str, str]]:
+    """The same of Python: numbers, names of operations and code in strings, docstrings left out."""
+    before = ""
+    for token in tokenize.generate_tokens(iter(text.splitlines(keepends=True)).__next__):
+        (row, column), old = token.start, token.string
+        if token.type == tokenize.NUMBER:
+            yield row, column, old, str(int(old) + 1) if old.isdigit() else repr(float(old) * 1.5)
+        elif token.type == tokenize.NAME and old in ("min", "max", "reversed"):
+            yield row, column, old, {"min": "max", "max": "min", "reversed": "list"}[old]
+        elif token.type == tokenize.STRING and "\n" not in old and before.strip():
+            if old in OPERATORS:
+                yield row, column, old, OPERATORS[old]
+            for pattern, other in PRINTED if len(old) > 5 else ():
+                yield from ((row, column + m.start(), m[0], other) for m in re.finditer(pattern, old))
+        before = old
 
 
 def _edits_of(file: str, rng: random.Random) -> list[Edit]:
@@ -268,12 +349,15 @@ def write_all(drive: str, folder: Path) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.audit.wrong_sources", description=__doc__)
     parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--each", type=int, default=0, help="so many more of passes, of program and of printers")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--log", type=Path, help="a line of JSON an edit; what stands there is not run again")
     parser.add_argument("--write", action="store_true", help="replace the table of the page of validation")
     options = parser.parse_args()
-    chosen = {key_of(edit): edit for edit in edits(options.count, options.seed)}
+    chosen = {
+        key_of(edit): edit for edit in (*further(options.each, options.seed), *edits(options.count, options.seed))
+    }
     known = {}
     if options.log and options.log.is_file():
         lines = map(json.loads, options.log.read_text("utf-8").splitlines())

@@ -524,8 +524,8 @@ static void first(reader *r, fuzzed *f)
     }
     if (byte(r) > 240) mesh.bound = (int)(byte(r) % 5) - 2;
     mw_first *found = room(1, sizeof *found);
-    const double turn = number(r, from->turn), sense = number(r, from->sense);
-    const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, turn, sense, begin, work, found);
+    const double turn = number(r, from->turn), sense = number(r, from->sense), until = number(r, -sense * HUGE_VAL);
+    const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, turn, sense, begin, until, work, found);
     if (status != found->status) fail("first contact: two words for one end");
     if (status >= 0 && !(fabs(found->wheel_turn) < HUGE_VAL)) fail("first contact without an angle");
     ended[(status + 8) & 15]++;

@@ -17,6 +17,7 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.design.design import given_vector, is_real
 from meshwright.live import document, module
+from meshwright.live.data import data
 from meshwright.live.teeth import teeth
 from tests.live.browser import CHROMIUM, WIDTHS, Browser
 
@@ -114,8 +115,9 @@ def test_ten_thousand_random_inputs_have_the_same_bits(name):
 @pytest.mark.parametrize("name", DESIGNS)
 def test_a_cycle_solved_in_one_call_has_the_bits_of_single_solutions(name):
     drive = Drive.load(name)
-    wasm, middle = Wasm(drive), drive.design.reference_angle
-    angles = middle + np.linspace(-0.5, 0.5, 25) * drive.pitch()
+    wasm, away = Wasm(drive), data(drive)["from_reference"]
+    reference = drive.design.reference_angle
+    angles = np.append(reference + away + np.linspace(-0.5, 0.5, 25) * drive.pitch(), reference)
     wasm.write("parameters", given_vector(drive.design))
     assert wasm("complete") == 0
     wasm.write("angles", angles)
@@ -123,6 +125,15 @@ def test_a_cycle_solved_in_one_call_has_the_bits_of_single_solutions(name):
     rows = wasm.read("rows", len(angles) * wasm.length).reshape(len(angles), -1)
     for phi, row in zip(angles, rows, strict=True):
         assert bits(row[21 : 21 + drive.model.nx]) == bits(native_solve(drive.model, drive.design.parameters, phi)[1])
+
+
+def test_the_cycle_is_where_the_flanks_touch():
+    """With full recess action a pair touches on one side of the reference angle only."""
+    drive = Drive.load("recess-action-full")
+    touching = drive.design.reference_angle + data(drive)["from_reference"] + np.array([-0.5, 0.0, 0.5]) * drive.pitch()
+    flags = list(map(tuple, drive.tca([*touching, drive.design.reference_angle]).flags))
+    assert flags == [(), (), (), ("off_tip",)]
+    assert data(Drive.load("plain-za"))["from_reference"] == 0.0
 
 
 @pytest.mark.parametrize("name", DESIGNS)
@@ -212,7 +223,7 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
     browser = Browser(tmp_path / "profile")
     try:
         browser.open(pages(name).as_uri())
-        before = _table(browser, "numbers")
+        before, away = _table(browser, "numbers"), browser.value("data.from_reference")
         browser.drag(f"slide-{place}", 0.53)
         key = f"document.getElementById('key-{place}').value"
         browser.wait(f"Number({key}) !== 0 && !pending")
@@ -233,7 +244,7 @@ def test_dragging_a_key_shows_the_native_numbers_to_the_last_digit(name, pages, 
     finally:
         browser.close()
     changed = drive.with_(misalignment={place.partition(".")[2]: value})
-    middle, pitch = changed.design.reference_angle, changed.pitch()
+    middle, pitch = changed.design.reference_angle + away, changed.pitch()
     phi = middle + (index / 199 - 0.5) * pitch
     status, x = native_solve(changed.model, changed.design.parameters, phi)
     assert status >= 0

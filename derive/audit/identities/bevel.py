@@ -1,9 +1,10 @@
 """Bevel and hypoid gears: blade, machine frames, meshing as a screw, conjugate settings, assembly."""
 
-from derive.audit.claims import Document, scope, with_sign
+from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity, proper
+from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.prove.tree import Tree
 
 DOCUMENT = Document(
     key="bevel",
@@ -11,7 +12,8 @@ DOCUMENT = Document(
     file="derive/drives/bevel.py",
     sha256="",
     about="Machine frame: z along the cradle's axis to the blank, x to the tooth being cut. Body frame: z along the "
-    "axis to the back. h is the hand of the member, s the side of the blade.",
+    "axis to the back. Edges, normals and motions are those of the drive's description, of the gear (right hand) and "
+    "of the pinion (left hand); s is the side of the blade.",
     symbols={
         "u": ("u", "mm", "arc length along the blade from its tip"),
         "X": ("w", "mm", "place on the blade's line that its normal meets"),
@@ -35,9 +37,7 @@ DOCUMENT = Document(
         "H": ("H", "mm/rad", "helical motion"),
         "R": ("R", "-", "ratio of roll"),
         "rho": ("ρf", "mm", "rounding of the blade's tip"),
-        "lam": ("λ", "rad", "angle on the rounding"),
-        "h": ("h", "-", "hand, +1 right"),
-        "m": ("m", "-", "N1/N2"),
+        "tau": ("τ", "rad", "inclination of the normal on the rounding"),
         "E": ("E", "mm", "offset"),
         "Sigma": ("Σ", "rad", "shaft angle"),
         "phi1": ("φ1", "rad", "angle of the pinion"),
@@ -47,78 +47,162 @@ DOCUMENT = Document(
     },
 )
 
-BLADE = scope(
-    "bevel.blade",
-    """
+#: Of any blade: its line leaves the tip plane along t0 and its normal n0 points out of the metal that it leaves.
+LINE = """
+e1 = vec(1, 0, 0)
+k = vec(0, 0, 1)
 t0 = vec(s*sin(alpha), 0, -cos(alpha))
 n0 = vec(-s*cos(alpha), 0, -sin(alpha))
-arc = (u0 + sin(t)/kappa)*t0 - (2*sin(t/2)**2/kappa)*n0
-n_arc = cos(t)*n0 + sin(t)*t0
-secant = sqrt(1 + kappa**2*X**2)
-swung = (u0 + X/secant)*t0 - (kappa*X**2/(secant*(secant + 1)))*n0
-n_swung = n0 + kappa*X*t0
+"""
+SETTINGS = {"r_p_{}": "rp", "alpha_{}": "alpha", "u_0_{}": "u0", "rho_f_{}": "rho", "theta_{}": "theta"}
+BENT, UNBENT = {"bend_{}": "kappa"}, {"bend_{}": "0", "cosine_joint_{}": "cos(alpha)"}
+
+
+def letters(member: str, *tables: dict[str, str]) -> dict[str, str]:
+    """The drive's letters of a member, which stands for braces, with the document's."""
+    return {name.format(member): other.format(member) for table in tables for name, other in table.items()}
+
+
+#: Pinion of either kind: its blade by the place that the normal meets on its line, straight, at the rounding of its tip
+#: and there where that joins; a Formate gear, whose blade is of the other side, by the turn along its arc.
+BY_NORMAL = Described("bevel_generated", letters("pinion", BENT, SETTINGS, {"w_{}": "X"}))
+STRAIGHT = Described("bevel_generated", letters("pinion", UNBENT, SETTINGS, {"w_{}": "u - u_0_{}"}, SETTINGS))
+WIDER = Described(STRAIGHT.drive, {**STRAIGHT.letters, "r_p_pinion": "rp + change"})
+ROUNDED = Described("bevel_generated", letters("pinion", UNBENT, SETTINGS, {"tau_{}": "tau"}))
+JOINED = Described("bevel_generated", letters("pinion", UNBENT, SETTINGS, {"tau_{}": "alpha"}))
+BY_TURN = Described("bevel_formate", letters("gear", BENT, {"u_{}": "u_0_{} + t/kappa"}, SETTINGS, {"s": "-s"}))
+TIP = "pinion/fillet"
+
+BLADE = scope(
+    "bevel.blade",
+    LINE
+    + """
+swung = edge - vec(rp, 0, 0)
 pole = (u0 + X)*t0
 omega = vec(o1, o2, o3)
-velocity = vec(v1, v2, v3) + cross(omega, pole)
-f = dot(n_swung, velocity)
-joint = rho*(1 - sin(alpha))/cos(alpha)
-centre = joint*t0 + rho*n0
-m_round = vec(-s*cos(alpha + lam), 0, -sin(alpha + lam))
-rounding = centre - rho*m_round
+f = dot(n_swung, vec(v1, v2, v3) + cross(omega, swung))
+""",
+    signs=["s"],
+    described={
+        "secant": BY_NORMAL.name("secant_pinion"),
+        "edge": BY_NORMAL.edge("pinion"),
+        "n_swung": BY_NORMAL.normal("pinion"),
+        "arc": BY_TURN.edge("wheel"),
+        "n_arc": BY_TURN.normal("wheel"),
+    },
+)
+
+CONE = scope(
+    "bevel.cone",
+    """
+e1 = vec(1, 0, 0)
+wider = vec(c1, c2, 0) - change*radial + widened
+""",
+    signs=["s"],
+    described={
+        "cone": STRAIGHT.carried(STRAIGHT.sweep("pinion"), STRAIGHT.edge("pinion")),
+        "n_cone": STRAIGHT.turned(STRAIGHT.sweep("pinion"), STRAIGHT.normal("pinion")),
+        "widened": WIDER.carried(WIDER.sweep("pinion"), WIDER.edge("pinion")),
+        "n_widened": WIDER.turned(WIDER.sweep("pinion"), WIDER.normal("pinion")),
+        "radial": STRAIGHT.turned(STRAIGHT.sweep("pinion"), "e1"),
+    },
+)
+
+ROUNDING = scope(
+    "bevel.rounding",
+    LINE
+    + """
+centre = rounding + rho*m_round
+omega = vec(o1, o2, o3)
 at_rounding = vec(v1, v2, v3) + cross(omega, rounding)
 at_centre = vec(v1, v2, v3) + cross(omega, centre)
-turn_theta = mat([cos(theta), -h*sin(theta), 0], [h*sin(theta), cos(theta), 0], [0, 0, 1])
-cone = turn_theta@(vec(rp, 0, 0) + u*t0)
-n_cone = turn_theta@n0
-radial = turn_theta@vec(1, 0, 0)
-wider = vec(c1, c2, 0) - change*radial + turn_theta@(vec(rp + change, 0, 0) + u*t0)
 """,
-    signs=["h", "s"],
+    signs=["s"],
+    described={
+        "rounding": ROUNDED.edge(TIP),
+        "m_round": ROUNDED.normal(TIP),
+        "joined": JOINED.edge(TIP),
+        "m_joined": JOINED.normal(TIP),
+    },
 )
+
+#: Member -> its place among the bodies, and hand, +1 right.
+MEMBERS = {"gear": ("wheel", 1), "pinion": ("pinion", -1)}
+#: What is said of each member, in the names of :func:`_machine`.
+READ = ("cut", "n_cut", "gen", "n_gen", "lay", "base", "untilted", "plain", "crown", "larger", "shifted", "moved")
+MACHINE_LETTERS = {
+    "phi_cradle_{}": "phi", "theta_{}": "theta", "gamma_m_{}": "gamma", "E_m_{}": "Em", "X_B_{}": "XB", "X_D_{}": "XD",
+    "H_{}": "H", "q_{}": "q", "S_r_{}": "Sr", "swivel_{}": "j", "tilt_{}": "i",
+}  # fmt: skip
+#: The work's turn, a polynomial of the cradle's, is one angle.
+MODIFIED_ROLL = {f"c_{n}_{{}}": "0" for n in range(2, 7)} | {"R_{}": "work/phi_cradle_{}"}
+LENGTHS = {"E_m_{}": "c*Em", "X_B_{}": "c*XB", "X_D_{}": "c*XD", "H_{}": "c*H", "S_r_{}": "c*Sr"}
+APEX = {"X_B_{}": "XB + l*tan(gamma)", "X_D_{}": "XD - l/cos(gamma)"}
+CROWN: dict[str, str] = dict.fromkeys(("E_m_{}", "X_B_{}", "X_D_{}", "H_{}"), "0")
+
+
+def _machine(member: str) -> dict:
+    """A tool's point and normal in the body of what it cuts and in the machine, as the drive's page says: whatever edge
+    stands on the head.
+    """
+    place, _ = MEMBERS[member]
+
+    def machine(*own: dict[str, str]) -> Described:
+        return Described("bevel_generated", letters(member, MODIFIED_ROLL, MACHINE_LETTERS, *own))
+
+    def cut(drive: Described, point: Tree) -> Tree:
+        return drive.carried(drive.generation(place), drive.carried(drive.sweep(place), point))
+
+    drive = machine()
+    sweep, generation = drive.sweep(place), drive.generation(place)
+    trees = (
+        cut(drive, "on_head"),
+        drive.turned(generation, drive.turned(sweep, "normal_on_head")),
+        drive.carried(generation[4:], drive.carried(sweep, "on_head")),
+        drive.turned(generation[4:], drive.turned(sweep, "normal_on_head")),
+        drive.matrix(generation[2:3]),
+        drive.carried(generation[3:4], ("vec", 0, 0, 0)),
+        cut(machine({"tilt_{}": "0"}), "on_head"),
+        cut(machine({"H_{}": "0"}), "on_head"),
+        cut(machine(CROWN), "on_head"),
+        cut(machine(LENGTHS), ("*", "c", "on_head")),
+        cut(machine(APEX), "on_head"),
+        drive.carried(generation[:4], ("+", f"gen_{member}", ("vec", "l", 0, 0))),
+    )
+    return {f"{name}_{member}": tree for name, tree in zip(READ, trees, strict=True)}
+
 
 MACHINE = scope(
     "bevel",
     """
-unit = mat([1, 0, 0], [0, 1, 0], [0, 0, 1])
-turn_theta = mat([cos(theta), -h*sin(theta), 0], [h*sin(theta), cos(theta), 0], [0, 0, 1])
-turn_swivel = mat([cos(j), -h*sin(j), 0], [h*sin(j), cos(j), 0], [0, 0, 1])
-turn_cradle = mat([cos(q + phi), -h*sin(q + phi), 0], [h*sin(q + phi), cos(q + phi), 0], [0, 0, 1])
-turn_work = mat([cos(work), h*sin(work), 0], [-h*sin(work), cos(work), 0], [0, 0, 1])
-lay = mat([sin(gamma), 0, -cos(gamma)], [0, 1, 0], [cos(gamma), 0, sin(gamma)])
-edge = vec(rp + ex, 0, ez)
-normal = vec(nx, 0, nz)
-r_gen = turn_cradle@(vec(Sr, 0, 0) + turn_swivel@(Ry(i)@(turn_theta@edge)))
-n_gen = turn_cradle@(turn_swivel@(Ry(i)@(turn_theta@normal)))
-base = vec(0, h*Em, XB + H*phi)
-r_body = turn_work@(lay@(r_gen - base) - vec(0, 0, XD))
-n_body = turn_work@(lay@n_gen)
-axis = vec(cos(gamma), 0, sin(gamma))
+e1 = vec(1, 0, 0)
 k = vec(0, 0, 1)
-origin = base + XD*axis
-screw = dot(n_gen, h*cross(k, r_gen) - h*rate*cross(axis, r_gen - origin) - H*k)
-f = dot(n_body, d(r_body, phi) + rate*d(r_body, work))
-turn_sum = mat([cos(theta + j), -h*sin(theta + j), 0], [h*sin(theta + j), cos(theta + j), 0], [0, 0, 1])
-theta_other = mat([cos(theta), h*sin(theta), 0], [-h*sin(theta), cos(theta), 0], [0, 0, 1])
-swivel_other = mat([cos(j), h*sin(j), 0], [-h*sin(j), cos(j), 0], [0, 0, 1])
-cradle_other = mat([cos(q + phi), h*sin(q + phi), 0], [-h*sin(q + phi), cos(q + phi), 0], [0, 0, 1])
-work_other = mat([cos(work), -h*sin(work), 0], [h*sin(work), cos(work), 0], [0, 0, 1])
-gen_other = cradle_other@(vec(Sr, 0, 0) + swivel_other@(Ry(i)@(theta_other@edge)))
-r_other = work_other@(lay@(gen_other - vec(0, -h*Em, XB + H*phi)) - vec(0, 0, XD))
-plain = lay@(turn_cradle@head - vec(0, h*Em, XB)) - vec(0, 0, XD)
-r_rolled = mat([cos(w), h*sin(w), 0], [-h*sin(w), cos(w), 0], [0, 0, 1])@plain
-r_shifted = mat([cos(w - e), h*sin(w - e), 0], [-h*sin(w - e), cos(w - e), 0], [0, 0, 1])@plain
-turn_shift = mat([cos(e), -h*sin(e), 0], [h*sin(e), cos(e), 0], [0, 0, 1])
-head = vec(p1, p2, p3)
-gen_larger = turn_cradle@(vec(c*Sr, 0, 0) + turn_swivel@(Ry(i)@(turn_theta@(c*edge))))
-base_larger = vec(0, h*c*Em, c*XB + c*H*phi)
-r_larger = turn_work@(lay@(gen_larger - base_larger) - vec(0, 0, c*XD))
-f_larger = dot(n_body, d(r_larger, phi) + rate*d(r_larger, work))
-r_any = vec(x, y, z)
-n_any = vec(n1, n2, n3)
+axis_gear = T(lay_gear)@k
+axis_pinion = T(lay_pinion)@k
+reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
 """,
     jets={"ex": ("u",), "ez": ("u",), "nx": ("u",), "nz": ("u",)},
-    signs=["h", "s"],
+    described={
+        "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
+        "normal_on_head": ("vec", ("jet", "nx", 0), 0, ("jet", "nz", 0)),
+    }
+    | _machine("gear")
+    | _machine("pinion"),
 )
+
+
+def both(*texts: str) -> list[str]:
+    """Equations of gear and pinion; names in braces are that member's, {h} the sign of its hand, {opposite} not."""
+    return [
+        text.format(
+            h="" if hand > 0 else "-", opposite="-" if hand > 0 else "", opposite_sign="-" if hand > 0 else "+",
+            axis=f"axis_{member}",
+            **{name: f"{name}_{member}" for name in READ},
+        )
+        for text in texts
+        for member, (_, hand) in MEMBERS.items()
+    ]  # fmt: skip
+
 
 #: Any generating surface at one place and instant: its tangents A and B, its second derivatives, and its velocity where
 #: f = 0: −a A − b B, for the rates a and b at which the place of contact runs over the tool.
@@ -143,69 +227,55 @@ twice = a**2*AA + 2*a*b*AB + b**2*BB + 2*a*AV + 2*b*BV + VV
 """,
 )
 
+#: Perfectly assembled; and the machine of the pinion whose cradle is the gear.
+ASSEMBLED = {"dE": "0", "dSigma": "0", "dP": "0", "dG": "0", "transmission_error": "0"}
+MESH = Described("bevel_generated", {**ASSEMBLED, "phi_pinion": "phi1"})
+INTERSECTING = Described("bevel_generated", {**MESH.letters, "E": "0"})
+ROLLING = Described("bevel_generated", {**ASSEMBLED, "ratio": "phi/phi_pinion", "phi_pinion": "work"})
+AS_GEAR = Described(
+    "bevel_generated",
+    letters("pinion", MODIFIED_ROLL, {
+        **MACHINE_LETTERS, "gamma_m_{}": "Sigma - pi/2", "E_m_{}": "E", "X_B_{}": "0", "X_D_{}": "0", "H_{}": "0",
+        "q_{}": "0",
+    }),
+)  # fmt: skip
+
 PAIR = scope(
     "bevel.pair",
     """
-half = mat([-1, 0, 0], [0, -1, 0], [0, 0, 1])
 flip = mat([1, 0, 0], [0, -1, 0], [0, 0, -1])
 k = vec(0, 0, 1)
-axis_of_work = vec(sin(Sigma), 0, -cos(Sigma))
-hypoid = vec(0, E, 0) + Ry(Sigma)@(half@(Rz(-phi1)@r1 + vec(0, 0, dP)))
-bevel = Ry(Sigma)@(half@(Rz(-phi1)@r1 + vec(0, 0, dP)))
-r1 = vec(x, y, z)
+r = vec(x, y, z)
 """,
+    described={
+        "hypoid": MESH.carried(MESH.motion("pinion"), "r"),
+        "bevel": INTERSECTING.carried(INTERSECTING.motion("pinion"), "r"),
+        "pinion_axis": MESH.turned(MESH.motion("pinion")[:-1], "k"),
+        "in_pinion": AS_GEAR.carried(AS_GEAR.generation("pinion")[:5], ("@", "flip", "r")),
+        "rolled": ROLLING.carried(ROLLING.motion("pinion"), "in_pinion"),
+        "meshed": ROLLING.carried(ROLLING.motion("wheel"), "r"),
+    },
 )
 
-
-
-def _machine(member: str) -> dict:
-    """A tool's point in the body of what it cuts, as the drive's page says; the work's turn, a polynomial of the
-    cradle's, is one angle.
-    """
-    rolled = {f"c_{k}_{member}": "0" for k in range(2, 7)}
-    letters = rolled | {
-        f"R_{member}": f"work/phi_cradle_{member}", f"phi_cradle_{member}": "phi", f"theta_{member}": "theta",
-        f"gamma_m_{member}": "gamma", f"E_m_{member}": "Em", f"X_B_{member}": "XB", f"X_D_{member}": "XD",
-        f"H_{member}": "H", f"q_{member}": "q", f"S_r_{member}": "Sr", f"swivel_{member}": "j", f"tilt_{member}": "i",
-    }  # fmt: skip
-    drive, place = Described("bevel_generated", letters), "wheel" if member == "gear" else member
-    return {
-        "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
-        "normal_on_head": ("vec", ("jet", "nx", 0), 0, ("jet", "nz", 0)),
-        "cut": drive.carried(drive.generation(place), drive.carried(drive.sweep(place), "on_head")),
-        "cut_normal": drive.turned(drive.generation(place), drive.turned(drive.sweep(place), "normal_on_head")),
-    }
-
-
-GEAR = with_sign(MACHINE, "bevel.gear", "h", 1, _machine("gear"))
-PINION = with_sign(MACHINE, "bevel.pinion", "h", -1, _machine("pinion"))
-
 CLAIMS = (
-    *(
-        identity(
-            f"machine-{member}",
-            "description",
-            f"The machine that cuts the {member}, of hand h = {hand}, is the motion of the drive's description, "
-            f"whatever edge stands on the head.",
-            ["r_body = cut", "n_body = cut_normal"],
-            context,
-        )
-        for member, hand, context in (("gear", "+1", GEAR), ("pinion", "-1", PINION))
-    ),
     identity(
         "meshing",
         "equation of meshing",
-        "Machine and blank move against one another in a screw about cradle and work axis, for any roll: f is its "
-        "moment about the cutter's normal.",
-        "f = screw",
+        "Machine and blank of the description move against one another in a screw about cradle and work axis, for any "
+        "roll: f is its "
+        "moment about the cutter's normal. rate is dφw/dφc.",
+        both(
+            "dot({n_cut}, d({cut}, phi) + rate*d({cut}, work)) = dot({n_gen}, {h}cross(k, {gen})"
+            " {opposite_sign} rate*cross({axis}, {gen} + {base}) - H*k)"
+        ),
         MACHINE,
     ),
     identity(
         "regular",
         "regular part",
-        "g = f_u a + f_θ b + f_φ is the second derivative, along the normal, of the tool's place over a fixed point of "
-        "the blank: there r_u a + r_θ b = −r_φ, and whatever the second derivatives of the rates add lies in the "
-        "tangent plane. Positive where the tool cuts deepest at this instant.",
+        "Of any generating surface: g = f_u a + f_θ b + f_φ is the second derivative, along the normal, of the tool's "
+        "place over a fixed point of the blank: there r_u a + r_θ b = −r_φ, and whatever the second derivatives of the "
+        "rates add lies in the tangent plane. Positive where the tool cuts deepest at this instant.",
         [
             "dot(N, V) = 0",
             "g = dot(N, twice)",
@@ -216,8 +286,8 @@ CLAIMS = (
     identity(
         "edge-normal",
         "blade",
-        "The arc's normal has unit length and is normal to the arc.",
-        ["dot(n_arc, n_arc) = 1", "dot(n_arc, d(arc, t)) = 0"],
+        "The arc's normal has unit length and is normal to the arc; it begins along the line.",
+        ["dot(n_arc, n_arc) = 1", "dot(n_arc, d(arc, t)) = 0", "cos(t)*n_arc - sin(t)*d(arc, t)*kappa = n0"],
         BLADE,
         conditions=["κb ≠ 0"],
     ),
@@ -247,14 +317,16 @@ CLAIMS = (
     identity(
         "fillet-join",
         "fillet",
-        "The rounding joins the edge in place and normal, and touches the tip plane.",
+        "The rounding joins the straight edge in place and normal, turns about one centre and touches the tip plane.",
         [
+            "joined = vec(rp, 0, 0) + rho*(1 - sin(alpha))/cos(alpha)*t0",
+            "m_joined = n0",
             "centre.z = -rho",
-            "joint*t0 + rho*n0 - rho*vec(-s*cos(alpha), 0, -sin(alpha)) = joint*t0",
-            "dot(m_round, d(rounding, lam)) = 0",
+            "d(centre, tau) = vec(0, 0, 0)",
+            "dot(m_round, d(rounding, tau)) = 0",
         ],
-        BLADE,
-        conditions=["cos α ≠ 0"],
+        ROUNDING,
+        conditions=["cos α > 0"],
     ),
     identity(
         "cone-normal",
@@ -267,7 +339,7 @@ CLAIMS = (
             "dot(n_cone, d(cone, theta)) = 0",
             "d(n_cone, u) = vec(0, 0, 0)",
         ],
-        BLADE,
+        CONE,
     ),
     identity(
         "stand-off",
@@ -280,63 +352,52 @@ CLAIMS = (
         "rounding",
         "fillet",
         "Normals of the rounding pass through its centre: in any motion the equation of meshing is a cosine and a sine "
-        "of their inclination α + λ, with the velocity of the centre.",
-        "dot(m_round, at_rounding) = -s*at_centre.x*cos(alpha + lam) - at_centre.z*sin(alpha + lam)",
-        BLADE,
+        "of their inclination τ, with the velocity of the centre.",
+        "dot(m_round, at_rounding) = -s*at_centre.x*cos(tau) - at_centre.z*sin(tau)",
+        ROUNDING,
     ),
     identity(
         "tangent-cones",
         "conjugate pairs",
         "A wider cone whose axis is moved back by the change of radius shares point and normal along one whole "
         "generatrix: crowning along the tooth.",
-        "wider = vec(c1, c2, 0) + cone",
-        BLADE,
-    ),
-    identity(
-        "frames",
-        "machine",
-        "Every frame of the machine is orthogonal with determinant +1, for either hand.",
-        [text for name in ("turn_theta", "turn_swivel", "turn_cradle", "turn_work", "lay") for text in proper(name)],
-        MACHINE,
+        ["wider = vec(c1, c2, 0) + cone", "n_cone = n_widened"],
+        CONE,
     ),
     identity(
         "hand",
         "machine",
         "The other hand is the mirror image y → -y at equal blade and cradle angles: only the senses of turns change.",
-        [
-            "r_body.x = r_other.x",
-            "r_body.y = -r_other.y",
-            "r_body.z = r_other.z",
-        ],
+        "cut_pinion = reflect@cut_gear",
         MACHINE,
     ),
     identity(
         "rotation-of-blade",
         "machine",
         "Without tilt, blade angle and swivel enter as their sum.",
-        "turn_swivel@turn_theta = turn_sum",
+        both("d({untilted}, theta) = d({untilted}, j)"),
         MACHINE,
     ),
     identity(
         "plain-roll",
         "machine",
-        "With plain roll a change of the cradle angle only turns the member: the flank depends on q + φc.",
-        "r_shifted = turn_shift@r_rolled",
+        "With plain roll, in the ratio R, a change of the cradle angle only turns the member: the flank depends on q + "
+        "φc.",
+        both("d({plain}, (phi, 1), (work, R)) = d({plain}, q) {opposite_sign} R*cross(k, {plain})"),
         MACHINE,
     ),
     identity(
         "scale",
         "machine",
-        "All lengths times c, helical motion among them: the flank times c at equal angles, f times c.",
-        ["r_larger = c*r_body", "f_larger = c*f"],
+        "All lengths times c, helical motion among them: the flank times c at equal angles.",
+        both("{larger} = c*{cut}"),
         MACHINE,
     ),
     identity(
         "apex",
         "machine",
         "Centre to back and sliding base together shift the cutter along the machine plane.",
-        "lay@(r_gen - base - vec(0, 0, l*tan(gamma))) - vec(0, 0, XD - l/cos(gamma))"
-        " = lay@(r_gen + vec(l, 0, 0) - base) - vec(0, 0, XD)",
+        both("{shifted} = {moved}"),
         MACHINE,
         conditions=["cos γm ≠ 0"],
     ),
@@ -345,11 +406,10 @@ CLAIMS = (
         "conjugate pairs",
         "A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch "
         "line, the same line for both members.",
-        [
-            "h*k - h*axis/sin(gamma) = -h*cos(gamma)/sin(gamma)*vec(1, 0, 0)",
-            "dot(n_any, cross(h*k - h*axis/sin(gamma), r_any))"
-            " = -h*cos(gamma)/sin(gamma)*dot(n_any, cross(vec(1, 0, 0), r_any))",
-        ],
+        both(
+            "dot({n_cut}, d({crown}, phi) + d({crown}, work)/sin(gamma))"
+            " = {opposite}cos(gamma)/sin(gamma)*dot({n_gen}, cross(e1, {gen}))"
+        ),
         MACHINE,
         conditions=["sin δ ≠ 0"],
     ),
@@ -357,9 +417,9 @@ CLAIMS = (
         "formate-cradle",
         "conjugate pairs",
         "Where the pinion's cradle is the gear itself, γm = Σ - 90°, Em = E, XD = 0 and R = N2/N1, the machine moves "
-        "as the pair in mesh does: what it cuts is conjugate to the gear, for any offset.",
-        "flip@(cross(axis_of_work, flip@r1 - vec(0, -E, 0))/m - cross(k, flip@r1))"
-        " = (m*cross(k, r1) + cross(vec(sin(Sigma), 0, cos(Sigma)), r1 - vec(0, E, 0)))/m",
+        "as the pair of the description does in mesh, turned over: what it cuts is conjugate to the gear, for any "
+        "offset.",
+        "rolled = meshed",
         PAIR,
     ),
     identity(
@@ -375,9 +435,8 @@ CLAIMS = (
         "assembly",
         "The pinion's axis is (sin Σ, 0, cos Σ); it turns by φ1 about minus that axis.",
         [
-            "Ry(Sigma)@(half@vec(0, 0, 1)) = vec(sin(Sigma), 0, cos(Sigma))",
-            "d(Ry(Sigma)@(half@(Rz(-phi1)@r1)), phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), "
-            "Ry(Sigma)@(half@(Rz(-phi1)@r1)))",
+            "pinion_axis = vec(sin(Sigma), 0, cos(Sigma))",
+            "d(hypoid, phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), hypoid - vec(0, E, 0))",
         ],
         PAIR,
     ),

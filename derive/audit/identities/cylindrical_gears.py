@@ -1,9 +1,13 @@
 """Cylindrical gears: generation by a modified rack, the involute helicoid, undercut, pairs on crossed axes."""
 
+from collections.abc import Mapping
+
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
 from derive.audit.identities.conventions import identity
+from derive.audit.identities.helicoids import tool
 from derive.audit.ledger import Chapter
+from derive.prove.tree import Tree
 
 DOCUMENT = Document(
     key="cylindrical_gears",
@@ -11,7 +15,8 @@ DOCUMENT = Document(
     file="derive/drives/cylindrical_gears.py",
     sha256="",
     about="A straight edge with any modification E(l, Z), a plunge δ(Z) and a feed ε(Z) traverses the face along the "
-    "trace of a helical rack; the gear rolls on it. Index 1 is the pinion, 2 the wheel.",
+    "trace of a helical rack; the gear rolls on it. Rack, normal, rolling and sizes are those of the drive's "
+    "description. Index 1 is the pinion, 2 the wheel.",
     symbols={
         "l": ("l", "mm", "along the edge from the rack's datum line"),
         "Z": ("Z", "mm", "position across the face"),
@@ -42,74 +47,111 @@ DOCUMENT = Document(
     },
 )
 
+#: A gear's size, shift and place on the edge and across the face, in the letters of one gear.
+LETTERS = {
+    "z_1": "2*r*cos(beta_pinion)/m", "shift_pinion": "xm/m", "l_pinion": "l", "z_pinion": "Z", "beta_pinion": "beta",
+    "m": "4*h/pi",
+}  # fmt: skip
+#: The profile's modification and its derivatives.
+PROFILE_LETTERS = {"E_pinion": "E_here", "E_pinion_l_pinion": "E_l", "E_pinion_z_pinion": "E_Z"}
+#: A plunge δ and a feed ε for those of the drive, and a quadratic and a constant slope for its own functions.
+PLUNGE = {"C_beta_pinion": "delta_here*b_pinion**2*sin(alpha)/(4*z_pinion**2)"}
+FEED = {"C_Hbeta_pinion": "eps_here*b_pinion*cos(alpha)*cos(beta_pinion)/z_pinion"}
+QUADRATIC = {"C_beta_pinion": "c*b_pinion**2*sin(alpha)/4"}
+SLOPE = {"C_Hbeta_pinion": "g*b_pinion*cos(alpha)*cos(beta_pinion)"}
+
+
+def gear(
+    own: Mapping[str, str], profile: Mapping[str, Tree] | None = None, letters: Mapping[str, str] = LETTERS
+) -> dict:
+    """What the drive's page says of a gear: the rack at a place of its edge and face, its outward normal, what the
+    equation of meshing is solved by; the same while the gear is being cut, and the flank in the rack's frame, in which
+    the gear turns.
+
+    ``own`` are letters of modifications of the lead, ``profile`` is that of the profile and its derivatives.
+    """
+    drive = Described("cylindrical_gears", {**own, **PROFILE_LETTERS, **letters})
+    rolling = Described(drive.drive, {**drive.letters, "phi_gen_pinion": "phi"})
+    rolled = Described(drive.drive, {**drive.letters, "phi_gen_pinion": "turn"})
+    sweep, generation = drive.sweep("pinion"), drive.generation("pinion")
+    return {
+        **(profile or dict.fromkeys(PROFILE_LETTERS.values(), 0)),
+        "rack": drive.carried(sweep, drive.edge("pinion")),
+        "outward": drive.normal("pinion"),
+        "turn": drive.solved("pinion"),
+        "free": rolling.carried(generation, "rack"),
+        "turned": rolling.matrix(generation),
+        "body": rolled.carried(generation[1:], "rack"),
+    }
+
+
 ROLLED = """
+k = vec(0, 0, 1)
+X = rack.x
+Y = rack.y
 n = s*cross(d(rack, Z), d(rack, l))
+n_free = turned@n
 slope = d(X, l)/d(Y, l)
-turn = (Y + X*slope)/r
-body = vec(X + r, Y - r*turn, Z)
 gear_l = d(body, l) + d(turn, l)*cross(k, body)
 gear_Z = d(body, Z) + d(turn, Z)*cross(k, body)
-free = Rz(phi)@vec(X + r, Y - r*phi, Z)
-n_free = Rz(phi)@n
 undercut = r*d(Y, l) + X*(d(Y, l) + d(X, l)**2/d(Y, l)) + X**2*d(slope, l)
 """
 
+#: Any modification of the profile, plunge and feed.
 MODIFIED = scope(
     "cylindrical_gears",
-    """
-k = vec(0, 0, 1)
-X = l*cos(alpha) - E*sin(alpha) + xm - delta
-Y = s*((h - l*sin(alpha) - E*cos(alpha))/cos(beta) - eps) + Z*sin(beta)/cos(beta)
-rack = vec(X, Y, Z)
-"""
-    + ROLLED,
+    ROLLED,
     jets={"E": ("l", "Z"), "delta": ("Z",), "eps": ("Z",)},
     signs=["s"],
+    described={"delta_here": ("jet", "delta", 0), "eps_here": ("jet", "eps", 0)}
+    | gear(
+        PLUNGE | FEED,
+        {"E_here": ("jet", "E", 0, 0), "E_l": ("jet", "E", 1, 0), "E_Z": ("jet", "E", 0, 1)},
+    ),
 )
 
-#: A gear's own modifications, plunge and feed as the letters of their functions.
-DRIVE = Described(
-    "cylindrical_gears",
-    {
-        "z_1": "2*r*cos(beta_pinion)/m", "E_pinion": "E_here", "shift_pinion": "xm/m", "l_pinion": "l",
-        "C_beta_pinion": "delta_here*b_pinion**2*sin(alpha)/(4*z_pinion**2)",
-        "C_Hbeta_pinion": "eps_here*b_pinion*cos(alpha)*cos(beta_pinion)/z_pinion", "z_pinion": "Z",
-        "beta_pinion": "beta", "phi_gen_pinion": "phi", "m": "4*h/pi",
-    },
-)  # fmt: skip
-
-DESCRIBED = scope(
-    "cylindrical_gears.described",
-    "",
-    described={
-        "E_here": ("jet", "E", 0, 0),
-        "delta_here": ("jet", "delta", 0),
-        "eps_here": ("jet", "eps", 0),
-        "edge": DRIVE.edge("pinion"),
-        "traced": DRIVE.carried(DRIVE.sweep("pinion"), "edge"),
-        "cut": DRIVE.carried(DRIVE.generation("pinion"), "traced"),
-    },
-    extends=MODIFIED,
+#: The drive's own crowning and slope of the lead.
+OWN_LEAD = scope(
+    "cylindrical_gears.own-lead",
+    ROLLED,
+    jets={"E": ("l", "Z")},
+    signs=["s"],
+    described=gear(
+        QUADRATIC | SLOPE, {"E_here": ("jet", "E", 0, 0), "E_l": ("jet", "E", 1, 0), "E_Z": ("jet", "E", 0, 1)}
+    ),
 )
+
+UNMODIFIED = {"C_beta_pinion": "0", "C_Hbeta_pinion": "0"}
+DRIVE = Described("cylindrical_gears", LETTERS)
+NORMAL = "normal = vec(sin(alpha), s*cos(alpha)*cos(beta), -s*cos(alpha)*sin(beta))\n"
 
 INVOLUTE = scope(
     "cylindrical_gears.involute",
-    """
-k = vec(0, 0, 1)
-X = l*cos(alpha) + xm
-Y = s*(h - l*sin(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
-rack = vec(X, Y, Z)
-normal = vec(sin(alpha), s*cos(alpha)*cos(beta), -s*cos(alpha)*sin(beta))
-cos_b = sqrt(1 - (sin(beta)*cos(alpha))**2)
+    ROLLED
+    + NORMAL
+    + """
+cos_b = sqrt(sin(alpha)**2 + cos(alpha)**2*cos(beta)**2)
 cos_t = cos(alpha)*cos(beta)/cos_b
 sin_t = sin(alpha)/cos_b
-r_b = r*cos_t
 p = r*cos(beta)/sin(beta)
 rho = r*sin_t + X/sin_t
 tangent = mat([cos_t, s*sin_t, 0], [-s*sin_t, cos_t, 0], [0, 0, 1])
-"""
-    + ROLLED,
+""",
     signs=["s"],
+    described=gear(UNMODIFIED)
+    | {
+        "r_b": DRIVE.size("pinion_base_radius_mm"),
+        "sine_of_base_helix": DRIVE.operands("pinion_base_helix_angle_deg")[0],
+        "tangent_over": DRIVE.operands("pinion_transverse_pressure_angle_deg")[0],
+        "tangent_under": DRIVE.operands("pinion_transverse_pressure_angle_deg")[1],
+    },
+)
+
+#: The worm whose profile angle is a; the same base radius and screw parameter.
+ZI = tool(
+    "zi",
+    {"tan(lambda_worm)": "p/r_worm"},
+    {"r_b_worm": "r_b", "a_t_worm": "a", "a_t_pitch_worm": "ap", "t_worm": "r_b/cos(a)"},
 )
 
 #: The same flank in its two fundamental forms; ``linear`` is its turn in the radius of curvature and across the face.
@@ -126,84 +168,104 @@ M2 = -dot(gear_l, normal_Z)
 N2 = -dot(gear_Z, normal_Z)
 turn_a = mat([cos(a), -s*sin(a), 0], [s*sin(a), cos(a), 0], [0, 0, 1])
 linear = s*(psi - sin(a)/cos(a)) + Z/p
-worm_height = s*(w + p*(sin(a)/cos(a) - a))
+w = S/(2*cos(lam)) + p*(ap - sin(ap)/cos(ap))
 """,
     extends=INVOLUTE,
+    described={"worm": ZI.edge("pinion")},
 )
+
+PAIR = Described(
+    "cylindrical_gears",
+    {"z_1": "z1", "z_2": "z2", "beta_pinion": "beta1", "beta_wheel": "beta2", "Sigma": "beta1 + beta2", "dh": "0",
+     "dv": "0"},
+)  # fmt: skip
+PARALLEL = Described("cylindrical_gears", {"z_1": "z1", "z_2": "z2", "beta_pinion": "beta", "beta_wheel": "-beta"})
 
 PROFILE = scope(
     "cylindrical_gears.profile",
-    """
-k = vec(0, 0, 1)
-X = l*cos(alpha) - E*sin(alpha) + xm
-Y = s*(h - l*sin(alpha) - E*cos(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
-rack = vec(X, Y, Z)
-r1 = m*z1/(2*cos(beta))
-r2 = m*z2/(2*cos(beta))
-"""
-    + ROLLED,
+    ROLLED,
     jets={"E": ("l",)},
     signs=["s"],
+    described=gear(UNMODIFIED, {"E_here": ("jet", "E", 0), "E_l": ("jet", "E", 1), "E_Z": 0})
+    | {
+        "r1": PARALLEL.size("pinion_reference_radius_mm"),
+        "r2": PARALLEL.size("wheel_reference_radius_mm"),
+    },
 )
 
 CROWNED = scope(
     "cylindrical_gears.crowned",
-    """
-k = vec(0, 0, 1)
-X = l*cos(alpha) + xm - c*Z**2
-Y = s*(h - l*sin(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
-rack = vec(X, Y, Z)
-normal = vec(sin(alpha), s*cos(alpha)*cos(beta), -s*cos(alpha)*sin(beta))
+    ROLLED
+    + NORMAL
+    + """
 straight = l*cos(alpha) + xm
 ratio = -s*cos(alpha)*cos(beta)/sin(alpha)
 cos_b = sqrt(1 - (sin(beta)*cos(alpha))**2)
-"""
-    + ROLLED,
+""",
     signs=["s"],
+    described=gear(QUADRATIC | {"C_Hbeta_pinion": "0"}),
 )
 
 SLOPED = scope(
     "cylindrical_gears.sloped",
-    """
-k = vec(0, 0, 1)
-E = c*l + e
-X = l*cos(alpha) - E*sin(alpha) + xm
-Y = s*(h - l*sin(alpha) - E*cos(alpha))/cos(beta) + Z*(sin(beta)/cos(beta) - s*g)
-rack = vec(X, Y, Z)
-"""
-    + ROLLED,
+    "E_here = c*l + e\nE_l = c\n" + ROLLED,
     signs=["s"],
+    described=gear({"C_beta_pinion": "0"} | SLOPE, {"E_Z": 0}),
 )
 
+#: The other flank of the other hand; the edge farther on, plunged; the edge fed instead; a spur gear's edge.
+OTHER = {**LETTERS, "beta_pinion": "-beta", "s": "-s"}
+FARTHER = {**LETTERS, "l_pinion": "l + delta/cos(alpha)"}
+SPUR = Described("spherical_convex_spur", {"l_wheel": "l + a_wheel/cos(alpha)", "b_wheel": "h", "a_wheel": "a"})
 EDGES = scope(
     "cylindrical_gears.edges",
     """
-X = l*cos(alpha) + xm
-Y = s*(h - l*sin(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
-mirrored = -s*(h - l*sin(alpha))/cos(-beta) + Z*sin(-beta)/cos(-beta)
-moved = l + delta/cos(alpha)
-X_moved = moved*cos(alpha) + xm - delta
-Y_moved = s*(h - moved*sin(alpha))/cos(beta) + Z*sin(beta)/cos(beta)
-Y_fed = s*((h - l*sin(alpha))/cos(beta) - delta*sin(alpha)/cos(alpha)/cos(beta)) + Z*sin(beta)/cos(beta)
-along = l + a/cos(alpha)
+delta_here = delta
+eps_here = delta*sin(alpha)/cos(alpha)/cos(beta)
+reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
 """,
     signs=["s"],
-)
+    described={
+        **dict.fromkeys(PROFILE_LETTERS.values(), 0),
+        "rack": gear(UNMODIFIED)["rack"],
+        "mirrored": gear(UNMODIFIED, letters=OTHER)["rack"],
+        "plunged": gear(PLUNGE | {"C_Hbeta_pinion": "0"}, letters=FARTHER)["rack"],
+        "fed": gear(FEED | {"C_beta_pinion": "0"})["rack"],
+        "edge": Described("cylindrical_gears", {**UNMODIFIED, **PROFILE_LETTERS, **LETTERS, "shift_pinion": "0",
+                                                "beta_pinion": "0"}).edge("pinion"),
+        "spur": SPUR.edge("wheel"),
+    },
+)  # fmt: skip
 
 CROSSED = scope(
     "cylindrical_gears.crossed",
     """
 k = vec(0, 0, 1)
-k2 = vec(0, sin(beta1 + beta2), cos(beta1 + beta2))
-n = vec(sin(alpha), s*cos(alpha)*cos(beta1), -s*cos(alpha)*sin(beta1))
+n = cos(beta1)*outward_1
+n_wheel = cos(beta2)*outward_2
 tan_1 = sin(alpha)/(cos(alpha)*cos(beta1))
 tan_2 = sin(alpha)/(cos(alpha)*cos(beta2))
-r1 = m*z1/(2*cos(beta1))
-r2 = m*z2/(2*cos(beta2))
 A = r1 + r2 + x*m
-length = m*cos(alpha)*(z1*tan_1/2 + z2*tan_2/2 + x*sin(alpha)/cos(alpha))
+length = cos(alpha)*(r1*cos(beta1)*tan_1 + r2*cos(beta2)*tan_2 + x*m*sin(alpha)/cos(alpha))
 """,
     signs=["s"],
+    described={
+        **dict.fromkeys(("E_l", "E_Z"), 0),
+        "outward_1": Described(PAIR.drive, {**UNMODIFIED, **PROFILE_LETTERS, **PAIR.letters}).normal("pinion"),
+        "outward_2": Described(
+            PAIR.drive,
+            {
+                "C_beta_wheel": "0",
+                "C_Hbeta_wheel": "0",
+                "E_wheel_l_wheel": "E_l",
+                "E_wheel_z_wheel": "E_Z",
+                **PAIR.letters,
+            },
+        ).normal("wheel"),
+        "k2": PAIR.turned(PAIR.motion("wheel")[:-2], "k"),
+        "r1": PAIR.size("pinion_reference_radius_mm"),
+        "r2": PAIR.size("wheel_reference_radius_mm"),
+    },
 )
 
 CYLINDERS = scope(
@@ -220,18 +282,19 @@ REGULAR = ["∂Y/∂l ≠ 0: sin α + E′ cos α ≠ 0", "r ≠ 0", "cos β ≠
 
 CLAIMS = (
     identity(
-        "described",
+        "outward",
         "description",
-        "The rack's edge, with any modification, plunge and feed, and its rolling on the reference circle are those "
-        "of the drive's description.",
-        ["traced = rack", "cut = free"],
-        DESCRIBED,
+        "The description's outward normal of the rack, with any modification of the profile and the drive's crowning "
+        "and slope of the lead, is its normal.",
+        "outward = n",
+        OWN_LEAD,
         conditions=["cos β ≠ 0"],
     ),
     identity(
         "meshing",
         "equation of meshing",
-        "The velocity in rolling is (rφ − Y, X, 0) in the rack: the equation of meshing for every modification.",
+        "The velocity in the description's rolling is (rφ − Y, X, 0) in the rack: the equation of meshing for every "
+        "modification, plunge and feed.",
         "dot(n_free, d(free, phi)) = (r*phi - Y)*n.x + X*n.y",
         MODIFIED,
         conditions=REGULAR[1:],
@@ -239,7 +302,7 @@ CLAIMS = (
     identity(
         "explicit",
         "generation",
-        "The turn that solves it is explicit. It needs the profile's slope in the same section alone.",
+        "The turn by which the description solves it. It needs the profile's slope in the same section alone.",
         ["(r*turn - Y)*n.x + X*n.y = 0", "n.x*d(X, l) + n.y*d(Y, l) = 0"],
         MODIFIED,
         conditions=REGULAR,
@@ -288,7 +351,11 @@ CLAIMS = (
         "involute helicoid",
         "sin β_b = sin β cos α, tan β_b = tan β cos α_t and cos α_t cos β_b = cos α cos β agree.",
         [
+            "sine_of_base_helix = sin(beta)*cos(alpha)",
             "sin(beta)*cos(alpha)/cos_b = sin(beta)/cos(beta)*cos_t",
+            "tangent_over*cos_t = tangent_under*sin_t",
+            "r_b = r*cos_t",
+            "sine_of_base_helix**2 + cos_b**2 = 1",
             "cos_t*cos_b = cos(alpha)*cos(beta)",
             "cos_t**2 + sin_t**2 = 1",
         ],
@@ -299,7 +366,7 @@ CLAIMS = (
         "normal",
         "involute helicoid",
         "The unmodified rack has one normal, a unit vector.",
-        ["n = normal/cos(beta)", "dot(normal, normal) = 1"],
+        ["n = normal/cos(beta)", "outward = normal/cos(beta)", "dot(normal, normal) = 1"],
         INVOLUTE,
         conditions=["cos β ≠ 0"],
     ),
@@ -338,8 +405,8 @@ CLAIMS = (
         "It is the ZI worm of the lead angle 90° − β, turned about its axis: ϱ = r_b tan a at the profile angle a, the "
         "same base radius, and in screw motion the same height.",
         [
-            "turn_a@vec(r_b/cos(a), 0, 0) = vec(r_b, s*r_b*sin(a)/cos(a), 0)",
-            "worm_height + p*(linear + s*a) = Z + s*(w + p*psi)",
+            "turn_a@worm - worm.z*k = vec(r_b, s*r_b*sin(a)/cos(a), 0)",
+            "worm.z + p*(linear + s*a) = Z + s*(w + p*psi)",
             "r_b**2*(1 + (sin(alpha)/(cos(alpha)*cos(beta)))**2) = r**2",
         ],
         CURVED,
@@ -386,7 +453,7 @@ CLAIMS = (
         "plunge",
         "lead crowning",
         "A plunge δ and a feed δ tan α/cos β move a straight edge into the same line: they cut the same flank.",
-        ["X_moved = X", "Y_moved = Y_fed"],
+        "plunged = fed",
         EDGES,
         conditions=["cos α ≠ 0", "cos β ≠ 0"],
     ),
@@ -394,7 +461,7 @@ CLAIMS = (
         "mirror",
         "mirror image",
         "The other flank of the gear of the other hand is the mirror image y → −y.",
-        "mirrored = -Y",
+        "mirrored = reflect@rack",
         EDGES,
         conditions=["cos β ≠ 0"],
     ),
@@ -402,10 +469,7 @@ CLAIMS = (
         "spur-limit",
         "spherical family",
         "With β = 0 and x = 0 the edge is that of a spur gear of the spherical family, counted from its datum line.",
-        [
-            "along*cos(alpha) - a = l*cos(alpha)",
-            "h + a*sin(alpha)/cos(alpha) - along*sin(alpha) = h - l*sin(alpha)",
-        ],
+        "spur = edge",
         EDGES,
         conditions=["cos α ≠ 0"],
     ),
@@ -416,6 +480,8 @@ CLAIMS = (
         [
             "dot(n, n) = 1",
             "dot(n, k) = -s*sin(beta1)*cos(alpha)",
+            "dot(n_wheel, n_wheel) = 1",
+            "dot(n, k2) = -dot(n_wheel, k)",
             "dot(n, k2) = s*sin(beta2)*cos(alpha)",
         ],
         CROSSED,
@@ -431,7 +497,8 @@ CLAIMS = (
     identity(
         "cylinders",
         "relative curvature",
-        "Two crossed cylinders have these principal relative curvatures: their sum and their product.",
+        "Of any two crossed cylinders, not read from the drive: these are the principal relative curvatures, by their "
+        "sum and their product.",
         [
             "least + most = entry(K, 1, 1) + entry(K, 2, 2)",
             "least*most = entry(K, 1, 1)*entry(K, 2, 2) - entry(K, 1, 2)**2",

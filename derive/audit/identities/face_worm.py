@@ -56,48 +56,47 @@ f = dot(turned@n, cross(vec(1, 0, 0), at - seat) - m*cross(vec(0, 0, 1), at))
     },
 )
 
+#: The worm's blade at its mid line.
+MIDDLE = Described(DRIVE.drive, {**DRIVE.letters, "u_worm": "0"})
+#: Cone, torus and parabolic blade, seen from the tool's axis.
 TOOL = scope(
     "face_worm.tool",
-    """
-cone = vec((Rg + u*sin(alpha))*cos(theta), (Rg + u*sin(alpha))*sin(theta), u*cos(alpha))
-n_cone = side*vec(cos(alpha)*cos(theta), cos(alpha)*sin(theta), -sin(alpha))
-ut = (-hd + rf*(1 + side*sin(alpha)))/cos(alpha)
-Xt = Rg + ut*sin(alpha) + side*rf*cos(alpha)
-Zt = -hd + rf
-torus_x = Xt - side*rf*sin(lam)
-torus_z = Zt - rf*cos(lam)
-X = Rg + u*sin(alpha) + side*ac*u**2*cos(alpha)
-Z = u*cos(alpha) - side*ac*u**2*sin(alpha)
-blade = vec(X*cos(theta), X*sin(theta), Z)
-n_blade = side*vec(d(Z, u)*cos(theta), d(Z, u)*sin(theta), -d(X, u))
-torus = Rz(theta)@vec(torus_x, 0, torus_z)
-""",
+    "",
     signs=["side"],
     described={
-        "gear_tool": DRIVE.carried(DRIVE.sweep("wheel"), DRIVE.edge("wheel")),
-        "gear_normal": DRIVE.turned(DRIVE.sweep("wheel"), DRIVE.normal("wheel")),
-        "fillet_tool": DRIVE.carried(DRIVE.sweep("wheel/fillet"), DRIVE.edge("wheel/fillet")),
-        "worm_tool": DRIVE.carried(DRIVE.sweep("pinion"), DRIVE.edge("pinion")),
-        "worm_normal": DRIVE.turned(DRIVE.sweep("pinion"), DRIVE.normal("pinion")),
+        "cone": DRIVE.carried(DRIVE.sweep("wheel"), DRIVE.edge("wheel")),
+        "n_cone": DRIVE.turned(DRIVE.sweep("wheel"), DRIVE.normal("wheel")),
+        "torus": DRIVE.carried(DRIVE.sweep("wheel/fillet"), DRIVE.edge("wheel/fillet")),
+        "n_torus": DRIVE.turned(DRIVE.sweep("wheel/fillet"), DRIVE.normal("wheel/fillet")),
+        "blade": DRIVE.carried(DRIVE.sweep("pinion"), DRIVE.edge("pinion")),
+        "n_blade": DRIVE.turned(DRIVE.sweep("pinion"), DRIVE.normal("pinion")),
+        "n_middle": MIDDLE.turned(MIDDLE.sweep("pinion"), MIDDLE.normal("pinion")),
     },
 )
 
+
+def _joined(side: str, sign: str, angle: str, place: str) -> dict:
+    """Edges and their normals where the rounding joins, on one side of the gear tooth."""
+    there = Described(
+        DRIVE.drive, {"s": sign, "lambda_gear": angle, "u_gear": place, "alpha_g": "alpha", "rho_f": "rf", "h_d": "hd"}
+    )
+    return {
+        f"cone_{side}": there.edge("wheel"),
+        f"n_cone_{side}": there.normal("wheel"),
+        f"join_{side}": there.edge("wheel/fillet"),
+        f"n_join_{side}": there.normal("wheel/fillet"),
+    }
+
+
+JOINED = scope(
+    "face_worm.joined",
+    "",
+    extends=TOOL,
+    described=_joined("convex", "1", "pi/2 + alpha_g", "(rho_f*(1 + sin(alpha_g)) - h_d)/cos(alpha_g)")
+    | _joined("concave", "-1", "pi/2 - alpha_g", "(rho_f*(1 - sin(alpha_g)) - h_d)/cos(alpha_g)"),
+)
+
 CLAIMS = (
-    identity(
-        "tools",
-        "description",
-        "Cone, torus and parabolic blade are the swept edges of the drive's description, seen from the tool's axis, "
-        "and their normals its outward normals.",
-        [
-            "gear_tool = cone",
-            "gear_normal = n_cone",
-            "fillet_tool = torus",
-            "worm_tool = blade",
-            "worm_normal = -n_blade",
-        ],
-        TOOL,
-        conditions=["cos αg ≠ 0"],
-    ),
     identity(
         "hobbing",
         "description",
@@ -117,38 +116,46 @@ CLAIMS = (
     identity(
         "cone-normal",
         "gear flank",
-        "Unit normal of the tool cone, out of the gear tooth.",
-        ["dot(n_cone, d(cone, u)) = 0", "dot(n_cone, d(cone, theta)) = 0", "dot(n_cone, n_cone) = 1"],
+        "Outward unit normal of the gear's tool, a cone, out of the gear tooth.",
+        [
+            "dot(n_cone, d(cone, u)) = 0",
+            "dot(n_cone, d(cone, theta)) = 0",
+            "dot(n_cone, n_cone) = 1",
+            "cone.x**2 + cone.y**2 = (Rg + cone.z*tan(alpha))**2",
+        ],
         TOOL,
+        conditions=["cos αg ≠ 0"],
     ),
     identity(
         "fillet-join",
         "fillet",
-        "At λ = 90° + σ αg, where sin λ = cos αg and cos λ = -σ sin αg, the fillet torus meets the cone at u_t ...",
-        ["Xt - side*rf*cos(alpha) = Rg + ut*sin(alpha)", "Zt - rf*(-side*sin(alpha)) = ut*cos(alpha)"],
-        TOOL,
+        "At λ = 90° + σ αg the fillet's torus meets the cone at u_t, on either side of the gear tooth ...",
+        ["join_convex = cone_convex", "join_concave = cone_concave"],
+        JOINED,
         conditions=["cos αg ≠ 0"],
     ),
     identity(
         "fillet-tangent",
         "fillet",
-        "... with the same normal: the torus' normal (σ sin λ, cos λ) there is (σ cos αg, -σ sin αg), that of the "
-        "cone.",
+        "... with the same normal, the torus' as everywhere along its arc.",
         [
-            "d(torus_x, lam)*(side*sin(lam)) + d(torus_z, lam)*cos(lam) = 0",
-            "side*cos(alpha)*sin(alpha) + (-side*sin(alpha))*cos(alpha) = 0",
+            "n_join_convex = rf*n_cone_convex",
+            "n_join_concave = rf*n_cone_concave",
+            "dot(n_torus, d(torus, lam)) = 0",
+            "dot(n_torus, d(torus, theta)) = 0",
         ],
-        TOOL,
+        JOINED,
     ),
     identity(
         "blade-normal",
         "worm tool",
-        "The parabolic blade's normal; at u = 0 it is the cone's, so both tools touch along the mid line.",
+        "The parabolic blade's outward normal; at u = 0 it is the cone's, turned over, so both tools touch along the "
+        "mid line.",
         [
             "dot(n_blade, d(blade, u)) = 0",
             "dot(n_blade, d(blade, theta)) = 0",
-            "d(Z, u) = cos(alpha) - 2*side*ac*u*sin(alpha)",
-            "d(X, u) = sin(alpha) + 2*side*ac*u*cos(alpha)",
+            "blade = cone + ac*u**2*n_cone",
+            "n_middle = -n_cone",
         ],
         TOOL,
     ),

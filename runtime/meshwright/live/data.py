@@ -11,6 +11,7 @@ from meshwright.contact import words
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.results import impossible
 from meshwright.cycle.transmission import ROUND_OFF
+from meshwright.cycle.windows import contact_window
 from meshwright.design.design import given_vector, is_real
 from meshwright.design.schema import bounds
 from meshwright.live.teeth import teeth
@@ -50,6 +51,7 @@ def data(drive):
         "mirror": design.mirror.sign,
         "factors": [design.mirror.factor(u["name"]) for u in description["unknowns"]],
         "pitch": drive.pitch(),
+        "from_reference": _from_reference(drive),
         "positions": POSITIONS,
         "round_off": ROUND_OFF,
         "guards": description["guards"],
@@ -64,6 +66,15 @@ def data(drive):
         "border": border,
         "end_on": end_on,
     }  # fmt: skip
+
+
+def _from_reference(drive):
+    """How far the middle of the mesh cycle is from the reference angle, rad: 0 unless a pair touches elsewhere only."""
+    window = contact_window(drive)
+    if window.path is None or not window.complete:
+        return 0.0
+    low, high = (end - drive.design.reference_angle for end in window.bounds)
+    return 0.0 if low < 0.0 < high else 0.5 * (low + high)
 
 
 def _shown(parameter, given):

@@ -228,6 +228,8 @@ def _sliding(analysis):
     speeds.set(ylabel="velocity, mm/rad", ylim=(0.0, None))
     for member, values in moving.specific_sliding.items():
         shown = np.where(np.abs(values) < MOST_SPECIFIC, values, np.nan)
+        if np.isnan(shown).all():
+            continue
         specific.plot(angles, broken(shown, analysis.breaks), color=style.MEMBERS[member], label=member)
     specific.set(xlabel=PINION_ANGLE, ylabel="specific sliding")
     for axes in (speeds, specific):

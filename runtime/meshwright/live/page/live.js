@@ -75,9 +75,10 @@ function solve() {
     }
   const begun = performance.now(), done = solver.complete(given);
   if (done.fault) { state = { faults: [`${done.fault}; change ${done.keys.join(" or ")}`] }; return; }
-  const middle = data.reference < 0 ? 0 : done.parameters[data.reference], n = data.positions, angles = new Float64Array(n + 1);
+  const zero = data.reference < 0 ? 0 : done.parameters[data.reference], n = data.positions, angles = new Float64Array(n + 1);
+  const middle = zero + data.from_reference;
   for (let k = 0; k < n; k++) angles[k] = middle + (k / (n - 1) - 0.5) * data.pitch;
-  angles[n] = middle;
+  angles[n] = zero;
   const rows = solver.rows(angles), time = performance.now() - begun, reference = rows.pop();
   state = { faults: [], given, parameters: done.parameters, sizes: done.sizes, rows, reference, time, separation: done.parameters[data.separation] };
 }
@@ -112,7 +113,7 @@ function numbersOf(row) {
 }
 
 const WHAT = [
-  ["pinion-angle", "pinion angle", "The input angle of the drive; the cycle runs over one pitch of the pinion about the reference angle."],
+  ["pinion-angle", "pinion angle", "The input angle of the drive; the cycle runs over one pitch of the pinion, about the reference angle or, where the flanks as written touch elsewhere only, about the middle of their contact."],
   ["wheel-angle", "wheel angle", "The angle of the wheel at which its flank touches the pinion's: pinion angle times ratio, and the transmission error."],
   ["transmission-error", "transmission error", "Wheel angle less pinion angle over gear ratio, raw."],
   ["relative-error", "transmission error, relative", "The same less its value at the reference angle."],
