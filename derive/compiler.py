@@ -20,8 +20,9 @@ from pathlib import Path
 from derive.audit.provenance import provenance
 from derive.emit import bounded, c99, casadi, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
-from derive.language.validate import validate, validate_normals
+from derive.language.validate import validate, validate_normals, validate_regions
 from derive.passes import guards
+from derive.passes.joints import joints
 from derive.passes.sample import observation
 from derive.passes.schedule import bind, derive, reduce
 
@@ -76,8 +77,9 @@ def define(page):
 
 
 def prove(record, plan, open_=None):
-    """The provenance of a schedule; its normals point out of both bodies at the sample's contact."""
+    """The provenance of a schedule; its normals point out of both bodies, and its regions go on from the flanks."""
     validate_normals(plan.drive, observation(plan), plan.sample)
+    validate_regions(plan.drive, joints(plan))
     return provenance(record, plan, open_)
 
 

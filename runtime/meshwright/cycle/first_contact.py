@@ -104,7 +104,7 @@ def first_contacts(drive, angles, result=None):
 
 def first_contact_of(mesh):
     """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
-    search = _searched(mesh)
+    search = mesh.search
     if search is None:
         return None
 
@@ -120,7 +120,7 @@ def pair_errors(mesh):
     first, NaN where they never do; None where the blank does not bound them. Given an error ``until``, a contact that
     comes no earlier may be a later one of the pair, or missing: it is found in less time.
     """
-    search = _searched(mesh)
+    search = mesh.search
     if search is None:
         return None
 
@@ -131,10 +131,11 @@ def pair_errors(mesh):
     return errors
 
 
-def _searched(mesh):
-    """The search from the contacts of a mesh's path; None without one, or where the blank does not bound the flanks."""
-    path = mesh.window.path
-    return None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
+def search_from(drive, path):
+    """What :func:`first_contact_of` and :func:`pair_errors` search with, from the contacts of a path; None without one,
+    or where the blank does not bound the flanks.
+    """
+    return None if path is None else _Search.of(drive, path.angles, path.unknowns)[0]
 
 
 def _gathered(drive, angles, found, reason):
