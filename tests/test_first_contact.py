@@ -221,6 +221,17 @@ def test_first_contact_of_a_pair_is_continuous(name):
     assert np.abs(there - here).max() < 1e-3 * mesh.drive.ratio * pitch
 
 
+def test_a_contact_asked_for_up_to_an_angle_is_the_first_before_it_and_no_earlier_one_beyond():
+    mesh = Mesh.of(Drive.load("face-worm-conical-convex"))
+    first, begin = pair_errors(mesh), mesh.window.begin.angle
+    for angle in begin + mesh.drive.pitch() * np.array([-0.3, 0.2, 0.7]):
+        (error,) = first([angle])
+        for further in (1e-3, 1e-9):
+            assert first([angle], error - mesh.sense * further) == error
+            (found,) = first([angle], error + mesh.sense * further)
+            assert not mesh.sense * (found - error) > 0.0
+
+
 def _toml(tables):
     lines = [f"{key} = {json.dumps(value)}" for key, value in tables.items() if not isinstance(value, dict)]
     for name, table in tables.items():

@@ -9,7 +9,6 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.cycle.pairs import Mesh
-from meshwright.cycle.rigid import RigidTeeth
 from meshwright.pattern.pattern import contour, patches
 
 AT = math.radians(1000.0)
@@ -104,7 +103,7 @@ def test_an_edge_that_touches_first_keeps_the_tangencies_apart():
     """Helical teeth out of line touch with the end of a face: patches of tangencies are then smaller."""
     drive = Drive.load("helical-crowned").with_(misalignment={"horizontal_deg": 0.08})
     mesh = Mesh.of(drive)
-    teeth, angle = RigidTeeth.of(mesh), mesh.window.begin.angle + 0.5 * mesh.window.span
+    teeth, angle = mesh.rigid, mesh.window.begin.angle + 0.5 * mesh.window.span
     (stands,) = teeth.transmitted([angle])
     found = patches(mesh, angle, 8, 0.1)
     assert found

@@ -12,12 +12,15 @@ PITCH = 0.7
 
 
 def teeth(curve, begin, end, sense=1.0):
-    """Rigid teeth whose pairs have sense times ``curve`` of their own angle; the angles asked."""
+    """Rigid teeth whose pairs have sense times ``curve`` of their own angle; the angles asked. A contact that comes no
+    earlier than is asked for is not found.
+    """
     asked = []
 
-    def first(angles):
+    def first(angles, until=None):
         asked.extend(angles)
-        return np.array([sense * curve(float(angle)) for angle in angles])
+        errors = np.array([curve(float(angle)) for angle in angles])
+        return sense * np.where(errors > (-math.inf if until is None else sense * until), errors, np.nan)
 
     window = SimpleNamespace(begin=SimpleNamespace(angle=begin), end=SimpleNamespace(angle=end))
 
@@ -65,6 +68,28 @@ def test_the_lower_side_of_a_jump_counts():
     rigid, _ = teeth(curve, enters, enters + 2 * PITCH)
     lowest = -SLOPE * (PITCH + enters - leaves)  # of the pair before, where the next one comes in
     assert rigid.peak_to_peak() == pytest.approx(highest - lowest, rel=1e-6)
+
+
+@pytest.mark.parametrize("fall", [0.0, 0.003])
+def test_the_upper_side_of_a_jump_counts(fall):
+    """A pair rises ever faster, as before a fold, to where its contact is lost: the highest error is just there."""
+    leaves = 0.31
+
+    def curve(x):
+        return -0.01 * math.sqrt(leaves - x) if x < leaves else -0.02 - fall * (x - leaves)
+
+    rigid, _ = teeth(curve, leaves - PITCH, leaves + 0.2)
+    assert rigid.peak_to_peak() == pytest.approx(0.01 * math.sqrt(PITCH), rel=1e-4)
+
+
+def test_pairs_that_lead_together_to_round_off_transmit_no_error():
+    """Each of two pairs leads by rounding alone, until one has gone far behind."""
+
+    def curve(x):
+        return -3e-4 + 1e-16 * math.sin(1e9 * x) - 5.0 * max(0.0, abs(x) - 0.9 * PITCH) ** 2
+
+    rigid, _ = teeth(curve, -0.9 * PITCH, 0.9 * PITCH)
+    assert rigid.peak_to_peak() < 1e-15
 
 
 def test_where_no_pair_touches_there_is_no_peak_to_peak():

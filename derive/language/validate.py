@@ -1,11 +1,13 @@
 """What a description must be before anything is derived from it: every name has one meaning, every limit a known one.
 
-:func:`validate` reads the description alone; :func:`validate_normals` looks at a solved contact of the sample design.
+:func:`validate` reads the description alone; :func:`validate_normals` looks at a solved contact of the sample design,
+:func:`validate_regions` at the places where fillets and flanks of that design join.
 """
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import mpmath
@@ -31,6 +33,22 @@ EVENTS = ("tip", "throat", "face", "root", "tool_end", "undercut", "regression",
 
 class DescriptionError(ValueError):
     """A description that contradicts itself; the message names the drive, the part and the remedy."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A place where the ``region`` of a ``member`` joins the flank, on the ``flank`` of the teeth of that name.
+
+    ``normals``: cosine of the angle between both normals. ``ways``: the same of the direction into the region, across
+    the joint, and that out of the flank. ``regular``: of region and flank, what is to be positive on the real surface.
+    """
+
+    member: str
+    region: str
+    flank: str
+    normals: float
+    ways: float
+    regular: tuple[float, float]
 
 
 def validate(drive: Drive) -> None:
@@ -220,6 +238,29 @@ def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
             f"{drive.name}: both normals point inward: the bodies overlap along them (relative curvatures "
             f"{float(low):.3g} and {float(high):.3g} per mm); turn round the surfaces from which the chains begin"
         )
+
+
+def validate_regions(drive: Drive, joints: Iterable[Joint]) -> None:
+    """Raise :class:`DescriptionError` unless regions that join a flank are regular where they go on from it.
+
+    One tool with a profile that has no corner there cuts both: they have one tangent plane, and normals out of one body
+    are one. The region begins where the flank ends; past a singular line a surface turns back, each of them by itself.
+    So the region is real where it goes on from a real flank, or back beside one that is past its singular line.
+    """
+    for joint in joints:
+        where = f"{drive.name}: the {joint.region} of the {joint.member}, with flank {joint.flank!r},"
+        if joint.normals < 0.0:
+            raise DescriptionError(
+                f"{where} has a normal that points into the body: at the joint it is opposite to that of the flank; "
+                "turn round the surface, where that is needed with the sign of the flank"
+            )
+        own, other = joint.regular
+        if own * other * joint.ways < 0.0:
+            raise DescriptionError(
+                f"{where} has the wrong sign of `regular`: where it {'goes on from' if joint.ways > 0 else 'turns at'} "
+                f"the flank, which is {'regular' if other > 0 else 'past its singular line'} there, `regular` times "
+                f"its singular function is {own:.3g}; give the other sign, where that is needed with that of the flank"
+            )
 
 
 def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:

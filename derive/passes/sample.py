@@ -118,12 +118,13 @@ def beside(plan: Schedule) -> list[float]:
 
 def solve(plan: Schedule, parameters: Values, angle: float) -> Values:
     """Start system, then contact, by full Newton steps in the current mpmath precision."""
-    inputs = _start(plan, parameters, angle)
+    inputs = near(plan, parameters, angle)
     _iteration(plan.tape, plan.residual, plan.jacobian, plan.unknowns)(inputs)
     return inputs
 
 
-def _start(plan: Schedule, parameters: Values, angle: float) -> Values:
+def near(plan: Schedule, parameters: Values, angle: float) -> Values:
+    """Inputs (symbol → number) close to a contact: the solution of the start system."""
     drive = plan.drive
     inputs = dict(parameters)
     inputs[drive.instant] = mpmath.mpf(angle)
@@ -147,8 +148,11 @@ def _iteration(
 
     def iterate(inputs: Values, tolerance: float | None = None) -> None:
         for _ in range(60):
-            numbers = evaluate(inputs)
-            change = _change([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
+            try:
+                numbers = evaluate(inputs)
+            except (AttributeError, TypeError) as error:  # what mpmath's real functions say to complex numbers
+                raise ArithmeticError(f"the sample of {unknowns} leaves the real numbers; choose another") from error
+            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
             if max(map(abs, change), default=0) < (tolerance or exact):
@@ -158,7 +162,7 @@ def _iteration(
     return iterate
 
 
-def _change(rows: Rows) -> list[mpmath.mpf]:
+def solution(rows: Rows) -> list[mpmath.mpf]:
     """Solution of matrix · change = residual, given as rows (matrix | residual); directions that the equations do not
     see stay put.
 

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 450, set_phi 2, R 201, R and J 504, step 593, observe 752.
- * Equations (hash f61e08677e1e0eba8a8e4f4aab475360f22960c86025ef12f3e954b1ff7add54):
+ * Equations (hash 66c401ea830d4eb95df1398c9927bbf9b2d994ef3e1fb6e93bb8bfee5068191d):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis

@@ -50,8 +50,8 @@ static int carry(search *h, const mw_model *m, const double *s, const mw_flank_m
 }
 
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
-                     const double *wheel, size_t steps, double turn, double sense, const double *start, double *work,
-                     mw_first *found)
+                     const double *wheel, size_t steps, double turn, double sense, const double *start, double until,
+                     double *work, mw_first *found)
 {
     search h;
     best_ best;
@@ -63,6 +63,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     h.sense = sense;
     best.floor = best.highest = -HUGE_VAL;
     best.lever = 1.0;
+    best.least = sense * until;
     best.budget = BUDGET;
     if (!mwi_usable(m) || mesh->vertices == 0 || steps == 0) return found->status = MW_BAD_INPUT;
     if (!m->kernels || !m->kernels->bounded) return found->status = MW_BAD_INPUT;

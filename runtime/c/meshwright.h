@@ -200,12 +200,14 @@ typedef struct mw_first {
  * larger angles, or -1. pinion[steps*12], wheel[steps*12]: placements of the bodies, three rows of four, the last of them
  * those asked for; the wheel turns about its own z by turn (+1 or -1) times its angle. start: parameters of the wheel's and
  * of the pinion's flank and turn of the wheel where the two meet at the first placements, nearly; further placements lead
- * from there in steps. work[mw_first_contact_work(vertices)]. Returns MW_CONVERGED, MW_NO_CONTACT where no point of the
- * wheel's flank meets the pinion's or where both go on with nothing to end them, MW_DIVERGED where the start does not lead
- * to the flank, or MW_BAD_INPUT for flanks of another kind. */
+ * from there in steps. until: turn of the wheel, as wheel_turn, up to which the first contact is asked for, -sense times
+ * infinity wherever it is: beyond, what is found may be a later contact of the flanks, or none. work[mw_first_contact_work(
+ * vertices)]. Returns MW_CONVERGED, MW_NO_CONTACT where no point of the wheel's flank meets the pinion's or where both go
+ * on with nothing to end them, MW_DIVERGED where the start does not lead to the flank, or MW_BAD_INPUT for flanks of another
+ * kind. */
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
-                     const double *wheel, size_t steps, double turn, double sense, const double *start, double *work,
-                     mw_first *found);
+                     const double *wheel, size_t steps, double turn, double sense, const double *start, double until,
+                     double *work, mw_first *found);
 size_t mw_first_contact_work(size_t vertices);
 
 /* Name of flag number bit of mw_contact.flags, NULL where there is none. */

@@ -11,7 +11,8 @@ from derive.language import vectors as v
 from derive.language.contact import contact
 from derive.language.drive import Margin, Role
 from derive.language.symbols import Guard, Quantity, Rule, Table, parameter
-from derive.language.validate import DescriptionError, validate, validate_normals
+from derive.language.validate import DescriptionError, validate, validate_normals, validate_regions
+from derive.passes.joints import joints
 from derive.passes.sample import observation
 from derive.passes.schedule import schedule
 
@@ -131,3 +132,44 @@ def _meshing(drive, **bodies):
     changed = replace(drive, **bodies)
     order = (changed.wheel, changed.pinion) if changed.family == "face-worm" else changed.bodies
     return replace(changed, residual=contact(*(body.placed for body in order)))
+
+
+SMALL = "spherical_convex_spur"
+
+
+def _joined(drive):
+    """The joints of a drive's fillets, if they are as they have to be."""
+    plan = schedule(drive)
+    found = joints(plan)
+    validate_regions(drive, found)
+    return found
+
+
+def _with_fillet(drive, **changes):
+    """The drive with another fillet of its pinion."""
+    (fillet,) = (r for r in drive.regions if r.member == "pinion")
+    regions = [r if r is not fillet else replace(r, **{k: of(r) for k, of in changes.items()}) for r in drive.regions]
+    return replace(drive, regions=tuple(regions))
+
+
+@pytest.mark.parametrize("name", [SMALL, "cylindrical_worm_zn_zn"])
+def test_a_fillet_goes_on_from_the_flank_on_either_side_of_the_tooth(name):
+    drive = _drive(name)
+    found = _joined(drive)
+    flanks = {"left", "right"}
+    assert {(j.member, j.flank) for j in found} == {(r.member, word) for r in drive.regions for word in flanks}
+    assert all(j.normals > 0.99 and j.ways > 0.99 and min(j.regular) > 0.0 for j in found)
+
+
+def test_a_fillet_that_is_regular_on_one_flank_alone_is_refused():
+    drive = _drive(SMALL)
+    one_sided = _with_fillet(drive, regular=lambda r: sp.Integer(1))
+    with pytest.raises(DescriptionError, match="fillet of the pinion, with flank 'right'.*wrong sign of `regular`"):
+        _joined(one_sided)
+
+
+def test_a_fillet_whose_normal_points_into_the_tooth_is_refused():
+    drive = _drive(SMALL)
+    inward = _with_fillet(drive, surface=lambda r: r.surface.turned_over())
+    with pytest.raises(DescriptionError, match="fillet of the pinion, with flank 'left'.*points into the body"):
+        _joined(inward)

@@ -10,7 +10,6 @@ from meshwright.cli import main
 from meshwright.commands import loading
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.pairs import Mesh
-from meshwright.cycle.rigid import RigidTeeth
 from meshwright.fe import loaded
 from meshwright.fe.blocks import Block
 from meshwright.fe.compliance import ToothCompliance, without_negative
@@ -63,7 +62,7 @@ def _moment(gear, found):
 def test_the_limit_without_load_is_the_error_of_rigid_teeth(drive, gear, pitches):
     """Over all pairs, edges included; within 1e-6 arcsec, and a load that tends to nothing leads there."""
     angle = pitches * gear.pinion.pitch
-    (rigid,) = RigidTeeth.of(Mesh.of(drive)).transmitted([angle])
+    (rigid,) = Mesh.of(drive).rigid.transmitted([angle])
     found = [loaded_contact(gear, angle, 3, _load(t), None) for t in (1e-2, 1e-5, 1e-9)]
     assert [f.unloaded_error / ARCSEC for f in found] == pytest.approx([rigid / ARCSEC] * 3, abs=1e-6)
     lags = [(f.unloaded_error - f.transmission_error) / ARCSEC for f in found]

@@ -174,11 +174,12 @@ static int climb(const search *h, place *P, int *active)
 }
 
 /* The best place so far, with the limits that hold it; floor: the highest place inside all limits that was looked at,
- * lever: its; highest: what a part that could not be looked at might hold; budget: places that may still be looked at. */
+ * lever: its; highest: what a part that could not be looked at might hold; least: what need not be found; budget: places that
+ * may still be looked at. */
 typedef struct best_ {
     place at;
     int active[2], found;
-    double floor, lever, highest;
+    double floor, lever, highest, least;
     long budget;
 } best_;
 

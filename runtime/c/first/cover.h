@@ -116,7 +116,7 @@ static void look(const search *h, const place *corners, best_ *best)
         memcpy(T, stack[--n], sizeof T);
         const int deep = depth[n], whole = T[0].good && T[1].good && T[2].good;
         const double high = whole ? bound(h, T, &edge) : bound_at_end(h, T);
-        if (!(high > -HUGE_VAL)) continue;
+        if (!(high > -HUGE_VAL) || high <= best->least) continue;
         if (!((high - best->floor) * best->lever > RESOLUTION)) continue;
         if (!whole || deep % 2) edge = longest(h, T);
         if (--best->budget < 0 || deep >= (whole ? DEEPEST : DEEPEST_EDGE)) {

@@ -10,6 +10,9 @@ ON_EDGE = "edge_contact"
 #: Flag of tangencies that another place of the same flanks precedes.
 NOT_FIRST = "not_first"
 
+#: Flags of contacts on both flanks, which say how these stand to others; all other flags say that a limit is exceeded.
+AMONG_OTHERS = frozenset({ON_EDGE, NOT_FIRST})
+
 #: A contact further inside the other flank than this, mm, is not the first.
 OVERLAP = 1e-6
 
@@ -29,11 +32,16 @@ def flagged(result, window):
     return dataclasses.replace(result, flags=flags)
 
 
+def on_flanks(flags):
+    """Whether a contact with these flags exceeds no limit of its flanks."""
+    return AMONG_OTHERS.issuperset(flags)
+
+
 def not_first(result, first):
     """The :class:`~meshwright.contact.results.TCA` with the flag ``not_first`` at every tangency inside all its limits
     that another place of the same flanks, a first contact, precedes.
     """
     late = result.solved & (first.overlaps(result.error) > OVERLAP)
-    late &= np.array([not any(f != ON_EDGE for f in words) for words in result.flags], dtype=bool)
+    late &= np.array([on_flanks(words) for words in result.flags], dtype=bool)
     flags = tuple((*words, NOT_FIRST) if on else words for on, words in zip(late, result.flags, strict=True))
     return dataclasses.replace(result, flags=flags)

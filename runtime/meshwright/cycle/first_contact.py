@@ -104,7 +104,7 @@ def first_contacts(drive, angles, result=None):
 
 def first_contact_of(mesh):
     """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
-    search = _searched(mesh)
+    search = mesh.search
     if search is None:
         return None
 
@@ -117,23 +117,25 @@ def first_contact_of(mesh):
 
 def pair_errors(mesh):
     """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
-    first, NaN where they never do; None where the blank does not bound them.
+    first, NaN where they never do; None where the blank does not bound them. Given an error ``until``, a contact that
+    comes no earlier may be a later one of the pair, or missing: it is found in less time.
     """
-    search = _searched(mesh)
+    search = mesh.search
     if search is None:
         return None
 
-    def errors(angles):
-        found = search.at(mesh.mirror * np.asarray(angles))
+    def errors(angles, until=None):
+        found = search.at(mesh.mirror * np.asarray(angles), None if until is None else mesh.mirror * until)
         return mesh.mirror * np.array([math.nan if f is None else f.wheel_turn for f in found])
 
     return errors
 
 
-def _searched(mesh):
-    """The search from the contacts of a mesh's path; None without one, or where the blank does not bound the flanks."""
-    path = mesh.window.path
-    return None if path is None else _Search.of(mesh.drive, path.angles, path.unknowns)[0]
+def search_from(drive, path):
+    """What :func:`first_contact_of` and :func:`pair_errors` search with, from the contacts of a path; None without one,
+    or where the blank does not bound the flanks.
+    """
+    return None if path is None else _Search.of(drive, path.angles, path.unknowns)[0]
 
 
 def _gathered(drive, angles, found, reason):
@@ -238,20 +240,23 @@ class _Search:
         lead = () if errors is None else _misaligned(drive, errors, angles)
         return cls(drive, table, (kept, views), work, solutions, angles, lead, turn, sense), ""
 
-    def at(self, angles):
-        """``mw_first`` or None at angles (N,) of the right-hand drive."""
+    def at(self, angles, until=None):
+        """``mw_first`` or None at angles (N,) of the right-hand drive; beyond the turn of the wheel ``until``, perhaps
+        of a later contact.
+        """
+        until = -self.sense * math.inf if until is None else until
         design = self.drive.design
         state = self.drive.flank(design.description["bodies"][1]["name"]).state
         here = zip(*_placed(self.drive, angles), strict=True)
-        return [self._one(design.model, state, *both) for both in zip(angles, here, strict=True)]
+        return [self._one(design.model, state, *both, until) for both in zip(angles, here, strict=True)]
 
-    def _one(self, compiled, state, angle, here):
+    def _one(self, compiled, state, angle, here, until):
         """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from
         others.
         """
         order, searches = np.argsort(np.abs(self.solved_at - angle), kind="stable"), 0
         for known in order[[i for i in STARTS if i < len(order)]]:
-            found = self._from(known, compiled, state, angle, here)
+            found = self._from(known, compiled, state, angle, here, until)
             if found.status >= 0:
                 return found
             searches += found.met > 0
@@ -259,7 +264,7 @@ class _Search:
                 break
         return None
 
-    def _from(self, known, compiled, state, angle, here):
+    def _from(self, known, compiled, state, angle, here, until):
         away, x = angle - self.solved_at[known], self.solutions[known]
         stand = [*self.lead, self._way(known, away) if away else [matrix[None] for matrix in here]]
         pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in stand]) for k in (0, 1))
@@ -268,7 +273,7 @@ class _Search:
         found = ffi.new("mw_first *")
         library().mw_first_contact(
             compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), len(pinion), self.turn, self.sense,
-            pointer(start), pointer(self.work), found,
+            pointer(start), until, pointer(self.work), found,
         )  # fmt: skip
         return found
 

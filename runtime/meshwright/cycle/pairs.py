@@ -12,6 +12,8 @@ import numpy as np
 
 from meshwright.base.roots import bracketed
 from meshwright.contact.model import DriveModel
+from meshwright.cycle.first_contact import search_from
+from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window, contact_window
 
 #: Sampling of one pitch when looking for changes in the number of teeth in contact.
@@ -63,6 +65,16 @@ class Mesh:
             if math.isfinite(lever) and lever != 0.0:
                 return self.mirror * math.copysign(1.0, lever)
         return math.nan
+
+    @cached_property
+    def search(self):
+        """The search for first contacts of a pair: see :func:`~meshwright.cycle.first_contact.search_from`."""
+        return search_from(self.drive, self.window.path)
+
+    @cached_property
+    def rigid(self):
+        """The mesh's :class:`~meshwright.cycle.rigid.RigidTeeth`; None where the blank does not bound its flanks."""
+        return RigidTeeth.of(self)
 
     @property
     def contact_ratio(self):

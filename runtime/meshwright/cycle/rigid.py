@@ -3,6 +3,7 @@
 import math
 from collections import defaultdict
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -10,8 +11,9 @@ from meshwright.base.roots import bracketed
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.first_contact import pair_errors
 
-#: Angles of one pitch that are looked at first, and pairs beyond the windows that are looked at on either side.
-SAMPLES, BEYOND = 24, 4
+#: Angles of one pitch that are looked at first; all pairs are looked at for each third of them, those that may lead for
+#: the others; pairs beyond the windows that are looked at on either side.
+SAMPLES, STRIDE, BEYOND = 24, 3, 4
 
 #: Errors that differ by less are the same to round-off, rad.
 ROUND_OFF = 1e-8 * ARCSEC
@@ -31,12 +33,18 @@ EXTREME_TOLERANCE, EXTREME_STEPS, GOLDEN = 1e-4, 30, 0.381966
 class RigidTeeth:
     """First contact of all pairs of a ``mesh``; ``first`` is :func:`~meshwright.cycle.first_contact.pair_errors`'s.
 
-    Angles and errors in rad; with the mesh's sense of rotation the pair that leads has the largest error.
+    Angles and errors in rad; with the mesh's sense of rotation the pair that leads has the largest error. ``known``: by
+    angle and pair its error, and what it had to exceed to be told for sure: if it does not, the true one does not.
     """
 
     mesh: object
     first: object
     known: dict = field(default_factory=lambda: defaultdict(dict), repr=False)
+
+    @cached_property
+    def sense(self):
+        """The mesh's: +1 where the wheel is pushed to larger angles, −1 to smaller."""
+        return self.mesh.sense
 
     @classmethod
     def of(cls, mesh):
@@ -48,16 +56,32 @@ class RigidTeeth:
         middle = 0.5 * (mesh.window.begin.angle + mesh.window.end.angle)
         return found if found is not None and math.isfinite(found.ahead(0, middle)) else None
 
-    def ahead(self, number, angle):
-        """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does."""
+    def ahead(self, number, angle, least=-math.inf):
+        """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does.
+        Where it touches at no more than ``least``, some error that is no higher: that takes far less to find.
+        """
         here = self.known[angle]
-        if number not in here:
-            (error,) = self.first([angle - number * self.mesh.drive.pitch()])
-            here[number] = float(self.mesh.sense * error) if math.isfinite(error) else -math.inf
-        return here[number]
+        error, exceeded = here.get(number, (-math.inf, math.inf))
+        if error <= exceeded and not exceeded <= least:
+            until = None if least == -math.inf else self.sense * least
+            (error,) = self.first([angle - number * self.mesh.drive.pitch()], until)
+            error = float(self.sense * error) if math.isfinite(error) else -math.inf
+            here[number] = error, least
+        return error
 
-    def leader(self, angle):
-        """Number of the pair that touches first at a pinion angle, and sense times its error.
+    def highest(self, numbers, angle):
+        """The error transmitted by some of the pairs at an angle, with the number of the one that leads: those that are
+        likely to lead go first.
+        """
+        best, highest = None, -math.inf
+        for number in numbers:
+            error = self.ahead(number, angle, highest)
+            if best is None or error > highest:
+                best, highest = number, error
+        return highest, best
+
+    def leader(self, angle, likely=None):
+        """Number of the pair that touches first at a pinion angle, ``likely`` that one, and sense times its error.
 
         The pairs inside their windows, and beyond them outwards as long as one touches before all that were looked at.
         """
@@ -65,20 +89,23 @@ class RigidTeeth:
         if not len(inside):
             low = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
             inside = range(math.floor((angle - low) / self.mesh.drive.pitch()), inside.start)
-        found = {number: self.ahead(number, angle) for number in inside}
+        highest, best = self.highest(sorted(inside, key=lambda number: number != likely), angle)
         for number, step in ((inside.start - 1, -1), (inside.stop, 1)):
             for away in range(BEYOND):
-                highest = max(found.values(), default=-math.inf)
-                here = found[number + away * step] = self.ahead(number + away * step, angle)
+                here = self.ahead(number + away * step, angle, highest)
+                if best is None:
+                    best = number
                 if not here > highest:
                     break
-        best = max(found, key=found.get)
-        return best, found[best]
+                highest, best = here, number + away * step
+        return best, highest
 
     def transmitted(self, angles):
         """Error that rigid teeth transmit at pinion angles (N,), rad: (N,); NaN where no pair touches."""
-        values = np.array([self.leader(float(angle))[1] for angle in angles])
-        return self.mesh.sense * np.where(np.isfinite(values), values, np.nan)
+        values, likely = np.empty(len(angles)), None
+        for k, angle in enumerate(angles):
+            likely, values[k] = self.leader(float(angle), likely)
+        return self.sense * np.where(np.isfinite(values), values, np.nan)
 
     def peak_to_peak(self):
         """Largest less smallest transmitted error of one pitch, rad; NaN if there is an angle at which no pair touches.
@@ -92,13 +119,18 @@ class RigidTeeth:
         spread = highest - lowest
         if spread < ROUND_OFF:
             return float(spread)
+        ends = []
         for k in range(1, SAMPLES + 1):
             if numbers[k] != numbers[k + 1]:
-                lowest = min(lowest, self._transfer(numbers[k : k + 2], angles[k : k + 2], lowest, spread))
+                ends += self._transfer(numbers[k : k + 2], angles[k : k + 2], lowest, spread)
+                lowest, highest = (of((was, *(e for _, e in ends))) for of, was in ((min, lowest), (max, highest)))
+        shifted = [(angle + turn, error) for angle, error in ends for turn in (0.0, angles[0] - angles[SAMPLES])]
         for sign in (1.0, -1.0):
             k = 1 + int(np.argmax(sign * values[1:-1]))
-            found = self._extreme(sign, angles[k - 1 : k + 2], values[k - 1 : k + 2])
-            lowest, highest = min(lowest, found), max(highest, found)
+            three = list(zip(angles[k - 1 : k + 2], (sign * values[k - 1 : k + 2]).tolist(), strict=True))
+            if not any(_goes_on(three, (angle, sign * error)) for angle, error in shifted):
+                found = self._extreme(sign, angles[k - 1 : k + 2], values[k - 1 : k + 2])
+                lowest, highest = min(lowest, found), max(highest, found)
         return float(highest - lowest)
 
     def _sampled(self):
@@ -106,12 +138,34 @@ class RigidTeeth:
         pitch = self.mesh.drive.pitch()
         start = min(self.mesh.window.begin.angle, self.mesh.window.end.angle)
         angles = (start + np.arange(-1, SAMPLES + 2) / SAMPLES * pitch).tolist()
-        leaders = {k: self.leader(angles[k]) for k in range(1, SAMPLES + 1)}
-        for k, same, shift in ((0, SAMPLES, -1), (SAMPLES + 1, 1, 1), (SAMPLES + 2, 2, 1)):
-            self.known[angles[k]] = {number + shift: error for number, error in self.known[angles[same]].items()}
-            leaders[k] = leaders[same][0] + shift, leaders[same][1]
+        leaders, likely = {}, None
+        for k in range(1, SAMPLES + 1, STRIDE):
+            leaders[k] = likely, _ = self.leader(angles[k], likely)
+        self._repeat(leaders, angles, SAMPLES + 1, 1, 1)
+        found = [error for _, error in leaders.values()]
+        dip = DIP * (max(found) - min(found))
+        for k in range(1, SAMPLES + 1):
+            if k not in leaders:
+                leaders[k] = self._between(leaders, angles, k, dip)
+        self._repeat(leaders, angles, 0, SAMPLES, -1)
+        self._repeat(leaders, angles, SAMPLES + 2, 2, 1)
         numbers, values = zip(*(leaders[k] for k in range(len(angles))), strict=True)
         return angles, numbers, np.array(values)
+
+    def _repeat(self, leaders, angles, k, same, shift):
+        """What is known at an angle a pitch away, by its number and that of the pairs, which are ``shift`` later."""
+        self.known[angles[k]] = {number + shift: found for number, found in self.known[angles[same]].items()}
+        leaders[k] = leaders[same][0] + shift, leaders[same][1]
+
+    def _between(self, leaders, angles, k, dip):
+        """Number and error of the leader at an angle between two at which all are: of the pairs that may lead where the
+        error is lower by ``dip`` than it goes on from either.
+        """
+        ends = [(k - 1) // STRIDE * STRIDE + 1 + side for side in (0, STRIDE)]
+        low, high = sorted(leaders[end][1] for end in ends)
+        likely = [] if low == -math.inf else self._contenders([angles[end] for end in ends], 2.0 * low - high - dip)
+        error, number = self.highest(likely, angles[k])
+        return (number, error) if error > -math.inf else self.leader(angles[k])
 
     def _contenders(self, angles, least):
         """The pairs that lead at one of some samples, and those that may lead with at least an error between them: that
@@ -120,17 +174,14 @@ class RigidTeeth:
         looked_at = [self.known[angle] for angle in angles]
         found = [max(here, key=here.get) for here in looked_at]
         for number in set().union(*looked_at).difference(found):
-            errors = [here[number] for here in looked_at if number in here]
-            if max(errors) > -math.inf and 2.0 * max(errors) - min(errors) >= least:
+            errors = [here[number][0] for here in looked_at if number in here]
+            if max(errors) > -math.inf and 2.0 * max(errors) - min(errors) > least - ROUND_OFF:
                 found.append(number)
-        return set(found)
-
-    def _highest(self, numbers, angle):
-        """The error transmitted by some of the pairs at an angle."""
-        return max(self.ahead(number, angle) for number in numbers)
+        return list(dict.fromkeys(found))
 
     def _transfer(self, pair, angles, lowest, spread):
-        """The least error transmitted between two samples, of which a ``pair`` of numbers leads one each.
+        """Angles just before and after the transfer between two samples, of which a ``pair`` of numbers leads one each,
+        and the errors transmitted there.
 
         Not sought where it is above ``lowest``: a curve that neither jumps nor turns between lies between its ends, so
         that where curves cross, or one jumps across the other, the error is above the lower end of both.
@@ -152,10 +203,10 @@ class RigidTeeth:
             return 0.0 if enough() else found
 
         if enough():
-            return lowest
+            return []
         bracketed(difference, *angles, TRANSFER_TOLERANCE * self.mesh.drive.pitch(), bracket.differences)
         contenders = self._contenders(angles, bracket.floor)
-        return min(self._highest(contenders, angle) for angle, _ in bracket.ends)
+        return [(angle, self.highest(contenders, angle)[0]) for angle, _ in bracket.ends]
 
     def _extreme(self, sign, angles, values):
         """Largest (sign +1) or smallest transmitted error about the second of three samples with their values (3,).
@@ -174,7 +225,9 @@ class RigidTeeth:
                 x = b + GOLDEN * ((c - b) if c - b > b - a else (a - b))
             elif abs(shift) < EXTREME_TOLERANCE * width:
                 break
-            fx = sign * self._highest(numbers, x)
+            error, best = self.highest(numbers, x)
+            fx = sign * error
+            numbers = [best, *(number for number in numbers if number != best)]
             if fx > fb:
                 a, fa, b, fb, c, fc = (b, fb, x, fx, c, fc) if x > b else (a, fa, x, fx, b, fb)
             elif x > b:
@@ -197,7 +250,14 @@ class _Bracket:
 
     def settle(self):
         """Look at both curves at both ends."""
-        self.ends = [(angle, tuple(self.teeth.ahead(number, angle) for number in self.pair)) for angle, _ in self.ends]
+        self.ends = [(angle, self._both(angle, leads)) for leads, (angle, _) in enumerate(self.ends)]
+
+    def _both(self, angle, leads):
+        """The errors of the pair at an angle at which, or so it is thought, number ``leads`` of it leads."""
+        errors = [0.0, 0.0]
+        errors[leads] = self.teeth.ahead(self.pair[leads], angle)
+        errors[1 - leads] = self.teeth.ahead(self.pair[1 - leads], angle, errors[leads])
+        return tuple(errors)
 
     @property
     def differences(self):
@@ -223,14 +283,26 @@ class _Bracket:
         changes = [abs(after - before) for before, after in zip(at_low, at_high, strict=True)]
         flat = changes.index(min(changes))
         errors = [0.0, 0.0]
-        errors[1 - flat] = self.teeth.ahead(self.pair[1 - flat], angle)
+        errors[1 - flat] = self.teeth.ahead(self.pair[1 - flat], angle, min(at_low[flat], at_high[flat]))
         if math.isfinite(changes[flat]):
             errors[flat] = at_low[flat] + (angle - low) / (high - low) * (at_high[flat] - at_low[flat])
         if not abs(_difference(errors)) > changes[flat]:
-            errors[flat] = self.teeth.ahead(self.pair[flat], angle)
+            errors = self._both(angle, flat)
         found = _difference(errors)
         self.ends[1 if found < 0.0 else 0] = angle, tuple(errors)
         return found
+
+
+def _goes_on(samples, end):
+    """Whether a function rises from the middle one of three samples, the highest of them, to a higher ``end`` between
+    two of them, and without a maximum before that.
+    """
+    (x, f), (before, after) = samples[1], (samples[0], samples[2])
+    if not (end[1] > f and before[0] < end[0] < after[0]):
+        return False
+    far, way = before if end[0] > x else after, end[0] - x
+    rise, before_rise = (end[1] - f) / way, (f - far[1]) / (x - far[0])
+    return (rise + (rise - before_rise) / (end[0] - far[0]) * way) * way > 0.0
 
 
 def _difference(errors):

@@ -7,7 +7,7 @@ import numpy as np
 
 from meshwright.base.roots import bracketed
 from meshwright.cycle.edge_contact import edge_paths
-from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
+from meshwright.cycle.rigid import ROUND_OFF
 
 #: Samples of one pitch for envelopes; a power of two for the Fourier transform.
 SAMPLES = 256
@@ -64,7 +64,7 @@ def transmission_error(mesh):
     low, high = sorted((window.begin.angle, window.end.angle))
     pair = mesh.errors(_critical(mesh, low, high, vertex))
     upper, lower = _ranges(mesh, (low, high), vertex, transfers)
-    teeth = RigidTeeth.of(mesh)
+    teeth = mesh.rigid
     rigid = math.nan if teeth is None else teeth.peak_to_peak()
     if not math.isfinite(rigid):
         rigid = _ranges(mesh, (low, high), vertex, transfers, edge_paths(mesh))[0 if mesh.sense > 0 else 1]

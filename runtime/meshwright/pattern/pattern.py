@@ -11,7 +11,7 @@ from functools import cache, cached_property
 
 import numpy as np
 
-from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
+from meshwright.cycle.rigid import ROUND_OFF
 from meshwright.pattern.gap import Gap
 
 #: Steps outwards, as shares of the quadratic ellipse's radius, and how many of them at most.
@@ -98,7 +98,7 @@ def _apart(mesh, angle):
     """How far the tangencies of pairs are apart at a pinion angle, mm, by pair number."""
     pairs = mesh.pairs(angle)
     lead = max((mesh.sense * pair.error for pair in pairs), default=math.nan)
-    teeth = RigidTeeth.of(mesh)
+    teeth = mesh.rigid
     ahead = 0.0 if teeth is None or not pairs else mesh.sense * teeth.transmitted([angle])[0] - lead
     if not ahead > ROUND_OFF:
         return {pair.number: pair.separation for pair in pairs}
