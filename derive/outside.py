@@ -12,7 +12,8 @@ import tempfile
 from pathlib import Path
 
 from derive import compiler
-from derive.audit import check_code
+from derive.audit.checker import attempts, check_code, straight_line
+from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
@@ -67,18 +68,29 @@ def write(page, name, record, folder, log, source=None):
         made.append(page())
         return made[0]
 
-    files = compiler.compile_drive(kept, name, record, log, open_)
-    header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
-    with log("audit", name):
-        entry = audit_entry(described, open_, header, source)
-    # what the table of families says of those of the tree
-    described |= families.shared(made)
-    files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
-    for path, text in files.items():
-        replace_text(folder / _place(path), text)
-    replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
-    with log("compile", name), tempfile.TemporaryDirectory() as objects:
-        build.drives([name], folder, compiler.package(), Path(objects), parts=(build.DRIVE,))
+    with tempfile.TemporaryDirectory() as temporary:
+        fresh, objects = Path(temporary, "drives"), Path(temporary, "objects")
+        with build.Begun(name, fresh, compiler.package(), objects) as begun:
+
+            def emitted(path, text):
+                if path.endswith(".h"):
+                    replace_text(fresh / _place(path), text)
+                    begun.written(Path(path).name)
+
+            files = compiler.compile_drive(kept, name, record, log, open_, emitted)
+            header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
+            with log("audit", name):
+                entry = audit_entry(described, open_, header, source)
+            with log("compile", name):
+                begun.wait()
+                build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+        # what the table of families says of those of the tree
+        described |= families.shared(made)
+        files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
+        for path, text in files.items():
+            replace_text(folder / _place(path), text)
+        replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
+        build.moved(name, fresh, folder)
 
 
 def _place(path):
@@ -94,7 +106,7 @@ def audit_entry(description, open_, header, source):
 
     ``proved``: the statements of the audit record behind it, by the functions that rest on them. ``not_proved``:
     statements that it names and the record does not prove, with the reason. ``checked``: what its generated C was found
-    to be by running it modulo a prime (:mod:`derive.audit.check_code`), with the reason where it is not.
+    to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`), with the reason where it is not.
     ``not_checked``: what nothing here decides.
     """
     origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
@@ -121,10 +133,10 @@ def audit_entry(description, open_, header, source):
 def _checked(header):
     """Words → "holds", or why not."""
     found = {}
-    for words, check in check_code.checks_of(check_code.read_header(header)):
+    for words, check in check_code.checks_of(straight_line.read_header(header)):
         try:
-            check_code.attempt(*check)
+            attempts.attempt(*check)
             found[words] = "holds"
-        except (check_code.Rejected, LookupError, ValueError) as reason:
+        except (Rejected, LookupError, ValueError) as reason:
             found[words] = f"does not hold: {reason}"
     return found

@@ -859,11 +859,12 @@ static int look_at(search *h)
     return within;
 }
 
-/* Whether this can be asked of the drive. Returns a reason. */
-static int possible(const mw_model *m)
+/* Whether this can be asked of the drive; known: why not of the contact. Returns a reason. */
+static int possible(const mw_model *m, int known)
 {
     if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
-    const mw_certified *t = m->kernels->certified;
+    if (known != MW_REASON_NONE) return known;
+    const mw_certified *t = m->kernels->certified();
     for (int i = 0; i < 2; i++) {
         if (m->bodies[i].parameters != 2 || m->bodies[i].margins > MARGINS - 2) return MW_REASON_CONDITION;
         if (t->flanks[i].registers > MWC_REGISTERS) return MW_REASON_DESIGN;
@@ -878,16 +879,16 @@ size_t mw_certify_first_work(void)
     return (sizeof(search) + MOST_PARTS * sizeof(part) + MOST_LISTED * sizeof(int)) / sizeof(double) + 4;
 }
 
-/* Begin a search in `work`. Returns a reason. */
-static int begun(const mw_model *m, const mw_wide *s, const double *flanks, double slack, double reach, int effort, double *work,
-                 mw_first_certificate *c)
+/* Begin a search in `work`; known: why nothing can be asked of the contact, if so. Returns a reason. */
+static int begun(const mw_model *m, int known, const mw_wide *s, const double *flanks, double slack, double reach, int effort,
+                 double *work, mw_first_certificate *c)
 {
     search *h = (search *)work;
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 2; i++) c->wheel[i] = c->pinion[i] = NAN;
     c->apart = mwc_make(NAN, NAN);
     c->outcome = MW_FIRST_UNKNOWN;
-    c->reason = possible(m);
+    c->reason = possible(m, known);
     if (c->reason != MW_REASON_NONE) return c->reason;
     memset(h, 0, sizeof *h);
     for (int i = 0; i < 4; i++) {
@@ -898,7 +899,7 @@ static int begun(const mw_model *m, const mw_wide *s, const double *flanks, doub
     }
     if (!(slack > 0.0 && reach > slack && reach < 1.0)) c->reason = MW_REASON_BOX;
     h->model = m;
-    h->tables = m->kernels->certified;
+    h->tables = m->kernels->certified();
     h->part = (part *)(h + 1);
     h->list = (int *)(h->part + MOST_PARTS);
     h->slack = slack;
@@ -954,11 +955,9 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
                      double slack, double reach, int effort, double *work, mw_first_certificate *c)
 {
     search *h = (search *)work;
-    if (begun(m, s, flanks, slack, reach, effort, work, c) == MW_REASON_NONE) {
-        if (contact->outcome != MW_UNIQUE) c->reason = contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
-        else if (contact->flags) c->reason = MW_REASON_OFF_FLANK;
-    }
-    if (c->reason != MW_REASON_NONE) return c->outcome;
+    int known = contact->flags ? MW_REASON_OFF_FLANK : MW_REASON_NONE;
+    if (contact->outcome != MW_UNIQUE) known = contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
+    if (begun(m, known, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
     h->at.phi = mwc_sheet_of_wide(phi);
     h->at.wheel_angle = mwc_sheet_of_ball(contact->wheel_angle);
     for (int i = 0; i < m->nx; i++) h->at.x[i] = mwc_sheet_of_wide(contact->x[i]);
@@ -1004,11 +1003,11 @@ int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *
                            mw_first_certificate *c, double *angle)
 {
     search *h = (search *)work;
+    const int held = from < to && from >= piece->centre - piece->half && to <= piece->centre + piece->half;
+    int known = held ? MW_REASON_NONE : MW_REASON_BOX;
+    if (piece->outcome != MW_UNIQUE) known = piece->reason == MW_REASON_NONE ? MW_REASON_CONTACT : piece->reason;
     *angle = NAN;
-    if (begun(m, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
-    if (piece->outcome != MW_UNIQUE) c->reason = piece->reason == MW_REASON_NONE ? MW_REASON_CONTACT : piece->reason;
-    else if (!(from < to && from >= piece->centre - piece->half && to <= piece->centre + piece->half)) c->reason = MW_REASON_BOX;
-    if (c->reason != MW_REASON_NONE) return c->outcome;
+    if (begun(m, known, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
     set_contact(h, piece, from, to, pinion_turn, wheel_turn);
     searched(h);
     if (c->wheel[0] == c->wheel[0]) *angle = 0.5 * from + 0.5 * to + h->share * (0.5 * to - 0.5 * from);
