@@ -533,7 +533,8 @@ REAL = {
     "-{a}": lambda a, b: -a,
     "sqrt({a})": lambda a, b: mpmath.sqrt(a),
     "atan2({a}, {b})": mpmath.atan2,
-    "{a} * SIGN({a})": lambda a, b: abs(a), "SIGN({a})": lambda a, b: (a > 0) - (a < 0),
+    "magnitude": lambda a, b: abs(a),
+    "SIGN({a})": lambda a, b: (a > 0) - (a < 0),
 }
 
 

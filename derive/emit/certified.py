@@ -133,8 +133,8 @@ def _operations(tape, steps):
             yield "sincos", [("unread", i) if k is None or k not in made else k for k in pair], step.args
         elif step.op == "mul" and step.args[0] == step.args[1]:
             yield "sqr", [i], step.args[:1]
-        elif step.op == "mul" and (size := next((a for a in step.args if tape.find("sign", a) in step.args), None)):
-            yield "magnitude", [i], (size,)  # enclosed at 0 too, where a sign alone is not
+        elif step.op == "mul" and (of := [a for a in step.args if tape.find("sign", a) in step.args]):
+            yield "magnitude", [i], of[:1]  # enclosed at 0 too, where a sign alone is not
         else:
             yield step.op, [i], step.args
 

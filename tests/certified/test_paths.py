@@ -37,7 +37,7 @@ def test_a_turn_of_the_worm_is_one_branch_and_its_error_lies_in_a_narrow_tube():
 def test_bounds_of_the_error_hold_every_point_and_are_narrow():
     drive = Drive.load("recess-action-semi")
     path = certified_path(drive, -3.0, 3.0)
-    errors = drive.tca(np.linspace(-3.0, 3.0, 500)).error
+    errors = drive.tca(np.linspace(-3.0, 3.0, 20001)).error
     low, high = path.error_range
     assert low <= errors.min() and errors.max() <= high
     least, most = path.peak_to_peak

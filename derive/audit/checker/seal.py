@@ -10,6 +10,9 @@ from .lines import read_file, read_json
 from .refusal import Rejected, require
 from .verdicts import is_proved
 
+#: Folders that other commands make from what is sealed: pages, certified results.
+MADE_BESIDE = ("site", "benchmark")
+
 
 def equations_named(text: str) -> list[str]:
     """The equation ids in the comment at the top of a generated header."""
@@ -27,11 +30,9 @@ def check_files(folder: Path, root: str, objects: dict[str, dict]) -> int:
     require(seal_text == json.dumps(seal, indent=1, sort_keys=True) + "\n", "artifacts.json is not canonical")
     require(set(seal) == {"root", "files"} and seal["root"] == root, "artifacts.json carries another root hash")
     proved = {item["id"] for item in objects.values() if item["object"] == "verdict" and is_proved(item, objects)}
-    there = {
-        path.relative_to(folder.parent).as_posix()
-        for path in folder.parent.rglob("*")
-        if path.is_file() and path.parent.name != "__pycache__"
-    } - {f"{folder.name}/artifacts.json", "manifest.json"}
+    files = [path.relative_to(folder.parent) for path in folder.parent.rglob("*") if path.is_file()]
+    there = {p.as_posix() for p in files if p.parts[0] not in MADE_BESIDE and p.parent.name != "__pycache__"}
+    there -= {f"{folder.name}/artifacts.json", "manifest.json"}
     for name in sorted(there ^ set(seal["files"])):
         raise Rejected(f"{name} is {'not sealed' if name in there else 'missing'}")
     for name, expected in seal["files"].items():

@@ -18,8 +18,8 @@ from .straight_line import Function, literal_of
 
 #: Operations by number: what C writes for register a and register b.
 OPERATIONS = ("{a} + {b}", "{a} - {b}", "{a} * {b}", "{a} * {a}", "{a} / {b}", "-{a}", "sqrt({a})", "sincos",
-              "atan2({a}, {b})", "{a} * SIGN({a})", "SIGN({a})")  # fmt: skip
-SINE = OPERATIONS.index("sincos")
+              "atan2({a}, {b})", "magnitude", "SIGN({a})")  # fmt: skip
+SINE, MAGNITUDE = OPERATIONS.index("sincos"), OPERATIONS.index("magnitude")
 CODE_OF = re.compile(r"{ (\d+), (\d+), (\d+), (\d+), (\d+), (\d+), (\w+)_input, (\w+)_constant, (\w+)_operation, "
                      r"(\w+)_output }")  # fmt: skip
 
@@ -70,6 +70,8 @@ class Table:
             if code == SINE:
                 made |= {f"t{k}": ("sin", now[a]), f"t{k}m": ("cos", now[a])}
                 now[b] = f"t{k}m"
+            elif code == MAGNITUDE:
+                made |= {f"t{k}m": ("expression", f"SIGN({now[a]})"), f"t{k}": ("expression", f"{now[a]} * t{k}m")}
             else:
                 made[f"t{k}"] = ("expression", OPERATIONS[code].format(a=now[a], b=now[b]))
             now[to] = f"t{k}"
@@ -136,7 +138,7 @@ def check_factors(drive: BoundedDrive) -> None:
 
 def check_table(drive: BoundedDrive, table: Table, name: str, slots: int, design: int, rng: Random) -> None:
     """One of the functions of a contact, of a flank or the placement, beside the C function."""
-    if name not in ("setup", "instant", "equations", "observed", "along"):
+    if name in ("flank_1", "placement"):
         check_own_table(drive, table, name, slots, design, rng)
         return
     seen, _ = drive.run("observe", rng, "x", drive.unknowns)
@@ -157,9 +159,13 @@ def check_table(drive: BoundedDrive, table: Table, name: str, slots: int, design
         arguments = [*kept, *unset, seen.inputs["phi"], *unknowns, *speed.values()]
         expected = [way.value(f"{order}[{k}]") for order in ("d1", "d2") for k in range(count)]
     else:
-        unknowns = [seen.inputs[f"x[{k}]"] for k in range(len(drive.unknowns))]
-        arguments = [*((setup if k < design else instant).value(f"s[{k}]") for k in range(slots)), *unknowns]
-        expected = list(enclosed(drive, seen)) if name == "observed" else list(equated(drive, seen))
+        unknowns = {name: seen.inputs[f"x[{k}]"] for k, name in enumerate(drive.unknowns)}
+        if name == "flank_0":
+            own = drive.description["bodies"][0]["surface"]["parameters"]
+            unknowns = {q["name"]: unknowns[q["name"]] for q in own}
+        arguments = [*((setup if k < design else instant).value(f"s[{k}]") for k in range(slots)), *unknowns.values()]
+        made = {"observed": enclosed, "flank_0": pinion_flank, "equations": equated}[name]
+        expected = list(made(drive, seen))
     run = table.machine(arguments, seen)
     require(len(table.outputs) == len(expected), f"table {name}: another number of results")
     for k, number in enumerate(expected):
@@ -169,7 +175,7 @@ def check_table(drive: BoundedDrive, table: Table, name: str, slots: int, design
 
 
 def check_own_table(drive: BoundedDrive, table: Table, name: str, slots: int, design: int, rng: Random) -> None:
-    """A function of arguments of its own: a flank, its point, limits and tangents; the placement, all of it."""
+    """A function of arguments of its own: the wheel's flank, its point, limits and tangents; the placement whole."""
     if name == "placement":
         function, own = name, ["own angle of the pinion", "own angle of the wheel"]
     else:
@@ -194,6 +200,15 @@ def equated(drive: BoundedDrive, seen: Machine) -> Iterator[Number]:
     run, n = Machine(seen.inputs, drive.function("eval"), seen.earlier, seen.circle), len(drive.unknowns)
     yield from (run.value(f"R[{k}]") for k in range(n))
     yield from (run.value(f"J[{k}]") for k in range(n * n))
+
+
+def pinion_flank(drive: BoundedDrive, seen: Machine) -> Iterator[Number]:
+    """The point of the pinion's flank in the fixed frame, whether it is regular, its margins, its tangents there."""
+    body = drive.description["bodies"][0]
+    keys = [f"point_{body['name']}_f", f"regular_{body['name']}"]
+    keys += [f"margin_{body['name']}_{margin['event']}" for margin in body["margins"]]
+    for key in (*keys, *(f"tangent_{q['name']}" for q in body["surface"]["parameters"])):
+        yield from read(seen, key)
 
 
 def enclosed(drive: BoundedDrive, seen: Machine) -> Iterator[Number]:
