@@ -42,11 +42,12 @@ if not RUNTIME.exists():
     RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
-def compile_drive(page, name, record, log, open_=None):
+def compile_drive(page, name, record, log, open_=None, emitted=None):
     """All generated files of the drive ``name`` that the function ``page`` builds: relative path → text.
 
     ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
-    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. Raises
+    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. ``emitted`` is
+    called with path and text of each file as soon as it is made. Raises
     :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
     """
     with log("define", name):
@@ -59,8 +60,13 @@ def compile_drive(page, name, record, log, open_=None):
         plan = bind(plan)
     with log("prove", name):
         origin = prove(record, plan, open_)
+    files = {}
     with log("emit", name):
-        return emit(plan, origin)
+        for path, text in emit(plan, origin):
+            files[path] = text
+            if emitted:
+                emitted(path, text)
+    return files
 
 
 def define(page):
@@ -78,24 +84,23 @@ def prove(record, plan, open_=None):
 
 
 def emit(plan, origin):
-    """What every printer makes of a schedule."""
+    """What every printer makes of a schedule, file by file: path and text; what others include comes first."""
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
-    files = {
-        f"c/{drive.name}.h": c99.header(plan, metadata_of, RUNTIME),
-        f"c/{drive.name}_lanes.h": lanes.header(plan, metadata.GENERATOR),
-        f"c/{drive.name}_bounded.h": bounded.header(plan, metadata.GENERATOR),
-        f"descriptions/{drive.name}.json": description.text(drive),
-    }
-    files |= {f"casadi/{name}.casadi": text for name, text in casadi.texts(plan).items()}
+    c = f"c/{drive.name}"
+    yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
+    yield f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)
+    yield f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)
+    yield f"descriptions/{drive.name}.json", description.text(drive)
+    for name, text in casadi.texts(plan).items():
+        yield f"casadi/{name}.casadi", text
     # last: these add nodes to the tapes, the changes of the inputs and design systems at the end of their path
     tangents = sensitivity.tangents(plan)
-    files[f"c/{drive.name}_sensitivity.h"] = sensitivity.header(plan, tangents, metadata.GENERATOR)
-    files[f"c/{drive.name}_certified.h"] = certified.header(plan, metadata.GENERATOR)
-    files[f"c/{drive.name}_certify.h"] = certify.header(plan, metadata_of, RUNTIME)
+    yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)
+    yield f"{c}_certified.h", certified.header(plan, metadata.GENERATOR)
+    yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
     evaluated = [*guards.functions(plan), guards.along(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
-    files[f"c/{drive.name}.json"] = json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
-    return files
+    yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
 
 
 def hashes(files):

@@ -67,18 +67,29 @@ def write(page, name, record, folder, log, source=None):
         made.append(page())
         return made[0]
 
-    files = compiler.compile_drive(kept, name, record, log, open_)
-    header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
-    with log("audit", name):
-        entry = audit_entry(described, open_, header, source)
-    # what the table of families says of those of the tree
-    described |= families.shared(made)
-    files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
-    for path, text in files.items():
-        replace_text(folder / _place(path), text)
-    replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
-    with log("compile", name), tempfile.TemporaryDirectory() as objects:
-        build.drives([name], folder, compiler.package(), Path(objects), parts=(build.DRIVE,))
+    with tempfile.TemporaryDirectory() as temporary:
+        fresh, objects = Path(temporary, "drives"), Path(temporary, "objects")
+        with build.Begun(name, fresh, compiler.package(), objects) as begun:
+
+            def emitted(path, text):
+                if path.endswith(".h"):
+                    replace_text(fresh / _place(path), text)
+                    begun.written(Path(path).name)
+
+            files = compiler.compile_drive(kept, name, record, log, open_, emitted)
+            header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
+            with log("audit", name):
+                entry = audit_entry(described, open_, header, source)
+            with log("compile", name):
+                begun.wait()
+                build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+        # what the table of families says of those of the tree
+        described |= families.shared(made)
+        files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
+        for path, text in files.items():
+            replace_text(folder / _place(path), text)
+        replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
+        build.moved(name, fresh, folder)
 
 
 def _place(path):

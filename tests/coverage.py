@@ -23,15 +23,18 @@ LISTED = Path(__file__).with_name("uncovered.txt")
 #: Shares of lines and branches of runtime/c and of lines of the Python runtime that must be reached.
 LINES, BRANCHES, PYTHON = 0.95, 0.85, 0.92
 
-SEED, INPUTS = 0, 1000
+SEED, INPUTS = 0, 1600
 
 #: What runs under coverage.py: of the default tests those that use the runtime and neither derive nor compile.
 TESTS = (
-    "-m", "not slow and not validate", "--numprocesses", "auto", "--dist", "loadfile", "--ignore=tests/prove",
+    "-m", "not slow and not validate", "--numprocesses", "auto", "--dist", "loadgroup", "--ignore=tests/prove",
     "--ignore=tests/derive", "--ignore=tests/audit", "--ignore=tests/benchmarks", "--ignore=tests/embedding",
     "--ignore=tests/outside",
 )  # fmt: skip
-DESIGNS = ("zk-zn-45", "zk-zn-90", "spherical-table-2-3", "helical-crowned", "face-worm-conical-concave")
+DESIGNS = (
+    "zk-zn-45", "zk-zn-90", "spherical-table-2-3", "helical-crowned", "crossed-helical-17-23",
+    "face-worm-conical-concave",
+)  # fmt: skip
 
 #: Lane sets that this processor may not have: the calls do not go there.
 ELSEWHERE = ("lanes_avx2.c", "lanes_avx512.c")

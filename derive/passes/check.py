@@ -127,7 +127,7 @@ def _computed(program: Routine) -> list[int]:
         return values[i]
 
     for i, step in program.steps:
-        values[i] = _APPLY[step.op](*map(value, step.args)) % p
+        values[i] = _APPLY[step.op](*[values[a] if a in values else value(a) for a in step.args]) % p
     return [value(i) % p for i in program.outputs]
 
 

@@ -88,24 +88,45 @@ def _cheapest(tape: Tape, residual: Sequence[int], sides: Sequence[Rows]) -> Row
     """Of two ways to write each row the ones that together need the fewest operations: rows turn alone or in pairs,
     since two rows may share what the one alone would not pay for.
     """
-    rows = [forward for forward, _ in sides]
-    least = _operations(tape, residual, rows)
-    places = range(len(rows))
+    costs = [[_Cost.of(tape, row) for row in ways] for ways in sides]
+    own = _iterated(tape, residual)
+    ways, places = [0] * len(sides), range(len(sides))
+    least = _counted(own, len(residual), [forward for forward, _ in costs])
     for turned in ((k, m) for k in places for m in places if k <= m):
-        tried = [sides[k][1] if k in turned else row for k, row in enumerate(rows)]
-        if (count := _operations(tape, residual, tried)) < least:
-            rows, least = tried, count
-    return rows
+        tried = [1 if k in turned else way for k, way in enumerate(ways)]
+        if (count := _counted(own, len(residual), [costs[k][way] for k, way in enumerate(tried)])) < least:
+            ways, least = tried, count
+    return [sides[k][way] for k, way in enumerate(ways)]
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """What a row of the system costs: the nodes of a Newton step ``behind`` it, and ``eliminated`` operations if its
+    variable is.
+    """
+
+    behind: frozenset[int]
+    eliminated: int
+
+    @classmethod
+    def of(cls, tape: Tape, row: Sequence[int]) -> "_Cost":
+        varies = [e for e in row if tape.const_value(e) is None]
+        return cls(_iterated(tape, varies), 2 * len(varies) * sum(tape.const_value(e) != 0 for e in row))
+
+
+def _iterated(tape: Tape, nodes: Iterable[int]) -> frozenset[int]:
+    """Operations of a Newton step behind nodes."""
+    return frozenset(i for i in tape.needed([*dict.fromkeys(nodes)]) if tape.stages[i] == Stage.ITERATE)
+
+
+def _counted(own: frozenset[int], equations: int, rows: Sequence[_Cost]) -> int:
+    """Operations of a Newton step but for the solution of the system in the unknowns; ``own``: the residual's."""
+    return len(own.union(*(row.behind for row in rows))) + sum(row.eliminated for row in rows[equations:])
 
 
 def _operations(tape: Tape, residual: Sequence[int], rows: Sequence[Sequence[int]]) -> int:
-    """Operations of a Newton step, but for the solution of the system in the unknowns alone."""
-    entries = [[tape.const_value(e) is None for e in row] for row in rows]
-    values = (e for row, varies in zip(rows, entries, strict=True) for e, v in zip(row, varies, strict=True) if v)
-    needed = tape.needed([*dict.fromkeys((*residual, *values))])
-    eliminated = range(len(residual), len(rows))
-    elimination = 2 * sum(sum(entries[k]) * sum(tape.const_value(row[k]) != 0 for row in rows) for k in eliminated)
-    return sum(tape.stages[i] == Stage.ITERATE for i in needed) + elimination
+    """:func:`_counted` of rows as they are."""
+    return _counted(_iterated(tape, residual), len(residual), [_Cost.of(tape, row) for row in rows])
 
 
 def jacobian(tape: Tape, linear: Linear) -> Rows:

@@ -58,6 +58,7 @@ class Tape:
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
+        self.arguments: list[tuple[int, ...]] = []
         self.origins: dict[int, Origin] = {}
         self._within: Origin | None = None
         self.stages: list[Stage] = []
@@ -84,6 +85,7 @@ class Tape:
         if i is None:
             i = self._index[node] = len(self.nodes)
             self.nodes.append(node)
+            self.arguments.append(node.args)
             self.stages.append(max([self.stages[a] for a in args], default=stage or Stage.CONSTANT))
             if op in PARTIAL:
                 self.origins[i] = self._within or PARTIAL[op]
@@ -365,18 +367,22 @@ class Tape:
 
         ``instead`` holds the arguments of nodes that are computed from others than their own.
         """
-        nodes, seen, instead = self.nodes, set(known), instead or {}
+        arguments, seen = self.arguments, set(known)
         order: list[int] = []
         stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
+        pop, push, done, see = stack.pop, stack.append, order.append, seen.add
         while stack:
-            i = stack.pop()
+            i = pop()
             if i < 0:
-                order.append(~i)
+                done(~i)
             elif i not in seen:
-                seen.add(i)
-                if args := instead.get(i, nodes[i].args):
-                    stack.append(~i)
-                    stack.extend(args[::-1])
+                see(i)
+                args = arguments[i] if instead is None else instead.get(i, arguments[i])
+                if args:
+                    push(~i)
+                    for a in args[::-1]:
+                        if a not in seen:
+                            push(a)
         return order
 
     def inputs_of(self, outputs: Collection[int]) -> set[sp.Symbol]:

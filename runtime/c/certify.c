@@ -19,7 +19,7 @@ static const double NARROW = 1e-24;
 
 static const mw_certified *tables_of(const mw_model *m)
 {
-    return mwi_usable(m) && m->kernels ? m->kernels->certified : NULL;
+    return mwi_usable(m) && m->kernels ? m->kernels->certified() : NULL;
 }
 
 /* A radius that is none bounds nothing. */
@@ -353,7 +353,7 @@ static int enclose_quickly(const mw_model *m, problem *p, const double *x, solut
 {
     const mw_certified *t = tables_of(m);
     const double *s = &p->balls[0].mid, *own = &p->balls[t->design_slots].mid;
-    const mw_enclosing *by = &m->kernels->enclosing;
+    const mw_enclosing *by = m->kernels->enclosing();
     const int n = p->n;
     double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], near[MW_MAX_UNKNOWNS];
     double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
@@ -506,7 +506,7 @@ size_t mw_certify_many(const mw_lane_set *set, const mw_proofs *proofs, const mw
         for (; k + lanes <= n; k += lanes)
             set->certify(in_lanes, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (; k < n; k++)
-        certify_one(&m->kernels->enclosing, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
+        certify_one(m->kernels->enclosing(), m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (size_t i = 0; i < n; i++) {
         if (!unique[i]) certify_alone(m, &p, phi[i], x + i * nx, unique + i, errors + i);
         count += unique[i];

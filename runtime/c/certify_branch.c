@@ -208,7 +208,7 @@ int mw_certify_branch(const mw_model *m, const mw_wide *s, int crossing, double 
     c->angle = c->unfolding = mwc_make(NAN, NAN);
     for (int i = 0; i < NX; i++) c->x[i] = mwc_make(NAN, NAN);
     if (!mw_encloses(m)) return ended(c, MW_REASON_ARITHMETIC);
-    e.tables = m->kernels->certified;
+    e.tables = m->kernels->certified();
     e.n = m->nx;
     e.columns = m->nx + (crossing != 0);
     e.size = m->nx + 1 + e.columns;

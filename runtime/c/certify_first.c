@@ -622,7 +622,7 @@ static int look_at(search *h, const mw_model *m, const mw_certificate *contact)
 static int possible(const mw_model *m, const mw_certificate *contact)
 {
     if (!mw_encloses(m)) return MW_REASON_ARITHMETIC;
-    const mw_certified *t = m->kernels->certified;
+    const mw_certified *t = m->kernels->certified();
     if (contact->outcome != MW_UNIQUE) return contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
     if (contact->flags) return MW_REASON_OFF_FLANK;
     for (int i = 0; i < 2; i++) {
@@ -657,7 +657,7 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     }
     if (c->reason != MW_REASON_NONE) return c->outcome;
     memset(h, 0, sizeof *h);
-    h->tables = m->kernels->certified;
+    h->tables = m->kernels->certified();
     h->part = (part *)(h + 1);
     h->list = (int *)(h->part + MOST_PARTS);
     h->slack = slack;

@@ -189,7 +189,7 @@ int mw_certify_piece(const mw_model *m, const mw_wide *s, double from, double to
     piece->reason = MW_REASON_ARITHMETIC;
     if (!mw_encloses(m)) return piece->outcome = MW_UNKNOWN;
     w.n = m->nx;
-    w.tables = m->kernels->certified;
+    w.tables = m->kernels->certified();
     piece->reason = MW_REASON_DESIGN;
     if (!possible(w.tables, m->nx)) return piece->outcome = MW_UNKNOWN;
     piece->reason = reason_of(m, &w, s, x, piece);

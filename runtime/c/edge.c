@@ -5,7 +5,7 @@
 
 static const mw_bounded *bounded_of(const mw_model *m)
 {
-    return mwi_usable(m) && m->kernels ? m->kernels->bounded : NULL;
+    return mwi_usable(m) && m->kernels ? m->kernels->bounded() : NULL;
 }
 
 int mw_edge(const mw_model *m, int pinion_margin, int wheel_margin)

@@ -63,12 +63,12 @@ typedef enum mw_instruction_set { MW_NATIVE, MW_AVX2, MW_AVX512, MW_INSTRUCTION_
 #define MW_WIDE_LANES
 #endif
 
-/* lanes: NULL for an instruction set that was not compiled. */
+/* What it holds, each of a unit of its own; lanes: NULL for an instruction set that was not compiled. */
 typedef struct mw_kernels {
-    const mw_tangents *tangents;
-    const mw_bounded *bounded;
-    const mw_certified *certified;
-    mw_enclosing enclosing;
+    const mw_tangents *(*tangents)(void);
+    const mw_bounded *(*bounded)(void);
+    const mw_certified *(*certified)(void);
+    const mw_enclosing *(*enclosing)(void);
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;
 

@@ -11,7 +11,7 @@ static const double RANK_TOLERANCE = 1e-12;
 /* A drive's tangents; NULL where it has none, as a header alone, and for a foreign table. */
 static const mw_tangents *tangents_of(const mw_model *m)
 {
-    return mwi_usable(m) && m->kernels ? m->kernels->tangents : NULL;
+    return mwi_usable(m) && m->kernels ? m->kernels->tangents() : NULL;
 }
 
 /* Change of a solution: J change = -dR; J and dR are overwritten. */

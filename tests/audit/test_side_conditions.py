@@ -3,6 +3,7 @@
 import math
 import re
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,12 @@ PARTIAL = {"division": r"= [^;?]*? / (?![\d.]+(?:e[-+]?\d+)?;)", "root": r"= sqr
 
 def description(drive):
     return described(drive)
+
+
+@cache
+def scheduled(drive):
+    """The schedule of a drive, to be read."""
+    return schedule(catalogue()[drive]())
 
 
 def functions_in(header, prefix):
@@ -102,7 +109,7 @@ def run(tape, outputs, inputs, broken):
 @pytest.mark.parametrize("drive", REPRESENTATIVE)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_a_broken_condition_is_seen_in_every_result_that_depends_on_it(drive):
-    plan = schedule(catalogue()[drive]())
+    plan = scheduled(drive)
     guarded = {guard.of for guard in plan.guards}
     inputs = {symbol: float(value) for symbol, value in sample_parameters(plan.drive).items()}
     tried = 0
@@ -215,7 +222,7 @@ def test_every_parameter_that_the_contact_needs_has_to_be_finite(drive, value):
 
 def _read_by_the_residual(drive):
     """Names of the inputs of the residual."""
-    plan = schedule(catalogue()[drive]())
+    plan = scheduled(drive)
     nodes = plan.tape.nodes
     return {str(nodes[a].value) for i in plan.tape.needed(plan.residual) for a in nodes[i].args if nodes[a].value}
 

@@ -118,9 +118,3 @@ def test_an_undercut_tooth_is_solid_down_to_its_root():
         assert (np.hypot(flank[:, 0], flank[:, 1]) > base_radius(12) + 1e-3).all()
     body = mesh_body([placed_tooth(pinion, 0.0, k, None) for k in tooth_order(pinion, 0.0, (0,))], DENSITY)
     assert body.mesh.smallest_jacobian() > 0.2
-
-
-def test_a_drive_without_solid_teeth_says_which_have_them(capsys):
-    assert main(["loaded", "bevel-crowned-both", "--torque-nm", "20"]) == 2
-    message = capsys.readouterr().err
-    assert "no sizes of solid teeth" in message and "cylindrical-gears" in message

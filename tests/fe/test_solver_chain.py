@@ -123,6 +123,7 @@ def test_hertz_cylinder(ccx, tmp_path):
         assert von_mises(stress).max() == pytest.approx(exact.subsurface_von_mises, rel=0.05)
 
 
+@pytest.mark.validate
 def test_hertz_sphere(ccx, tmp_path):
     force, curvature = 1000.0, 0.05
     exact = elliptic_contact(force, curvature, curvature, MODULUS, 0.29)

@@ -45,6 +45,7 @@ def prepared_at(gear, compliance, folder, density, angle=0.0, pairs=1):
     return prepare(gear, compliance, angle, TORQUE, settings, folder), settings
 
 
+@pytest.mark.validate
 def test_convex_on_concave_at_the_pitch_point(ccx, concave, compliance, tmp_path):
     """Pressure within 3 % and subsurface von Mises within 5 % of Hertz on at most 11 000 elements; the gate holds."""
     prepared, settings = prepared_at(concave, compliance, tmp_path / "run", MODEST)

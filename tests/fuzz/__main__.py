@@ -78,7 +78,7 @@ def _interface(kind, size, seed, which):
         return None
     threaded = kind == "thread"
     size = replace(size, calls=1) if threaded else replace(size, threads=0)
-    total = Counter(calls=0)
+    total, kinds = Counter(calls=0), Counter()
     with tempfile.TemporaryDirectory(prefix="meshwright-fuzz-") as folder:
         threads = ("-DMW_FUZZ_THREADS=4",) if threaded else ()
         random, led = interface.build_both(Path(folder), compiler, flags, threads, which, led_by and not threaded)
@@ -86,12 +86,14 @@ def _interface(kind, size, seed, which):
             ended, said = interface.run(program, arguments, LIMIT + count * 5)
             found = interface.counted(said)
             total.update(found)
+            kinds.update(interface.counted_by_kind(said))
             if ended or not found["calls"]:
                 return "", [said[-6000:]]
             if total["calls"] >= size.calls:
                 break
     words = f"{total['inputs']} inputs, {total['calls']} calls, {total['successes']} successes looked at, "
-    return words + Path(compiler).name + (", random bytes and led by coverage" if led else ", random bytes"), []
+    words += Path(compiler).name + (", random bytes and led by coverage" if led else ", random bytes")
+    return words + "".join(f"\n{count:>48} {kind}" for kind, count in kinds.items()), []
 
 
 PARTS = ("designs", "surface and report", "record", *(f"C interface, {kind}" for kind in interface.SANITIZERS))
@@ -130,9 +132,10 @@ def main(arguments=None):
             missing += 1
             print(f"{name:32} NOT RUN: needs clang with its runtime (Debian: clang, libclang-rt-dev)", flush=True)
             continue
-        words, wrong = done
+        (words, *more), wrong = done[0].split("\n"), done[1]
         failed += bool(wrong)
-        print(f"{name:32} {'FAILED' if wrong else 'ok':6} {words} ({time.monotonic() - begin:.0f} s)", flush=True)
+        print(f"{name:32} {'FAILED' if wrong else 'ok':6} {words} ({time.monotonic() - begin:.0f} s)", *more, sep="\n")
+        sys.stdout.flush()
         for text in wrong:
             print(text, file=sys.stderr)
     if missing:

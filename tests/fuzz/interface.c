@@ -19,9 +19,16 @@
 #define MW_EACH
 #endif
 
-enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = 22 };
+/* What bytes choose among, by what most of its calls are of; calls of mw_certify_first are counted beside. */
+static const char *const kinds[] = {
+    "the drive's table", "the drive's table", "the drive's table", "mw_solve", "a header's own solve", "mw_refine", "mw_trace",
+    "mw_analyse", "mw_follow", "mw_arclength", "branch points", "lanes", "sensitivities", "words", "foreign tables",
+    "CasADi's entries", "edges", "mw_bounds", "mw_certify", "mw_certify_many", "mw_certify_piece", "mw_first_contact",
+};
 
-static MW_EACH unsigned long long calls, inputs, successes, ended[16];
+enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = sizeof kinds / sizeof *kinds };
+
+static MW_EACH unsigned long long calls, inputs, successes, ended[16], of_kind[sizeof kinds / sizeof *kinds], first_proofs;
 static MW_EACH uint64_t all;     /* digest of the results of all inputs */
 static MW_EACH void *rooms[ROOMS];
 static MW_EACH size_t used;
@@ -566,8 +573,10 @@ static uint64_t run(const uint8_t *data, size_t size)
     inputs++;
     for (int k = 0; k < CALLS && (k == 0 || r.at < r.end); k++) {
         const int ready = design(&r, &f);
+        const unsigned kind = ready ? byte(&r) % KINDS : 0;
+        const unsigned long long before = calls;
         if (ready) {
-            switch (byte(&r) % KINDS) {
+            switch (kind) {
             case 0: case 1: case 2: table(&r, &f); break;
             case 3: one(&r, &f); break;
             case 4: alone(&r, &f); break;
@@ -591,6 +600,7 @@ static uint64_t run(const uint8_t *data, size_t size)
             default: break;
             }
         }
+        of_kind[kind] += calls - before;
         while (used) free(rooms[--used]);
     }
 #ifdef MW_FUZZ_SHOW
@@ -604,6 +614,11 @@ static void report(void)
 {
     fprintf(stderr, "fuzz: digest %016llx\n", (unsigned long long)all);
     fprintf(stderr, "fuzz: %llu inputs, %llu calls, %llu successes looked at\n", inputs, calls, successes);
+    for (int i = 2; i < KINDS; i++) {
+        const unsigned long long all_of = of_kind[i] + (i == 2 ? of_kind[0] + of_kind[1] : 0);
+        if (all_of) fprintf(stderr, "fuzz: %llu calls of %s\n", all_of, kinds[i]);
+    }
+    fprintf(stderr, "fuzz: %llu calls of mw_certify_first\n", first_proofs);
     for (int i = 0; i < 16; i++)
         if (ended[i]) fprintf(stderr, "fuzz: %llu ended as %s\n", ended[i], mw_status_word(i - 8));
 }

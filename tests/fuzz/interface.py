@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -17,7 +18,7 @@ import numpy as np
 from meshwright import Drive
 from meshwright.base.compile import PARTS, PROOFS
 from meshwright.base.library import ffi, library, pointer
-from meshwright.cycle import first_contact
+from meshwright.cycle import certified_first, first_contact
 from meshwright.design import design
 
 HERE = Path(__file__).resolve().parent
@@ -102,6 +103,12 @@ def _seed(name, k, drive):
     if edges:
         entries = (f"{{ {{ {a}, {b} }}, {_number(at)}, {own}_edge_{n} }}" for n, ((a, b), at, _) in enumerate(edges))
         lines.append(f"static const edge_seed {own}_edges[] = {{ {', '.join(entries)} }};")
+    proofs = _proofs(drive)
+    for n, numbers in enumerate(proofs):
+        lines.append(_array(f"{own}_proof_{n}", numbers))
+    if proofs:
+        named = ", ".join(f"{own}_proof_{n}" for n in range(len(proofs)))
+        lines.append(f"static const double *const {own}_proofs[] = {{ {named} }};")
     found = _search(drive) if k % 2 == 0 else None
     if found is not None:
         lines += _first(own, *found)
@@ -111,7 +118,7 @@ def _seed(name, k, drive):
     first, all_edges = f"&{own}_first" if found is not None else "NULL", f"{own}_edges" if edges else "NULL"
     listed = (
         f'{{ "{compiled}", {own}_given, {own}_complete, {own}_x, 0.05, fuzz_alone_{compiled}, fuzz_casadi_{compiled}, '
-        f"{first}, {all_edges}, {len(edges)} }},"
+        f"{first}, {all_edges}, {len(edges)}, {f'{own}_proofs' if proofs else 'NULL'}, {len(proofs)} }},"
     )
     return lines, listed
 
@@ -130,6 +137,24 @@ def _edges(drive, most=4):
                 found.append((margins, sign * float(angles[k]), x))
                 break
     return found
+
+
+def _proofs(drive, most=4):
+    """Up to ``most`` contacts on both flanks, from one end of the path to the other: angle, slack and reach of a proof
+    that they are the first, the eight ends of the flanks' parameters, unknowns.
+    """
+    angles, sign = drive.pitch() * np.linspace(-1.5, 1.5, 13), drive.design.mirror.sign
+    traced = drive.tca(angles)
+    good = [k for k in np.flatnonzero(traced.solved) if not traced.flags[k]]
+    good = [good[k] for k in np.unique(np.linspace(0, len(good) - 1, most).round().astype(int))] if good else []
+    if not good:
+        return []
+    boxes = certified_first._boxes(drive, traced.solutions[good], 0)
+    ends = [end for box in boxes.values() for ends in box.values() for end in ends]
+    slacks = certified_first.SLACK / certified_first._radii(drive, traced)
+    reach = certified_first.REACH * abs(drive.ratio) * drive.pitch()
+    each = [(sign * angles[k], slacks[k], reach, *ends, *traced.solutions[k]) for k in good]
+    return [np.array(numbers) for numbers in each] if len(ends) == 8 else []
 
 
 def _search(drive):
@@ -209,6 +234,8 @@ typedef struct seed {{
     const first_seed *first;
     const edge_seed *edges;
     int nedges;
+    const double *const *proofs; /* contacts that may be first: angle, slack, reach, ends of the flanks [8], unknowns */
+    int nproofs;
 }} seed;
 
 {arrays}
@@ -296,6 +323,14 @@ def counted(text):
     """Calls and successes that runs report of themselves; several threads report one after the other."""
     found = re.findall(r"fuzz: (\d+) inputs, (\d+) calls, (\d+) successes", text)
     return {key: sum(int(row[k]) for row in found) for k, key in enumerate(("inputs", "calls", "successes"))}
+
+
+def counted_by_kind(text):
+    """Calls by what most of them are of, and of ``mw_certify_first`` alone, which others count among theirs."""
+    found = Counter()
+    for count, kind in re.findall(r"fuzz: (\d+) calls of (.+)", text):
+        found[kind] += int(count)
+    return found
 
 
 def run(program, arguments, timeout):

@@ -182,8 +182,91 @@ static double *solved_start(reader *r, fuzzed *f, double phi)
     return x;
 }
 
+/* A place that is said to overlap: the wheel turned by how far it is apart, both flanks have that point in common, and it lies
+ * within all limits. s is set up for the angle and the design in floating point. */
+static void must_overlap(const mw_model *m, const double *s, const mw_certificate *contact, const mw_first_certificate *c)
+{
+    double *x = numbers((size_t)m->nx), *o = numbers((size_t)m->no), gap[2] = { 0.0, 0.0 }, size = 1.0;
+    for (int turn = 0; turn < 2; turn++) {
+        for (int i = 0; i < m->nx; i++) x[i] = contact->x[i].hi;
+        for (int i = 0; i < 2; i++) x[m->bodies[0].unknowns[i]] = c->pinion[i], x[m->bodies[1].unknowns[i]] = c->wheel[i];
+        x[m->error] += turn ? c->apart.mid : -c->apart.mid;
+        m->observe(s, x, o);
+        for (int i = 0; i < 3; i++) gap[turn] = fmax(gap[turn], fabs(o[i] - o[6 + i]));
+        size = 1.0 + extent(o) + extent(o + 6);
+        for (int b = 0; b < 2; b++)
+            for (int i = 0; i < m->bodies[b].margins; i++)
+                if (o[m->bodies[b].margin + i] < -1e-6 * size) fail("an overlap outside the limits");
+    }
+    if (!(fmin(gap[0], gap[1]) <= 1e-6 * size)) fail("an overlap of flanks that have no point in common");
+    successes++;
+}
+
+/* What a proof of first contact says in itself; `narrow`: the design and the angle are numbers. */
+static void must_be_first(reader *r, fuzzed *f, double at, const mw_certificate *contact, const double *flanks, double slack,
+                          double reach, int narrow, const mw_first_certificate *c, int returned)
+{
+    if (returned != c->outcome) fail("first contact: two words for one outcome");
+    calls++, first_proofs++;
+    note(r, &c->outcome, sizeof c->outcome);
+    if ((c->outcome == MW_FIRST_UNKNOWN) != (c->reason != MW_REASON_NONE)) fail("first contact: not known, without its reason");
+    if (c->outcome == MW_FIRST_UNKNOWN) return;
+    if (contact->outcome != MW_UNIQUE) fail("first contact of a contact that is not certified");
+    if (!(slack > 0.0 && reach > slack)) fail("first contact over no angles");
+    if (c->outcome != MW_FIRST_REFUTED) return;
+    if (!(c->apart.mid + c->apart.radius < 0.0)) fail("an overlap that is none");
+    for (int i = 0; i < 2; i++)
+        if (!(c->wheel[i] >= flanks[4 + 2 * i] && c->wheel[i] <= flanks[5 + 2 * i])) fail("an overlap beyond the flanks");
+    if (!f->completed || !narrow) return;
+    f->m->set_phi(f->s, at);
+    must_overlap(f->m, f->s, contact, c);
+}
+
+/* A contact on both flanks, to be proved the first: as it is and with the wheel turned either way. Turned either way by more
+ * than the slack, the wheel overlaps at one of both; what a smaller part of the flanks about it refutes, the whole does not prove. */
+static void first_of_contact(reader *r, fuzzed *f, const mw_wide *s, int all)
+{
+    const mw_model *m = f->m;
+    if (!f->from->nproofs) return;
+    const double *from = f->from->proofs[byte(r) % (unsigned)f->from->nproofs], at = from[0], *whole = from + 3, *x = from + 11;
+    double *work = numbers(mw_certify_first_work()), *scale = numbers((size_t)m->nx), part[8];
+    mw_certificate *contact = room(1, sizeof *contact);
+    mw_first_certificate *c = room(4, sizeof *c);
+    const double slack = from[1] * (byte(r) < 128 ? 1.0 : 1e3), turn = slack * (2.0 + byte(r)), reach = byte(r) < 192 ? from[2] : 4.0 * turn;
+    const int effort = 1 << byte(r) % 10, wide = byte(r) < 128;
+    int holds = 1;
+    must_be_sound(r, m, contact, mw_certify(m, s, as_wide(at, 0.0), x, 0, contact));
+    calls++;
+    m->set_phi(f->s, at);
+    m->scale(f->s, scale);
+    const double share = ldexp(1.0, -(int)(byte(r) % 12));
+    for (int i = 0; i < 8; i++) {
+        const int k = m->bodies[i / 4].unknowns[i % 4 / 2];
+        const double middle = contact->outcome == MW_UNIQUE ? contact->x[k].hi : x[k];
+        part[i] = wide ? whole[i] : middle + (i % 2 ? share : -share) * scale[k];
+        holds = holds && (i % 2 ? part[i] > middle : part[i] < middle);
+    }
+    const double angle = contact->wheel_angle.mid;
+    for (int way = 0; way < 3; way++) {
+        contact->wheel_angle.mid = angle + (way - 1) * turn;
+        must_be_first(r, f, at, contact, part, slack, reach, 0, c + way,
+                      mw_certify_first(m, s, as_wide(at, 0.0), contact, part, slack, reach, effort, work, c + way));
+    }
+    contact->wheel_angle.mid = angle;
+    if (f->completed && all && c[1].outcome == MW_FIRST_REFUTED) {
+        m->set_phi(f->s, at);
+        must_overlap(m, f->s, contact, c + 1);
+    }
+    if (holds && c[0].outcome == MW_FIRST_PROVED && c[2].outcome == MW_FIRST_PROVED && reach > 2.0 * turn)
+        fail("a contact from which the wheel can be turned either way");
+    if (wide || byte(r) < 192) return;
+    must_be_first(r, f, at, contact, whole, slack, reach, 0, c + 3,
+                  mw_certify_first(m, s, as_wide(at, 0.0), contact, whole, slack, reach, 8 * effort, work, c + 3));
+    if (c[1].outcome == MW_FIRST_REFUTED && c[3].outcome == MW_FIRST_PROVED) fail("a whole that is proved, and a part refuted");
+}
+
 /* First contact within ranges of the flanks' parameters about a certified contact, or wherever a number may lie. */
-static void first_proof(reader *r, fuzzed *f, const mw_wide *s, double at, const mw_certificate *contact)
+static void first_proof(reader *r, fuzzed *f, const mw_wide *s, double at, const mw_certificate *contact, int narrow)
 {
     const mw_model *m = f->m;
     double flanks[8], *scale = numbers((size_t)m->nx), *work = numbers(mw_certify_first_work());
@@ -196,18 +279,9 @@ static void first_proof(reader *r, fuzzed *f, const mw_wide *s, double at, const
         for (int side = 0; side < 2; side++) flanks[2 * i + side] = number(r, middle + (side ? 1.0 : -1.0) * ldexp(scale[k], -(int)(byte(r) % 16)));
     }
     const double slack = number(r, 1e-7), reach = number(r, 1e-3);
-    const int effort = 8 * byte(r);
-    if (mw_certify_first(m, s, as_wide(at, 0.0), contact, flanks, slack, reach, effort, work, c) != c->outcome)
-        fail("first contact: two words for one outcome");
-    calls++;
-    note(r, &c->outcome, sizeof c->outcome);
-    if ((c->outcome == MW_FIRST_UNKNOWN) != (c->reason != MW_REASON_NONE)) fail("first contact: not known, without its reason");
-    if (c->outcome == MW_FIRST_UNKNOWN) return;
-    if (contact->outcome != MW_UNIQUE) fail("first contact of a contact that is not certified");
-    if (!(slack > 0.0 && reach > slack)) fail("first contact over no angles");
-    if (c->outcome == MW_FIRST_REFUTED && !(c->apart.mid + c->apart.radius < 0.0)) fail("an overlap that is none");
-    for (int i = 0; c->outcome == MW_FIRST_REFUTED && i < 2; i++)
-        if (!(c->wheel[i] >= flanks[4 + 2 * i] && c->wheel[i] <= flanks[5 + 2 * i])) fail("an overlap beyond the flanks");
+    const int effort = 1 << byte(r) % 10;
+    must_be_first(r, f, at, contact, flanks, slack, reach, narrow, c,
+                  mw_certify_first(m, s, as_wide(at, 0.0), contact, flanks, slack, reach, effort, work, c));
 }
 
 static void certificate(reader *r, fuzzed *f)
@@ -221,7 +295,8 @@ static void certificate(reader *r, fuzzed *f)
     const double radius = number(r, 0.0);
     must_be_sound(r, m, c, mw_certify(m, s, as_wide(at, radius), x, byte(r) & 1, c));
     if (f->completed && all && radius < 1e-12 && c->outcome == MW_UNIQUE) must_agree(r, f, at, x, NULL, c);
-    if (byte(r) < 128) first_proof(r, f, s, at, c);
+    if (byte(r) < 64) first_proof(r, f, s, at, c, all && radius == 0.0);
+    else if (byte(r) < 96) first_of_contact(r, f, s, all);
     m->set_phi(f->s, at);
     m->scale(f->s, d);
     const double share = ldexp(1.0, -(int)(byte(r) % 40));

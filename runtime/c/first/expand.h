@@ -21,7 +21,7 @@ typedef struct bent {
 static void to_second_order(const search *h, int member, const double *q, bent *f)
 {
     const mw_body *body = &h->m->bodies[member];
-    const mw_expansion *expansion = &h->m->kernels->bounded->expansions[member];
+    const mw_expansion *expansion = &h->m->kernels->bounded()->expansions[member];
     f->k = body->parameters;
     f->limits = 1 + body->margins;
     f->pairs = f->k * (f->k + 1) / 2;

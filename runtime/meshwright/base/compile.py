@@ -26,6 +26,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 CORE = "libmeshwright.so"
@@ -37,23 +38,39 @@ class Part:
 
     ending:  of its file's name, after the drive's
     units:   translation units, relative to runtime/c
+    lanes:   generated headers that its lanes include, as :data:`GENERATED` has them
     defines: macros with which they are compiled, beside the drive's name
     """
 
     ending: str
     units: tuple[str, ...]
+    lanes: tuple[str, ...]
     defines: tuple[str, ...] = ()
 
+    def reads(self, unit):
+        """The generated headers that a unit includes, by names that its macros make."""
+        return READS.get(unit, self.lanes)
 
+
+#: Generated headers of a drive.
+GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certified.h", "{}_certify.h")
+#: Units of a drive's objects that are no lanes → the generated headers that they include.
+READS = {
+    "drive/drive.c": ("{}.h",),
+    "drive/certified.c": ("{}_certified.h", "{}_certify.h"),
+    "drive/bounded.c": ("{}.h", "{}_bounded.h"),
+    "drive/tangents.c": ("{}.h", "{}_sensitivity.h"),
+    "drive/proofs.c": (),
+}
 #: The drive itself, and its equations with error bounds in lanes: few ask for these, which take longer than all else.
 LANES = ("lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
-DRIVE = Part("", ("drive/drive.c", *LANES))
-PROOFS = Part("_proofs", ("drive/proofs.c", *LANES), ("-DMW_PROOFS",))
+DRIVE = Part("", (*(unit for unit in READS if unit != "drive/proofs.c"), *LANES), ("{}.h", "{}_lanes.h"))
+PROOFS = Part("_proofs", ("drive/proofs.c", *LANES), ("{}_certify.h",), ("-DMW_PROOFS",))
 PARTS = (DRIVE, PROOFS)
 #: What the units need beside the drive's own headers: relative to runtime/c.
 DRIVE_HEADERS = (
-    "drive/names.h", "drive/casadi.h", "drive/lanes.h", "drive/proven.h", "kernels.h", "lane_kernels.h",
-    "mw_certified.h", "exact.h",
+    "drive/names.h", "drive/parts.h", "drive/casadi.h", "drive/lanes.h", "drive/proven.h", "kernels.h",
+    "lane_kernels.h", "mw_certified.h", "exact.h",
 )  # fmt: skip
 SOURCES = (*dict.fromkeys(unit for part in PARTS for unit in part.units), *DRIVE_HEADERS)
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
@@ -67,9 +84,6 @@ PUBLIC_HEADERS = (
     "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
     *(f"solver/{part}.h" for part in SOLVER),
 )  # fmt: skip
-
-#: Generated headers of a drive.
-GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certified.h", "{}_certify.h")
 
 FLAGS = (
     "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd", "-fPIC",
@@ -171,9 +185,14 @@ def _object(command, source, target, folders, defines, more):
     return target, key
 
 
+def _pool():
+    """As many workers as there are processors."""
+    return ThreadPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 2)
+
+
 def _compiled(jobs):
     """The objects of many units (arguments of :func:`_object`), as many at once as there are processors."""
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 2) as pool:
+    with _pool() as pool:
         return list(pool.map(lambda job: _object(*job), jobs))
 
 
@@ -216,15 +235,9 @@ def drives(names, folder, package, objects, target=None, parts=PARTS):
 
     Each finds the core library where it is now, or beside itself.
     """
-    target, source = target or native(), package / "source"
-    command = (*target.command, *target.more)
-    folders = (folder / "include", source, package / "include")
+    target = target or native()
     made = [(name, part) for name in names for part in parts]
-    jobs = [
-        (command, source / unit, objects / f"{name}{part.ending}" / f"{Path(unit).stem}.o", folders,
-         (f"-DMW_DRIVE={name}", *part.defines), headers(name, folder))
-        for name, part in made for unit in part.units
-    ]  # fmt: skip
+    jobs = [_job(unit, part, name, folder, package, objects, target) for name, part in made for unit in part.units]
     compiled = iter(_compiled(jobs))
     options = (str(package / CORE), *target.beside)
     if folder.resolve() != package.resolve():
@@ -233,6 +246,53 @@ def drives(names, folder, package, objects, target=None, parts=PARTS):
         units = [next(compiled) for _ in part.units]
         path = folder / f"{name}{part.ending}.so"
         _linked(target.command, units, path, options, inputs(name, folder, package))
+
+
+def _job(unit, part, name, folder, package, objects, target):
+    """Arguments of :func:`_object` for a unit of a part of a drive."""
+    source = package / "source"
+    folders = (folder / "include", source, package / "include")
+    read = [folder / "include" / pattern.format(name) for pattern in part.reads(unit)]
+    made = objects / f"{name}{part.ending}" / f"{Path(unit).stem}.o"
+    command = (*target.command, *target.more)
+    return command, source / unit, made, folders, (f"-DMW_DRIVE={name}", *part.defines), read
+
+
+class Begun:
+    """A drive's object, whose units begin to compile as soon as the generated headers that they include are written.
+
+    :func:`drives` with the same arguments finds their objects; what does not compile is its to say.
+    """
+
+    def __init__(self, name, folder, package, objects, part=DRIVE):
+        of = {"name": name, "folder": folder, "package": package, "objects": objects}
+        self._job = partial(_job, part=part, target=native(), **of)
+        self._waiting = {u: {pattern.format(name) for pattern in part.reads(u)} for u in part.units}
+        self._pool, self._written = _pool(), set()
+
+    def __enter__(self):
+        return self
+
+    def written(self, header):
+        """Say that a generated header is in its place."""
+        self._written.add(header)
+        for unit in [unit for unit, read in self._waiting.items() if read <= self._written]:
+            del self._waiting[unit]
+            self._pool.submit(_object, *self._job(unit))
+
+    def wait(self):
+        """Return when everything that has begun is made."""
+        self._pool.shutdown()
+
+    def __exit__(self, kind, error, traceback):
+        self._pool.shutdown(cancel_futures=kind is not None)
+
+
+def moved(name, folder, place, part=DRIVE):
+    """Put a shared object that was made in ``folder`` into another folder of drives, its stamp last."""
+    made = folder / f"{name}{part.ending}.so"
+    for path in (made, made.with_suffix(".stamp")):
+        _copy(path, place / path.name)
 
 
 def inputs(name, folder, package):

@@ -20,7 +20,10 @@ def add_arguments(parser):
     )
     parser.add_argument("--pairs", type=int, metavar="N", help="tooth pairs modelled; default: as many as can share")
     parser.add_argument(
-        "--rim-mm", type=float, metavar="MM", help="depth of the rim below the root; default 4.5 modules"
+        "--rim-mm",
+        type=float,
+        metavar="MM",
+        help="depth of the rim below the root; default 4.5 modules, or twice the height of teeth without a module",
     )
 
 

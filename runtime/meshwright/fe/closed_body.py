@@ -17,9 +17,8 @@ from meshwright.base.errors import DesignError, UsageError
 from meshwright.drive import Drive
 from meshwright.fe.facets import facet_departures, finer_rows
 from meshwright.fe.hexahedra import Floats, Ints
-from meshwright.fe.rim import DEEPEST_RIM, check_rim
+from meshwright.fe.rim import DEEPEST_RIM, RIM_MODULES, check_rim
 from meshwright.fe.sizes import other_flank, solid_sizes
-from meshwright.fe.solids import RIM_MODULES
 from meshwright.fe.thread_body import ThreadSide
 from meshwright.fe.thread_flanks import thread_sides
 from meshwright.fe.tooth_patches import Grid, Rows, Tooth, between
@@ -160,8 +159,24 @@ def _whole(member: str) -> Iterator[None]:
         raise DesignError("blank", None, f"the {member} has no whole teeth: {error}", "change its blank") from error
 
 
+def gear_tooth(drive: Drive, member: str, rim: float | None) -> tuple[Tooth, int]:
+    """The tooth of a gear with a whole blank, and which of its sides, 0 or 1, has the flank in hand; errors as of
+    :func:`solid_body`.
+    """
+    with _whole(member):
+        sides, faces = _sides((drive, _other(drive, None)), member)
+        tooth = _between(drive, member, sides, faces, drive.teeth(member), solid_sizes(drive, member), rim)
+    return tooth, 0 if tooth.sides[0] is sides[0] else 1
+
+
 def _gear(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim: float | None) -> Tooth:
     """The tooth of a gear from the regions of its flank and fillet, of either flank's drive."""
+    sides, faces = _sides(drives, member)
+    return _between(drives[0], member, sides, faces, drives[0].teeth(member), sizes, rim)
+
+
+def _sides(drives: tuple[Drive, Drive], member: str) -> tuple[list[RegionSide], tuple[float, float]]:
+    """Both sides of the teeth of a gear, the flank in hand first, and the sections at their ends."""
     drive = drives[0]
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
     sides, sections = [], Sections.of(drive.flank(member))
@@ -172,8 +187,7 @@ def _gear(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], rim
             sections = sections or _of_blank(regions[0], member)
             regions = [of.in_sections(sections) for of in regions]
         sides.append(RegionSide.of(*regions))
-    faces = min(s.reach[0] for s in sides), max(s.reach[1] for s in sides)
-    return _between(drive, member, sides, faces, drive.teeth(member), sizes, rim)
+    return sides, (min(s.reach[0] for s in sides), max(s.reach[1] for s in sides))
 
 
 def _of_blank(flank: Region, member: str) -> Sections:
@@ -211,7 +225,7 @@ def _thread(drives: tuple[Drive, Drive], member: str, sizes: dict[str, float], r
         return bore(at)[..., 0]
 
     low, high, _ = _in_order(member, sides, ends)
-    return replace(between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height), breaks=_turns(low, ends))
+    return replace(between(member, low, high, 0.0, drive.pitch(), ends, 1.0, height), parted=_turns(low, ends))
 
 
 def _turns(side: ThreadSide, ends: tuple[float, float]) -> Floats:

@@ -36,6 +36,11 @@ TOOTH_PATCHES = (6, 8)
 _THREAD_PATCHES = (6, 20)
 # Rows with one element to a patch: across the tooth, in a fillet, in the rim and the growth of the last.
 _ACROSS, _FILLET, _RIM, _RIM_GROWTH = 3, 2, 2, 2.25
+# Where flank and end face meet at less than so many degrees the tooth ends in a wedge, several times as soft as its
+# middle. There are then so many rows across and in the rim instead, the former by a part thinner at the flanks, and so
+# many to each patch at an end, by a part longer than on average where they begin and shorter where they end.
+_WEDGE, _WEDGE_ACROSS, _WEDGE_RIM, _CROWDING, _END_ROWS, _END_GROWTH = 60.0, 4, 3, 0.6, 2, 0.3
+_DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,43 +100,80 @@ def _moved(
     ``per_patch`` x ``per_patch`` elements to a patch.
     """
     order = tooth_order(member, 0.0, range(-neighbours, neighbours + 1))
-    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _density(shape, per_patch))
+    rows = _face_rows(shape, per_patch, _ends_in_wedge(member))
+    body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], _density(shape, per_patch, rows))
 
-    def corners(later: int) -> Ints:
+    def corners(later: int) -> list[Ints]:
         flank = body.teeth[order.index(later)][f"flank_{member.working}"]
-        return _by_patch(body.mesh.face_nodes(flank), shape, per_patch)
+        return _by_patch(body.mesh.face_nodes(flank), shape, per_patch, rows)
 
-    nodes, forces = _patch_loads(body.mesh.nodes, [corners(k) for k in range(neighbours + 1)])
+    nodes, forces = _patch_loads(body.mesh.nodes, [quads for k in range(neighbours + 1) for quads in corners(k)])
     moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces)
     own, *later = moved[:, : shape[0] * shape[1]].reshape(neighbours + 1, -1, shape[0] * shape[1])
-    middles = body.mesh.nodes[corners(0)].mean(axis=(1, 2)).reshape(*shape, 3)
+    middles = np.array([_middle(body.mesh.nodes, quads) for quads in corners(0)]).reshape(*shape, 3)
     lengths = [float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
     half = (0.5 * lengths[0], 0.5 * lengths[1])
     return [own - _half_space(member, shape, half), *later], half
 
 
-def _density(shape: tuple[int, int], per_patch: int) -> MeshDensity:
+def _ends_in_wedge(member: Member) -> bool:
+    """Whether an end face and the working flank meet at an acute angle."""
+    form = member.tooth(0.0)
+    if form.cut_ends:
+        return False
+    curves, faces = form.side(member.working).flank, np.array(form.faces)
+    profile = 0.5 * (curves.first(faces) + curves.last(faces))[:, None]
+    points, normals = (of(faces, profile)[:, 0] for of in (curves.points, curves.normals))
+    moved = _DIFFERENCE * np.eye(3)
+    along = [curves.section(points + d) - curves.section(points - d) for d in moved]
+    lean = np.einsum("ik,ki->k", np.array(along), normals) / np.linalg.norm(along, axis=0)
+    return bool(90.0 - np.degrees(np.arcsin(np.abs(lean).max())) < _WEDGE)
+
+
+def _face_rows(shape: tuple[int, int], per_patch: int, wedge: bool) -> list[Floats]:
+    """Where the rows of each of the patches along the face end, in parts of the patch."""
+    even = np.linspace(0.0, 1.0, per_patch + 1)[1:]
+    if not wedge:
+        return [even] * shape[1]
+    share = np.linspace(0.0, 1.0, _END_ROWS * per_patch + 1)
+    shorter = share + _END_GROWTH * share * (1.0 - share)
+    return [1.0 - shorter[-2::-1], *[even] * (shape[1] - 2), shorter[1:]]
+
+
+def _density(shape: tuple[int, int], per_patch: int, rows: list[Floats]) -> MeshDensity:
+    sections = np.concatenate([[0.0], *((number + ends) / shape[1] for number, ends in enumerate(rows))])
+    wedge = len(sections) > shape[1] * per_patch + 1
+    across, rim = (_WEDGE_ACROSS, _WEDGE_RIM) if wedge else (_ACROSS, _RIM)
     return MeshDensity(
-        coarse_rows=(_ACROSS * per_patch, shape[0] * per_patch, shape[1] * per_patch),
+        coarse_rows=(across * per_patch, shape[0] * per_patch, len(sections) - 1),
         coarse_fillet_rows=_FILLET * per_patch,
-        rim_rows=_RIM * per_patch,
+        coarse_sections=tuple(sections),
+        coarse_crowding=_CROWDING if wedge else 0.0,
+        rim_rows=rim * per_patch,
         rim_growth=_RIM_GROWTH ** (1.0 / per_patch),
     )
 
 
-def _by_patch(quads: Ints, shape: tuple[int, int], per_patch: int) -> Ints:
-    """Faces (P Q, F, 4) of each patch, out of those of a flank row by row (P Q F, 4)."""
-    split = quads.reshape(shape[0], per_patch, shape[1], per_patch, 4)
-    return split.transpose(0, 2, 1, 3, 4).reshape(shape[0] * shape[1], per_patch**2, 4)
+def _by_patch(quads: Ints, shape: tuple[int, int], per_patch: int, rows: list[Floats]) -> list[Ints]:
+    """Faces (F, 4) of each of P Q patches, out of those of a flank row by row."""
+    by_row = quads.reshape(shape[0], per_patch, -1, 4)
+    between = np.cumsum([len(ends) for ends in rows])[:-1]
+    return [part.reshape(-1, 4) for patches in by_row for part in np.split(patches, between, axis=1)]
 
 
-def _patch_loads(nodes: Floats, teeth: list[Ints]) -> tuple[Ints, Floats]:
-    """Nodes (K,) and consistent forces (K, 3, T P Q) on them of a unit load into each patch, spread evenly over it.
+def _middle(nodes: Floats, quads: Ints) -> Floats:
+    """The middle (3,) of the area of faces (F, 4)."""
+    used, areas = nodal_areas(nodes, quads)
+    weights = np.linalg.norm(areas, axis=1)
+    return weights @ nodes[used] / weights.sum()
 
-    teeth: the faces (P Q, F, 4) of the patches of T teeth.
+
+def _patch_loads(nodes: Floats, patches: list[Ints]) -> tuple[Ints, Floats]:
+    """Nodes (K,) and consistent forces (K, 3, C) on them of a unit load into each of C patches, spread evenly over it.
+
+    patches: the faces (F, 4) of each.
     """
-    patches = np.concatenate(teeth)
-    loaded = np.unique(patches)
+    loaded = np.unique(np.concatenate(patches))
     forces = np.zeros((len(loaded), 3, len(patches)))
     for case, faces in enumerate(patches):
         used, areas = nodal_areas(nodes, faces)

@@ -48,7 +48,10 @@ class MeshDensity:
     depth_reach: depth to which the layers below the contact are as thin as the first, in semi-minor axes; growth,
     depth_growth: factor between neighbouring elements beyond the zone, on the flank and below it.  largest_section:
     longest element along the face, in parts of the face width; largest_layer: thickest one below the contact, in parts
-    of the tooth's thickness.  rim_growth: factor from a row of the rim to the one below it.
+    of the tooth's thickness.  rim_growth: factor from a row of the rim to the one below it.  Without a zone a tooth has
+    coarse_rows across, up its flank and along its face, the last between sections at coarse_sections, shares of the
+    face width, if there are any, else evenly; coarse_crowding: by what part rows across are thinner at the flanks than
+    on average.
 
     Too few rows in the rim and too fast a growth below the contact are what makes a tooth too stiff; the rows of the
     fillets and the upper ones of the rim make its root stress.
@@ -70,6 +73,8 @@ class MeshDensity:
     rim_growth: float = 2.0
     coarse_rows: tuple[int, int, int] = (1, 4, 6)
     coarse_fillet_rows: int = 4
+    coarse_sections: tuple[float, ...] = ()
+    coarse_crowding: float = 0.0
     fillet_split: float = 0.5
 
     def refined(self, factor: float) -> MeshDensity:
@@ -164,7 +169,8 @@ def across_divisions(zone: ContactZone | None, profile: dict[str, Floats], densi
     profile: points (K, J, 3) of both sides.
     """
     if zone is None:
-        return np.linspace(0.0, 1.0, density.coarse_rows[0] + 1)
+        even = np.linspace(0.0, 1.0, density.coarse_rows[0] + 1)
+        return even - density.coarse_crowding * np.sin(2.0 * np.pi * even) / (2.0 * np.pi)
     gap = np.linalg.norm(profile["right"] - profile["left"], axis=-1)
     thickness = float(np.median(gap))
     reach = density.depth_reach * zone.semi_minor

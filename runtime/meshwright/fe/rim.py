@@ -9,6 +9,8 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.fe.hexahedra import Floats
 
+# Depth of the rim below the root in modules: twice a standard whole depth acts as a solid body.
+RIM_MODULES = 4.5
 # The rim reaches at most so many root radii below the root.
 DEEPEST_RIM = 0.8
 

@@ -117,7 +117,9 @@ def face_rows(form: ToothForm, zone: ContactZone | None, density: MeshDensity) -
 
 
 def section_values(form: ToothForm, zone: ContactZone | None, density: MeshDensity, rows: int) -> Floats:
-    """Section coordinates (rows + 1,) from face to face, graded to the zone or even without one."""
+    """Section coordinates (rows + 1,) from face to face, graded to the zone or coarse without one."""
+    if zone is None and len(density.coarse_sections) == rows + 1:
+        return form.faces[0] + (form.faces[1] - form.faces[0]) * np.array(density.coarse_sections)
     if zone is None:
         return np.linspace(*form.faces, rows + 1)
     return face_divisions(form.side(zone.side).flank, form.faces, zone, density, rows)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -42,8 +43,8 @@ class Tooth:
     """A tooth between two sides, turned by ``turns`` rad about the axis so that it lies between them.
 
     ``sides``: at the smaller and the larger azimuth. ``pitch``: angle from tooth to tooth. ``faces``: its first and
-    last section, ``breaks`` those between them where the tooth has a corner. ``bore``: height (K,) of the bore in
-    sections (K,); ``outward``: 1 or -1 as the height grows out of the material at the tip or into it.
+    last section; ``parted``: those between them where it is divided, None where it has corners. ``bore``: height (K,)
+    of the bore in sections (K,); ``outward``: 1 or -1 as the height grows out of the material at the tip or into it.
     """
 
     name: str
@@ -51,13 +52,21 @@ class Tooth:
     turns: tuple[float, float]
     pitch: float
     faces: tuple[float, float]
-    breaks: Floats
     bore: Callable[[Floats], Floats]
     outward: float
+    parted: Floats | None = None
 
     @property
     def sections(self) -> Sections:
         return self.sides[0].sections
+
+    @cached_property
+    def breaks(self) -> Floats:
+        """Sections between the faces at which the tooth is divided, ascending."""
+        if self.parted is not None:
+            return self.parted
+        breaks = np.concatenate([side.breaks() for side in self.sides])
+        return np.unique(np.round(breaks[(breaks > self.faces[0]) & (breaks < self.faces[1])], 6))
 
     def stations(self, rows: int) -> Floats:
         """Section values (K,): faces and breaks, with ``rows`` steps between any two."""
@@ -225,10 +234,7 @@ def between(
 
     Raises DesignError where tip or root land have no width.
     """
-    breaks = np.concatenate([low.breaks(), high.breaks()])
-    inside = breaks[(breaks > faces[0]) & (breaks < faces[1])]
-    apart = np.unique(np.round(inside, 6))
-    tooth = Tooth(name, (low, high), (0.0, turn), pitch, faces, apart, bore, outward)
+    tooth = Tooth(name, (low, high), (0.0, turn), pitch, faces, bore, outward)
     values = np.linspace(*faces, 9)
     width = _azimuths(high, values) - _azimuths(low, values) + turn
     middle, mid = width[len(values) // 2, _MIDDLE], width[:, _MIDDLE]

@@ -213,7 +213,7 @@ class RegionSide:
                 )
             start.append([_mixed(places[:, k], at) for places, at in zip(q, hit, strict=True)])
         places = [np.array(column) for column in zip(*start, strict=True)]
-        return self._refined(flank, fillet, places)
+        return self.crossing_near(flank, fillet, places)
 
     def _hits(self, flank: Lines, fillet: Lines) -> tuple[list[Floats], list[tuple[float, float] | None]]:
         """Places (P, K, k) on both from afar to where they meet, closer and closer since where little is cut away they
@@ -228,7 +228,8 @@ class RegionSide:
         flat = [self._flat(of, points[0][0]) for of in points]
         return q, [_first_hit(flat[0][:, k], flat[1][:, k]) for k in range(flat[0].shape[1])]
 
-    def _refined(self, flank: Lines, fillet: Lines, places: list[Floats]) -> tuple[Floats, Floats]:
+    def crossing_near(self, flank: Lines, fillet: Lines, places: list[Floats]) -> tuple[Floats, Floats]:
+        """Parameters (K, k), (K, l) where flank and fillet cross in each section, from places near that on both."""
         both = (flank, fillet)
         for _ in range(NEWTON_STEPS):
             places = [one.onto(q) for one, q in zip(both, places, strict=True)]

@@ -1,0 +1,167 @@
+"""A side of a tooth in any of its sections, from those in which it is known: fast where sections are few or many.
+
+Between two known sections whose lines end for the same reasons, a limit or a crossing of flank and fillet, the ends are
+found by Newton's method from those beside them; elsewhere the side itself finds them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from meshwright.flank.lines import ROUNDING, Lines, ended_by
+from meshwright.flank.region import Region
+from meshwright.flank.sections import lengthwise, solved
+from meshwright.flank.sides import Bools, Floats, Ints, RegionSide
+
+#: Sections in which a side is known.
+KNOWN = 65
+NEWTON_STEPS = 12
+#: A step of this, in sizes of the parameters, is none.
+STILL = 1e-14
+#: Why a line ends: the number of a limit, or one of these.
+CROSSED, ELSEWHERE = -2, -1
+
+
+@dataclass(frozen=True)
+class KnownSide:
+    """A side and, at ascending ``values`` (V,), its ``flank`` and ``fillet``, up to where they meet.
+
+    ``ends``: by region and end, (V,) why lines end there.
+    """
+
+    side: RegionSide
+    values: Floats
+    flank: Lines
+    fillet: Lines | None
+    ends: dict[tuple[str, bool], Ints]
+    found: dict[bytes, tuple[Lines, Lines | None]] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(cls, side: RegionSide, faces: tuple[float, float]) -> KnownSide:
+        """Raises UsageError where a section holds no flank or fillet."""
+        values = np.linspace(*faces, KNOWN)
+        flank, fillet = side.at(values)
+        ends = {}
+        for name, own, whole in (("flank", side.flank, flank), ("fillet", side.fillet, fillet)):
+            if own is None or whole is None:
+                continue
+            before = own.at(values)
+            for upper in (False, True):
+                moved = _end(before, upper) != _end(whole, upper)
+                ends[name, upper] = np.where(moved.any(axis=1), CROSSED, ended_by(whole, upper))
+        joints = ("flank", not side.tip), ("fillet", not side.land)
+        if fillet is not None:
+            both = np.array([ends[joint] == CROSSED for joint in joints])
+            for joint in joints:  # where but one of them is moved, it ends at the other
+                ends[joint][both.any(axis=0) & ~both.all(axis=0)] = ELSEWHERE
+        return cls(side, values, flank, fillet, ends)
+
+    def lines(self, name: str, values: Floats | None = None) -> Lines:
+        """Those of flank or fillet in sections (K,), None for the known ones."""
+        flank, fillet = (self.flank, self.fillet) if values is None else self.at(values)
+        found = flank if name == "flank" else fillet
+        if found is None:
+            raise ValueError(f"this side has no {name}")
+        return found
+
+    def at(self, values: Floats) -> tuple[Lines, Lines | None]:
+        """Flank and fillet in sections (K,), kept."""
+        key = values.tobytes()
+        if key not in self.found:
+            self.found[key] = self._at(values)
+        return self.found[key]
+
+    def _at(self, values: Floats) -> tuple[Lines, Lines | None]:
+        sure = self._between_alike(values)
+        flank = self._near(self.flank, "flank", values, sure)
+        fillet = self.fillet and self._near(self.fillet, "fillet", values, sure)
+        if fillet is not None:
+            flank, fillet = self._crossing(flank, fillet, sure)
+        if sure.all():
+            return flank, fillet
+        exact, beside = self.side.at(values[~sure])
+        return _put(flank, ~sure, exact), fillet and beside and _put(fillet, ~sure, beside)
+
+    def _between_alike(self, values: Floats) -> Bools:
+        """Whether (K,) lines end for the same reasons, known ones, in the known sections on either side."""
+        before, _ = self.beside(values)
+        alike = (values >= self.values[0]) & (values <= self.values[-1])
+        for why in self.ends.values():
+            alike &= (why[before] == why[before + 1]) & (why[before] != ELSEWHERE)
+        return alike
+
+    def beside(self, values: Floats) -> tuple[Ints, Floats]:
+        """Number (K,) of the known section before each, and the share (K, 1) of the way to the next."""
+        at = np.clip((values - self.values[0]) / (self.values[1] - self.values[0]), 0.0, len(self.values) - 1.0)
+        before = np.minimum(at.astype(int), len(self.values) - 2)
+        return before, (at - before)[:, None]
+
+    def _near(self, known: Lines, name: str, values: Floats, sure: Bools) -> Lines:
+        """Lines in sections (K,) from the known ones; ``sure`` (K,) is false from then on where one is not found."""
+        before, rest = self.beside(values)
+        ends = []
+        for upper in (False, True):
+            end, why = _end(known, upper), self.ends[name, upper][before]
+            places = (1.0 - rest) * end[before] + rest * end[before + 1]
+            limited = sure & (why >= 0)
+            places[limited], held = _onto(known.region, why[limited], values[limited], places[limited])
+            sure[limited] &= held
+            ends.append(places)
+        return Lines(known.region, values, *ends)
+
+    def _crossing(self, flank: Lines, fillet: Lines, sure: Bools) -> tuple[Lines, Lines]:
+        """The lines up to where they cross, where those beside them do."""
+        joints = not self.side.tip, not self.side.land
+        before, _ = self.beside(flank.along)
+        crossed = sure & (self.ends["flank", joints[0]][before] == CROSSED)
+        if not crossed.any():
+            return flank, fillet
+        both = [_some(lines, crossed) for lines in (flank, fillet)]
+        places = [_end(lines, upper) for lines, upper in zip(both, joints, strict=True)]
+        found = self.side.crossing_near(both[0], both[1], [q.copy() for q in places])
+        points = [lines.region.flank(q).points for lines, q in zip(both, found, strict=True)]
+        sure[crossed] &= np.linalg.norm(points[0] - points[1], axis=1) < ROUNDING
+        return _moved(flank, joints[0], crossed, found[0]), _moved(fillet, joints[1], crossed, found[1])
+
+
+def _end(lines: Lines, upper: bool) -> Floats:
+    return lines.upper if upper else lines.lower
+
+
+def _moved(lines: Lines, upper: bool, chosen: Bools, q: Floats) -> Lines:
+    end = _end(lines, upper).copy()
+    end[chosen] = q
+    return lines.moved(upper=end) if upper else lines.moved(lower=end)
+
+
+def _some(lines: Lines, chosen: Bools) -> Lines:
+    return replace(lines, along=lines.along[chosen], lower=lines.lower[chosen], upper=lines.upper[chosen])
+
+
+def _put(lines: Lines, chosen: Bools, others: Lines) -> Lines:
+    return _moved(_moved(lines, False, chosen, others.lower), True, chosen, others.upper)
+
+
+def _onto(region: Region, limits: Ints, values: Floats, start: Floats) -> tuple[Floats, Bools]:
+    """Parameters (K, k) where limits (K,) are zero in sections (K,), from places near that; and whether they are within
+    all limits.
+    """
+    q, rows = start.copy(), np.arange(len(start))
+    if not len(q):
+        return q, np.ones(0, dtype=bool)
+    for _ in range(NEWTON_STEPS):
+        found = region.flank(q)
+        reached, along = lengthwise(region.flank, found)
+        off = region.limits.values(found)[rows, limits]
+        residual = np.concatenate([np.stack([off, reached - values], axis=1), found.conditions[:, :, 0]], axis=1)
+        slopes = np.stack([region.limits.slopes(found)[rows, limits], along], axis=1)
+        step = solved(np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1), residual)
+        q = q - step
+        if not (np.abs(step / region.chart.sizes) > STILL).any():
+            break
+    found = region.flank(q)
+    reached, _ = lengthwise(region.flank, found)
+    held = (region.limits.values(found).min(axis=1) >= -ROUNDING) & (np.abs(reached - values) < ROUNDING)
+    return q, held & np.isfinite(q).all(axis=1)

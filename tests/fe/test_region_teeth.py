@@ -1,0 +1,188 @@
+"""Teeth that the regions of flanks and fillets make: bevel and hypoid gears, and others that have sizes beside them."""
+
+import json
+
+import numpy as np
+import pytest
+from on_flank import distance_from_flank
+
+from meshwright import Drive
+from meshwright.cli import main
+from meshwright.fe import analysis, loaded
+from meshwright.fe.analysis import Settings, prepare
+from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
+from meshwright.fe.closed_body import gear_tooth
+from meshwright.fe.compliance import tooth_compliance
+from meshwright.fe.elastic import assemble
+from meshwright.fe.grading import MeshDensity
+from meshwright.fe.loaded import loaded_contact
+from meshwright.fe.model import Load
+from meshwright.fe.region_teeth import region_teeth
+from meshwright.fe.solids import gear_pair, teeth_of
+from meshwright.flank.known_side import KnownSide
+from tests.quick import quick
+
+LOAD = Load(50e3, "wheel")
+MODEST = MeshDensity(growth=3.0, fillet_rows=4, rim_rows=3, coarse_fillet_rows=3)
+
+
+@pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate")))
+def pair(request):
+    drive = Drive.load(request.param)
+    return drive, gear_pair(drive)
+
+
+@pytest.fixture(scope="module")
+def middle(pair):
+    """The angle of the pair in the middle of its path: a hypoid's lies far from 0."""
+    window = pair[0].contact_ratio()
+    return 0.5 * (window.begin.angle + window.end.angle)
+
+
+def test_half_spaces_give_hertz_and_bear_the_torque(pair, middle):
+    """Rigid teeth of bevel gears: Hertz pressure within 1 %, the moment of all pressures is the torque."""
+    _, gear = pair
+    found = loaded_contact(gear, middle, 1, LOAD, None)
+    origin, axis = gear.wheel.axis
+    moment = 0.0
+    for one in found.pairs:
+        arms = np.cross(one.grid.points - origin, one.contact.touch.normal) @ axis
+        moment += one.grid.area * float(one.pressures @ arms)
+        assert one.peak_pressure == pytest.approx(one.hertz.peak_pressure, rel=0.01)
+    assert abs(moment) == pytest.approx(LOAD.torque, rel=1e-9)
+
+
+def test_torques_that_do_the_same_work_press_alike(pair, middle):
+    """T1 dφ1 = T2 dφ2 of rigid teeth: torque on the pinion, or what keeps it in balance on the wheel."""
+    drive, gear = pair
+    step = 1e-3
+    before, after = drive.tca(np.array([middle - step, middle + step])).wheel_angles
+    rate = (after - before) / (2.0 * step)
+    found = [loaded_contact(gear, middle, 1, load, None).pairs[0] for load in (LOAD, Load(50e3 * rate, "pinion"))]
+    assert found[1].force == pytest.approx(found[0].force, rel=1e-4)
+    assert found[1].peak_pressure == pytest.approx(found[0].peak_pressure, rel=1e-3)
+
+
+def test_nodes_lie_on_the_generated_flanks(pair):
+    """To 1e-9 mm, of positive elements in three teeth side by side."""
+    drive, gear = pair
+    for name in ("pinion", "wheel"):
+        member = getattr(gear, name)
+        order = tooth_order(member, 0.0, (-1, 0, 1))
+        body = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], MeshDensity())
+        assert body.mesh.smallest_jacobian() > 0.2
+        grid = drive.surface(name, (33, 65))  # beside the cusp of an undercut flank other starts lead beyond it
+        starts = grid.values[np.isfinite(grid.points).all(axis=1)]
+        nodes = body.mesh.nodes[body.nodes(order.index(0), f"flank_{member.working}")]
+        assert distance_from_flank(drive.flank(name), nodes, starts).max() < 1e-9
+
+
+def test_rigid_motions_and_even_strain_cost_no_forces(pair):
+    """Inside two teeth side by side: of the elements as they are, with nodes common to both along the cut."""
+    _, gear = pair
+    for member in (gear.pinion, gear.wheel):
+        order = tooth_order(member, 0.0, (0, 1))
+        mesh = mesh_body([placed_tooth(member, 0.0, k, None) for k in order], MeshDensity()).mesh
+        faces = np.sort(np.concatenate([mesh.elements[:, list(f)] for f in mesh_faces()]), axis=1)
+        distinct, count = np.unique(faces, axis=0, return_counts=True)
+        inside = np.setdiff1d(np.arange(len(mesh.nodes)), distinct[count == 1])
+        stiffness = assemble(mesh, member.material)
+        about = mesh.nodes - mesh.nodes.mean(axis=0)
+        for field, where in (
+            (np.broadcast_to([1.0, -2.0, 0.5], about.shape), slice(None)),
+            (np.cross([0.3, -1.0, 0.7], about), slice(None)),
+            (about @ np.array([[1.0, 0.2, -0.4], [0.2, 0.5, 0.3], [-0.4, 0.3, -0.8]]), inside),
+        ):
+            moved = stiffness @ field.ravel()
+            size = abs(stiffness) @ np.abs(field).ravel()
+            assert np.abs(moved.reshape(-1, 3)[where]).max() < 1e-12 * size.max()
+
+
+def mesh_faces():
+    return (0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
+
+
+@pytest.mark.parametrize("member", quick(("pinion", "wheel")))
+def test_ends_in_any_section_are_those_that_the_region_has(member):
+    """Undercut or not, to 1e-9 mm; flank and fillet meet to the micrometre's thousandth."""
+    tooth, _ = gear_tooth(Drive.load("bevel-hypoid"), member, None)
+    values = np.sort(np.random.default_rng(3).uniform(*tooth.faces, 12))
+    for side in tooth.sides:
+        for near, exact in zip(KnownSide.of(side, tooth.faces).at(values), side.at(values), strict=True):
+            for end in ("lower", "upper"):
+                places = [of.region.flank(getattr(of, end)).points for of in (near, exact)]
+                assert places[0] == pytest.approx(places[1], abs=1e-9)
+
+
+@pytest.mark.parametrize("member", quick(("pinion", "wheel"), "pinion"))
+def test_regions_and_sizes_make_the_same_tooth(member):
+    """Helical gears have both: fillet and flank of either side in common sections, cuts and bore, to 1e-6 mm."""
+    drive = Drive.load("helical-crowned").with_(design={f"{m}_{k}_um": 0.0 for m, k in (
+        ("pinion", "lead_crowning"), ("pinion", "profile_crowning"), ("pinion", "tip_relief"), ("wheel", "tip_relief"),
+    )})  # fmt: skip
+    rim = 11.25
+    by_sizes, by_regions = teeth_of(drive, member, rim), region_teeth(drive, member, rim)
+    assert by_sizes.working == by_regions.working
+    one, other = by_sizes.at(0.0), by_regions.at(0.0)
+    assert other.faces == pytest.approx(one.faces, abs=1e-9)
+    values, shares = np.linspace(*one.faces, 5), np.tile(np.linspace(0.0, 1.0, 7), (5, 1))
+    for name in ("left", "right"):
+        for part in ("fillet", "flank"):
+            places = [getattr(form.side(name), part).rail(values).at(shares) for form in (one, other)]
+            assert places[1] == pytest.approx(places[0], abs=1e-5)
+            assert places[1][:, [0, -1]] == pytest.approx(places[0][:, [0, -1]], abs=1e-6)
+    for cut in ("left_cut", "right_cut"):
+        assert getattr(other, cut)(values) == pytest.approx(getattr(one, cut)(values), abs=1e-6)
+
+
+@pytest.mark.validate
+def test_compliance_of_bevel_teeth_is_that_of_finer_meshes(pair):
+    """Extrapolated from the usual meshes and from half as fine again: 4 % of the largest entry at most between them."""
+    _, gear = pair
+    for member in (gear.pinion, gear.wheel):
+        usual, finer = (tooth_compliance(member, 0, per_patch).own for per_patch in (1, 2))
+        assert np.abs(usual - finer).max() < 0.04 * np.abs(finer).max()
+
+
+@pytest.mark.validate
+def test_forces_do_not_depend_on_the_cells(pair, middle, monkeypatch):
+    """31 and 51 cells a side: the wheel's lag under load within 0.5 %."""
+    _, gear = pair
+    usual = loaded_contact(gear, middle, 3, LOAD, None).rotation
+    monkeypatch.setattr(loaded, "_CELLS", 51)
+    assert loaded_contact(gear, middle, 3, LOAD, None).rotation == pytest.approx(usual, rel=5e-3)
+
+
+@pytest.mark.validate
+def test_a_hypoid_pair_under_load(capsys):
+    """Shares add up to the whole; teeth are softer than half-spaces; more torque, more lag."""
+    words = ["loaded", "bevel-hypoid", "--phi-deg=43,50", "--json", "-", "--pairs", "3"]
+    lags = []
+    for torque in ("50", "200"):
+        assert main([*words, "--torque-nm", torque]) == 0
+        points = json.loads(capsys.readouterr().out)["points"]
+        for point in points:
+            assert sum(one["share"] for one in point["pairs"]) == pytest.approx(1.0)
+        errors = [[p[f"{key}_transmission_error_arcsec"] for key in ("unloaded", "loaded")] for p in points]
+        lags.append([abs(one - other) for one, other in errors])
+    assert all(less < more < 4.0 * less for less, more in zip(*lags, strict=True))
+
+
+@pytest.mark.slow
+def test_finite_elements_of_a_hypoid_pair(ccx, tmp_path):
+    """CalculiX on the meshed pair: its gate holds, pressure as Hertz's and rotation as semi-analytic within 5 %."""
+    gear, angle = gear_pair(Drive.load("bevel-hypoid")), np.radians(43.0)
+    compliance = {name: tooth_compliance(getattr(gear, name)) for name in ("pinion", "wheel")}
+    settings = Settings(1, 3600.0, density=MODEST)
+    prepared = prepare(gear, compliance, angle, Load(100e3, "wheel"), settings, tmp_path / "run")
+    document = analysis.solve(prepared, ccx, settings)
+    assert all(check["held"] for check in document["gate"].values()), document["gate"]
+    (one,), (expected,) = document["pairs"], prepared.loaded.pairs
+    assert one["force_n"] == pytest.approx(expected.force, rel=5e-3)
+    assert one["peak_pressure_mpa"] == pytest.approx(expected.hertz.peak_pressure, rel=0.05)
+    assert document["rotation_rad"] == pytest.approx(prepared.loaded.rotation, rel=0.05)
+
+
+def test_a_bevel_pair_that_touches_along_lines_is_refused(capsys):
+    assert main(["loaded", "bevel-crown-pair", "--torque-nm", "20"]) == 2
+    assert "along a line" in capsys.readouterr().err
