@@ -18,7 +18,8 @@ from functools import partial
 from pathlib import Path
 
 from derive import compiler, drives, outside
-from derive.audit import check
+from derive.audit.checker.record import read_record
+from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import remove_parts, replace_text
 from derive.packaged import packaged
@@ -84,7 +85,7 @@ def main(arguments=None):
             remove_parts(options.output)
             _replace(options.output, files)
             _list_in_manifest(options.output, files)
-    except check.Rejected as error:
+    except Rejected as error:
         print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
     except OSError as error:
@@ -136,7 +137,7 @@ def _some(names):
 
 def _record():
     with log("prove", "audit record, as written"):
-        return check.read_record(compiler.RECORD)
+        return read_record(compiler.RECORD)
 
 
 def _everything(every):

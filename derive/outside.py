@@ -12,7 +12,8 @@ import tempfile
 from pathlib import Path
 
 from derive import compiler
-from derive.audit import check_code
+from derive.audit.checker import attempts, check_code, straight_line
+from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
@@ -105,7 +106,7 @@ def audit_entry(description, open_, header, source):
 
     ``proved``: the statements of the audit record behind it, by the functions that rest on them. ``not_proved``:
     statements that it names and the record does not prove, with the reason. ``checked``: what its generated C was found
-    to be by running it modulo a prime (:mod:`derive.audit.check_code`), with the reason where it is not.
+    to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`), with the reason where it is not.
     ``not_checked``: what nothing here decides.
     """
     origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
@@ -132,10 +133,10 @@ def audit_entry(description, open_, header, source):
 def _checked(header):
     """Words → "holds", or why not."""
     found = {}
-    for words, check in check_code.checks_of(check_code.read_header(header)):
+    for words, check in check_code.checks_of(straight_line.read_header(header)):
         try:
-            check_code.attempt(*check)
+            attempts.attempt(*check)
             found[words] = "holds"
-        except (check_code.Rejected, LookupError, ValueError) as reason:
+        except (Rejected, LookupError, ValueError) as reason:
             found[words] = f"does not hold: {reason}"
     return found

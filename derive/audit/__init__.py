@@ -8,10 +8,10 @@ ledger.py        every claim judged by the prover, every object hashed and linke
 provenance.py    which equations each generated function rests on
 record.py        the whole record, and the files it is written to; store.py pages.py drive_pages.py render.py
                  validation.py their text
-check.py         re-checks the record, check_code.py the generated C against calculus, check_description.py the C
-                 against the descriptions of the drives, check_bounded.py edges, limits and CasADi, check_print.py the
-                 descriptions against what their sources print (printed.txt) and the laws of enveloping; each runs
-                 alone, all ship beside the record
+checker/         re-checks the record, the generated C against calculus and against the descriptions of the drives,
+                 edges, limits and CasADi, and the descriptions against what their sources print (printed.txt) and the
+                 laws of enveloping; imports nothing else of the compiler, ships beside the record with its commands
+                 check.py, check_code.py, check_description.py, check_bounded.py and check_print.py
 kernel/          every proof as a theorem that Coq accepts
 explain.py       from a C function or an equation back to the sources
 """

@@ -13,7 +13,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from derive.audit import check, check_bounded, check_code, check_description, check_print, explain
+from derive.audit import explain
+from derive.audit.checker import check_bounded, check_code, check_description, check_print, check_record
+from derive.audit.checker.record import read_record
+from derive.audit.checker.refusal import Rejected
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -37,7 +40,8 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     folder = options.generated / "audit"
     if options.command == "verify":
-        return max(c.main([str(folder)]) for c in (check, check_code, check_description, check_bounded, check_print))
+        checkers = (check_record, check_code, check_description, check_bounded, check_print)
+        return max(checker.main([str(folder)]) for checker in checkers)
     if options.command == "kernel":
         return _kernel(folder, options.output)
     if options.command == "explain":
@@ -63,8 +67,8 @@ def _kernel(folder: Path, output: Path | None) -> int:
         return 0
     try:
         with tempfile.TemporaryDirectory() as temporary:
-            report = kernel.check_record(check.read_record(folder), output or Path(temporary))
-    except (check.Rejected, kernel.Refused) as reason:
+            report = kernel.check_record(read_record(folder), output or Path(temporary))
+    except (Rejected, kernel.Refused) as reason:
         print(f"REJECTED: {reason}", file=sys.stderr)
         return 1
     print("\n".join(report.lines()))
@@ -76,12 +80,10 @@ def _html(generated: Path, output: Path) -> int:
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
-    texts = {
-        name: (generated / name).read_text(encoding="utf-8") for name in named if not name.startswith("audit/")
-    }
+    texts = {name: (generated / name).read_text(encoding="utf-8") for name in named if not name.startswith("audit/")}
     written = record.files(record.ledger(), texts)
     for name, text in written.items():
-        replace_text(output / Path(name).name, text)
+        replace_text(output / name.removeprefix("audit/"), text)
     if output.resolve() == (generated / "audit").resolve():
         replace_text(generated / "manifest.json", compiler.manifest({**texts, **written}))
     print(output / "index.html")

@@ -75,6 +75,16 @@ STEPS = (
         "negative.",
         "",
     ),
+    (
+        "First contact, at one angle or over a range",
+        "Taylor models of order 4 in two parameters of a part of the wheel's flank and the angle. Where the pinion "
+        "has the same distance from the wheel's axis and the same place along it: a polynomial by Newton's method; "
+        "Krawczyk's operator over a box that holds all parts of the pinion's flank that may meet the part bounds "
+        "how far from it anything lies that does. The angle between both is bounded from below by halving the "
+        "polynomials, and where they are convex by value and slope at one place. Said of bounded flanks within the "
+        "parameters named, of overlaps above 1e-6 mm, and of the wheel turned back by half a pitch at most.",
+        "Makino and Berz 2003; Krawczyk 1969",
+    ),
 )
 
 TRUSTED = (
@@ -100,8 +110,8 @@ TRUSTED = (
 )
 
 OPEN = (
-    "That nothing else of the two flanks touches first: a certificate is of the contact, not of the rest of the "
-    "flanks.",
+    "First contact of flanks whose places have an equation of their own, and of parts that would have to be looked "
+    "at more closely than is allowed: they are unknown. Fillets and whatever else lies beyond the limits is not asked.",
     "Contact along a line, and contacts next to a fold or crossing: they are unknown.",
     "Designs whose placing systems have no regular solution within the reach of the test: the design is then the "
     "reason.",

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from derive.audit import check
+from derive.audit.checker import enclosure
 from derive.prove.statement import Statement
 from derive.prove.tree import Tree, parse, parse_formula
 
@@ -118,8 +118,8 @@ class Figure:
     unit: str = ""
 
     @cached_property
-    def enclosed(self) -> check.Ball:
-        return check.number_of(parse_formula(self.formula))
+    def enclosed(self) -> enclosure.Ball:
+        return enclosure.number_of(parse_formula(self.formula))
 
     @property
     def value(self) -> float:
@@ -136,7 +136,7 @@ class Figure:
     @property
     def holds(self) -> bool:
         """Within half a unit of the last printed digit?"""
-        return check.holds(self.enclosed, self.printed)
+        return enclosure.holds(self.enclosed, self.printed)
 
     def amended(self) -> Figure:
         """The same formula with the number it gives."""

@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from derive.audit.check import root_of, sha256_of, status_of
+from derive.audit.checker.lines import sha256_of
+from derive.audit.checker.record import root_of
+from derive.audit.checker.verdicts import status_of
 from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, Scope, as_list
 from derive.audit.coverage import offset
 from derive.prove import Decision, Outcome, Statement, certificate, decide

@@ -19,14 +19,28 @@ import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, partial
 from pathlib import Path
 from types import ModuleType
 
 import mpmath
 
-from derive.audit import check_bounded, check_code, check_description, check_print
+from derive.audit.checker import attempts, check_bounded, check_code, check_description, check_print, modular
+from derive.audit.checker.any_root import kept_draws, with_any_root
+from derive.audit.checker.casadi_functions import Casadi, casadi, program_of
+from derive.audit.checker.design import check_open, check_unit
+from derive.audit.checker.draws import Draws, on_both_flanks
+from derive.audit.checker.drive import Drive
+from derive.audit.checker.edges import BoundedDrive, check_systems
+from derive.audit.checker.kernels import check_arc_kernel, check_kernels
+from derive.audit.checker.machine import Machine, machine
+from derive.audit.checker.printed import read_printed
+from derive.audit.checker.refusal import Rejected
+from derive.audit.checker.straight_line import Function, literal_of, read_body, read_header, read_lanes
+from derive.audit.checker.tables import CODE_OF, OPERATIONS, Table
 from derive.files import replace_text
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -145,7 +159,7 @@ def of_tables(drive: str, text: str) -> Iterator[tuple[str, list[tuple[str, int,
 
 
 def _size_of(text: str, name: str, kind: str) -> int:
-    sizes = next(m for m in check_bounded.CODE_OF.finditer(text) if m[7] == name)
+    sizes = next(m for m in CODE_OF.finditer(text) if m[7] == name)
     return int(sizes[{"input": 2, "constant": 3, "output": 6}[kind]])
 
 
@@ -312,44 +326,39 @@ class Checks:
     def __init__(self, name: str, texts: dict, folder: Path):
         self.name, self.texts = name, texts
         described = texts[DESCRIPTION]
-        self.header = check_code.read_header(texts["scalar C"], texts["lanes"], texts["sensitivity"])
-        self.drive = check_description.Drive(described, texts["scalar C"], texts["sensitivity"])
-        self.bounded = check_bounded.Drive(described, texts["scalar C"], texts["bounded"], texts[TABLES])
-        self.casadi = check_bounded.Casadi(folder, name)
+        self.header = read_header(texts["scalar C"], texts["lanes"], texts["sensitivity"])
+        self.drive = Drive(described, texts["scalar C"], texts["sensitivity"])
+        self.bounded = BoundedDrive(described, texts["scalar C"], texts["bounded"], texts[TABLES])
+        self.casadi = Casadi(folder, name)
         for ending, function in texts.get(CASADI, {}).items():
             self.casadi.replace(ending, function)
 
     @cached_property
     def all(self) -> list[Check]:
         found = [
-            Check("code", "kernels", lambda _: check_code.check_kernels(self.texts["scalar C"])),
-            Check("code", "arc", lambda _: check_code.check_arc_kernel(self.texts["scalar C"])),
+            Check("code", "kernels", lambda _: check_kernels(self.texts["scalar C"])),
+            Check("code", "arc", lambda _: check_arc_kernel(self.texts["scalar C"])),
         ]
         for words, (check, *arguments) in check_code.checks_of(self.header):
-            found.append(Check("code", words, lambda _, c=check, a=arguments: check_code.attempt(c, *a)))
+            found.append(Check("code", words, lambda _, c=check, a=arguments: attempts.attempt(c, *a)))
         for number in range(len(self.drive.description["keys"])):
-            found.append(Check("description", "unit", lambda _, k=number: check_description.check_unit(self.drive, k)))
+            found.append(Check("description", "unit", lambda _, k=number: check_unit(self.drive, k)))
         for system in self.drive.description["design_systems"]:
-            found.append(Check("description", "open", lambda _, s=system: check_description.check_open(self.drive, s)))
+            found.append(Check("description", "open", lambda _, s=system: check_open(self.drive, s)))
         for words, check in check_description.checks_of(self.drive):
-            found.append(
-                Check("description", words, lambda d, c=check: check_description.attempt(*c, draws=d["description"]))
-            )
+            found.append(Check("description", words, lambda d, c=check: on_both_flanks(*c, draws=d["description"])))
         if self.bounded.bounded:
-            found.append(Check("bounded", "systems", lambda _: check_bounded.check_systems(self.bounded)))
+            found.append(Check("bounded", "systems", lambda _: check_systems(self.bounded)))
         for words, (check, *arguments) in check_bounded.checks_of(self.bounded, self.casadi):
             own = tuple(arguments)
-            found.append(
-                Check("bounded", words, lambda d, c=check, a=own: check_bounded.with_any_root(c, a, d["any"]))
-            )
+            found.append(Check("bounded", words, lambda d, c=check, a=own: with_any_root(c, a, d["any"])))
         return found
 
 
 def draws() -> dict:
-    return {"description": (check_description.Draws(1), check_description.Draws(-1)), "any": check_bounded.kept_draws()}
+    return {"description": (Draws(1), Draws(-1)), "any": kept_draws()}
 
 
-REFUSALS = (check_code.Rejected, check_description.Rejected, check_bounded.Rejected, check_print.Rejected)
 #: What a check ends in that cannot read what it is given.
 UNREADABLE = (LookupError, ValueError, AttributeError, TypeError, ArithmeticError)
 
@@ -438,14 +447,14 @@ class Measured:
                 return Outcome(mutant, REFUSED, "other checks")
             for k in self.wanted(mutant):
                 found[k].run(kept)
-        except REFUSALS as reason:
+        except Rejected as reason:
             return Outcome(mutant, REFUSED, str(reason)[:160])
         except UNREADABLE as reason:
             return Outcome(mutant, REFUSED, repr(reason)[:160])
         return Outcome(mutant, EQUAL if self.is_equal(mutant, texts) else SURVIVED, "")
 
     def _printed(self, description: dict) -> None:
-        printed = check_print.read_printed(PRINTED.read_text(encoding="utf-8"))
+        printed = read_printed(PRINTED.read_text(encoding="utf-8"))
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"{self.name}.json"
             path.write_text(json.dumps(description), encoding="utf-8")
@@ -462,7 +471,7 @@ class Measured:
             return False
         if mutant.stage == TABLES:
             name = f"{self.name}_certified_{mutant.function}"
-            kept, other = (check_bounded.Table(t[TABLES], name) for t in (self.texts, texts))
+            kept, other = (Table(t[TABLES], name) for t in (self.texts, texts))
             return same_tables(kept, other, self.checks.drive)
         old, new = (programs(self.name, t[mutant.stage], mutant.stage)[mutant.function] for t in (self.texts, texts))
         return len(old) == len(new) and same_programs(list(zip(old, new, strict=True)), self.checks.header)
@@ -496,7 +505,7 @@ def real_values(table, row: list) -> list:
     now = dict(enumerate([*(row[place] for place in table.inputs), *constants]))
     for code, to, a, b in table.instructions:
         x, y = now[a], now.get(b)
-        match check_bounded.OPERATIONS[code]:
+        match OPERATIONS[code]:
             case "sincos":
                 now[b], now[to] = mpmath.cos(x), mpmath.sin(x)
             case "sqrt({a})" if x < 0:
@@ -507,7 +516,7 @@ def real_values(table, row: list) -> list:
 
 
 def _real_constant(text: str):
-    found = check_code.literal_of(text.strip("()"))
+    found = literal_of(text.strip("()"))
     if found is None:
         raise ValueError(f"{text} is no constant")
     exact, angle = found
@@ -529,23 +538,19 @@ REAL = {
 
 
 def _same_residues(old, new, drive) -> bool:
-    code = check_bounded.CODE
-    real, salt = code.square_root, random.randrange(code.PRIME)
-    code.__dict__["square_root"] = lambda value: hash((salt, value % code.PRIME)) % code.PRIME
-    try:
-        run = code.machine(drive.header, "eval", code.SystemRandom(), True)
-        row = [
-            code.Number(random.randrange(1, code.PRIME), (), {f"in {k}": code.Fraction(1)})
-            for k in range(1 + max([*old.inputs, *new.inputs], default=0))
-        ]
-        first, second = old.machine(row, run), new.machine(row, run)
-        return len(old.outputs) == len(new.outputs) and all(
-            first.value(f"o[{k}]").value == second.value(f"o[{k}]").value for k in range(len(old.outputs))
-        )
-    except (*REFUSALS, *UNREADABLE):
-        return False
-    finally:
-        code.__dict__["square_root"] = real
+    with modular.any_root(random.randrange(modular.PRIME)):
+        try:
+            run = machine(drive.header, "eval", random.SystemRandom(), True)
+            row = [
+                modular.Number(random.randrange(1, modular.PRIME), (), {f"in {k}": Fraction(1)})
+                for k in range(1 + max([*old.inputs, *new.inputs], default=0))
+            ]
+            first, second = old.machine(row, run), new.machine(row, run)
+            return len(old.outputs) == len(new.outputs) and all(
+                first.value(f"o[{k}]").value == second.value(f"o[{k}]").value for k in range(len(old.outputs))
+            )
+        except (Rejected, modular.NoRoot, *UNREADABLE):
+            return False
 
 
 def programs(drive: str, text: str, stage: str) -> dict[str, list[dict]]:
@@ -555,14 +560,14 @@ def programs(drive: str, text: str, stage: str) -> dict[str, list[dict]]:
         body = text[start:end]
         if stage == "lanes":
             name = name.removesuffix("_lanes")
-            found[name] = [check_code.read_lanes(text, name).definitions]
+            found[name] = [read_lanes(text, name).definitions]
             continue
         body = re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)
         blocks = re.findall(r"^    if \([^\n]*\) {[^\n]*\n(.*?)\n    }", body, re.DOTALL | re.M)
         blocks += re.findall(r"^    {\n(.*?)^    }", body, re.DOTALL | re.M)
         try:
-            found[name] = [check_code.read_body(block) for block in (body, *blocks)]
-        except check_code.Rejected:
+            found[name] = [read_body(block) for block in (body, *blocks)]
+        except Rejected:
             found[name] = [{"body": ("text", body)}]
     return found
 
@@ -581,43 +586,40 @@ def _same(old: dict, new: dict, header, other=None) -> bool:
     targets = [name for name in old if "[" in name]
     if {name for name in new if "[" in name} != set(targets):
         return False
-    real = check_code.square_root
     for k in range(COMPARED):
-        salt = random.randrange(check_code.PRIME)
-        if not k:
-            check_code.__dict__["square_root"] = lambda value: hash((salt, value % check_code.PRIME)) % check_code.PRIME  # noqa: B023
+        salt = random.randrange(modular.PRIME)
         try:
-            if _agree(old, new, targets, header, other):
+            with nullcontext() if k else modular.any_root(salt):
+                agree = _agree(old, new, targets, header, other)
+            if agree:
                 return True
             if k > 8:
                 return False
-        except check_code.NoRoot:
+        except modular.NoRoot:
             continue
-        except (check_code.Rejected, *UNREADABLE):
+        except (Rejected, *UNREADABLE):
             return False
-        finally:
-            check_code.__dict__["square_root"] = real
     return False
 
 
 def _agree(old: dict, new: dict, targets: list[str], header, other=None) -> bool:
-    base = check_code.machine(header, "eval", check_code.SystemRandom(), True)
+    base = machine(header, "eval", random.SystemRandom(), True)
     inputs = _Anything({name: number for name, number in base.inputs.items() if name not in targets})
     inputs.own, inputs.states = {*targets}, other is None
-    instants: list[check_code.Machine | None] = [None, None]
+    instants: list[Machine | None] = [None, None]
     if other is not None:
         instants = [_instant(own, base.inputs, base.circle) for own in (header, other)]
     first, second = (
-        check_code.Machine(inputs, check_code.Function("any", made, {}), instant, base.circle)
+        Machine(inputs, Function("any", made, {}), instant, base.circle)
         for made, instant in zip((old, new), instants, strict=True)
     )
     return all(first.value(name).value == second.value(name).value for name in targets)
 
 
-def _instant(header, inputs: dict, circle) -> check_code.Machine:
+def _instant(header, inputs: dict, circle) -> Machine:
     """A state at an input angle."""
-    setup = check_code.Machine(inputs, header.functions["setup"], None, circle)
-    return check_code.Machine(inputs, header.functions["set_phi"], setup, circle)
+    setup = Machine(inputs, header.functions["setup"], None, circle)
+    return Machine(inputs, header.functions["set_phi"], setup, circle)
 
 
 class _Anything(dict):
@@ -632,7 +634,7 @@ class _Anything(dict):
             return False
         known = name in self.own or super().__contains__(name)
         if not known and isinstance(name, str) and self.READ.fullmatch(name):
-            self[name] = check_code.Number(random.randrange(1, check_code.PRIME), (), {name: check_code.Fraction(1)})
+            self[name] = modular.Number(random.randrange(1, modular.PRIME), (), {name: Fraction(1)})
         return super().__contains__(name)
 
 
@@ -642,7 +644,7 @@ def different(drive: str, made: Path, kept: Path) -> str:
     """
     folders = kept, made
     texts = [{s: (f / "c" / f"{drive}{e}.h").read_text("utf-8") for s, e in HEADERS.items()} for f in folders]
-    headers = [check_code.read_header(own["scalar C"]) for own in texts]
+    headers = [read_header(own["scalar C"]) for own in texts]
     for stage in ("scalar C", "sensitivity", "bounded"):
         first, second = (programs(drive, own[stage], stage) for own in texts)
         if first.keys() != second.keys():
@@ -657,8 +659,8 @@ def different(drive: str, made: Path, kept: Path) -> str:
         files = [folder / "casadi" / path.name for folder in folders]
         if not files[1].is_file():
             return f"no {path.name}"
-        loaded = (check_bounded.casadi.Function.load(str(file)) for file in files)
-        before, after = (check_bounded.program_of(function)[0] for function in loaded)
+        loaded = (casadi.Function.load(str(file)) for file in files)
+        before, after = (program_of(function)[0] for function in loaded)
         if not _same(before, after, headers[0]):
             return path.name
     return ""
@@ -671,8 +673,7 @@ def measure(drives: list[str], each: int, log: Path | None = None, stages: tuple
             sample: int | None = None, generated: Path = GENERATED) -> Iterator[Outcome]:  # fmt: skip
     """Changes of all functions of some drives, ``each`` a function; of these ``sample`` at random, if it is given."""
     known = _logged(log)
-    for checker in (check_code, check_description.CODE, check_bounded.CODE, check_print.CODE):
-        checker.__dict__["ATTEMPTS"] = ATTEMPTS
+    attempts.ATTEMPTS = ATTEMPTS
     for name in drives:
         drive, rng = Measured(name, generated), random.Random(f"{SEED} {name}")
         chosen = [m for m in drive.mutants(each, rng) if m.stage in stages]

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from derive.audit import coverage
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
-from derive.audit.check import sha256_of
+from derive.audit.checker.lines import sha256_of
 from derive.audit.claims import Document, Figure
 from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
@@ -147,9 +147,7 @@ def pages(
             kinds=Counter(item["object"] for item in ledger.objects.values()),
             mutations=measured(),
         ),
-        "side-conditions.html": _render(
-            "side-conditions.html.jinja", **common, guards=GUARDS, conditions=conditions
-        ),
+        "side-conditions.html": _render("side-conditions.html.jinja", **common, guards=GUARDS, conditions=conditions),
         "certified-contact.html": _render(
             "certified.html.jinja",
             **common,

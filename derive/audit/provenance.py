@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypedDict
 
-from derive.audit.check import root_of
+from derive.audit.checker.record import root_of
 from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
 from derive.passes.guards import functions, partial_operations
 from derive.passes.plan import Schedule

@@ -7,16 +7,33 @@ import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from derive.audit.check import equations_named
+from derive.audit.checker.seal import equations_named
 from derive.audit.ledger import Ledger
 from derive.prove.tree import canonical
 
-CHECKERS = tuple(
-    Path(__file__).with_name(name)
-    for name in (
-        "check.py", "check_code.py", "check_description.py", "check_bounded.py", "check_print.py", "printed.txt",
-    )  # fmt: skip
-)
+HERE = Path(__file__).parent
+#: Commands beside the record, and the modules of the checkers' package that they run.
+COMMANDS = {
+    "check.py": "check_record",
+    "check_code.py": "check_code",
+    "check_description.py": "check_description",
+    "check_bounded.py": "check_bounded",
+    "check_print.py": "check_print",
+}
+COMMAND = '''#!/usr/bin/env python3
+"""Runs checker/{module}.py, which says what it checks; Python's standard library is enough."""
+
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).parent))
+
+from checker.{module} import main  # noqa: E402
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
+'''
 
 
 def record_files(ledger: Ledger) -> dict[str, str]:
@@ -26,7 +43,15 @@ def record_files(ledger: Ledger) -> dict[str, str]:
     return {
         "ledger.jsonl": _lines(others),
         "certificates.jsonl": _lines(certificates),
-        **{path.name: path.read_text(encoding="utf-8") for path in CHECKERS},
+        **checkers(),
+    }
+
+
+def checkers() -> dict[str, str]:
+    """File name -> text: the checkers' package, its commands, and the print that one of them reads."""
+    read = [HERE / "printed.txt", *sorted((HERE / "checker").glob("*.py"))]
+    return {path.relative_to(HERE).as_posix(): path.read_text(encoding="utf-8") for path in read} | {
+        name: COMMAND.format(module=module) for name, module in COMMANDS.items()
     }
 
 

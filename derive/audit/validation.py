@@ -55,7 +55,8 @@ VERIFIED = (
         "meshing is solved), the residual the vector between the two points. The Newton step solves J dx = −R, "
         "derivatives along a path are derivatives, curvatures follow from "
         "the change of the normal, lanes and tangents of parameters agree with the scalar functions, the kernel of "
-        "sine and cosine with enclosures. What is not noticed stands in the table of changes below.",
+        "sine and cosine with enclosures; what calls the solver or chooses equations is compared as text. What is not "
+        "noticed stands in the table of changes below.",
     ),
     (
         "The generated C is the description",

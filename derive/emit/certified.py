@@ -160,19 +160,24 @@ def header(plan, generator):
         equations=code(tape, [*plan.residual, *jacobian], by_x, len(plan.residual)),
         observed=code(tape, _watched(plan), by_x),
         along=code(tape, [*plan.along.first, *plan.along.second], before | _line(plan, count)),
-        flanks=[_flank(plan, flank, before) for flank in plan.flanks],
+        flanks=list(_flanks(plan)),
         placement=_placement(plan, before),
         turning=int(_turns_about_z(drive)),
     )
 
 
-def _flank(plan, flank, before):
-    """A flank: point, regular and margins, then its tangents, body frame."""
-    point = next(o.nodes for o in flank.outputs if o.name == "point")
-    tangents = [i for o in flank.outputs if o.name.startswith("tangent_") for i in o.nodes]
-    own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(flank.parameters)}
-    leading = [*point, *flank.limits]
-    return code(plan.tape, [*leading, *tangents], before | own, len(leading))
+def _flanks(plan):
+    """Both flanks: point, then regular and margins, then its tangents. The pinion's in the fixed frame, where its turn
+    and its parameters meet in fewer angles; the wheel's in its own.
+    """
+    found, slots = {o.name: o.nodes for o in plan.observed}, dict(plan.state)
+    for body, flank in zip(plan.drive.bodies, plan.flanks, strict=True):
+        local = {o.name: o.nodes for o in flank.outputs}
+        fixed = body is plan.drive.bodies[0]
+        point = found[f"point_{body.name}_f"] if fixed else local["point"]
+        tangents = [i for q in flank.parameters for i in (found if fixed else local)[f"tangent_{q}"]]
+        own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(flank.parameters)}
+        yield code(plan.tape, [*point, *flank.limits, *tangents], slots | own, len(point))
 
 
 def _placement(plan, before):

@@ -41,7 +41,7 @@ typedef struct mw_certified_system {
  * point and normal of the pinion, then of the wheel, fixed frame; wheel angle; principal curvatures of the gap; of each
  * body, whether it is regular, and its margins. along: of (s[slots], phi, x, v[nx + 1]), first and then second derivative of the
  * residual along v, a direction of (x, phi). flanks, of pinion and wheel: of (s[slots], parameters), point, regular and
- * margins, then the tangents, body frame. placement: of (s[slots], angles of pinion and wheel), for each of both the rows of
+ * margins, then the tangents; the pinion's in the fixed frame, the wheel's in its own. placement: of (s[slots], angles of pinion and wheel), for each of both the rows of
  * the motion into the fixed frame, direction and a point of its axis. turning: whether the wheel turns about its frame's z. */
 typedef struct mw_certified {
     int slots, design_slots;

@@ -143,6 +143,13 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
                      double slack, double reach, int effort, double *work, mw_first_certificate *c);
 size_t mw_certify_first_work(void);
 
+/* The same at every input angle from one to another of a certified piece of path at once; pinion_turn, wheel_turn: by how much
+ * both bodies are turned further, 0 or by pitches of theirs, so that it is said of another pair. angle: where what c names
+ * lies, not a number where it names nothing. */
+int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *piece, double from, double to, mw_wide pinion_turn,
+                           mw_wide wheel_turn, const double *flanks, double slack, double reach, int effort, double *work,
+                           mw_first_certificate *c, double *angle);
+
 /* What proves many contacts of a drive that is built into this library; NULL for any other. */
 const struct mw_proofs *mw_proofs_of(const mw_model *m);
 

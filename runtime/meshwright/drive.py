@@ -173,6 +173,14 @@ class Drive:
         certificates = self.certify(angles, result) if certificates is None else certificates
         return certify_first(self, result, certificates, **how)
 
+    def certify_first_path(self, begin, end, **how):
+        """The same at every angle from one to another (rad, of the right-hand drive) at once:
+        :class:`~meshwright.cycle.certified_first_path.FirstAlongPath`. ``neighbours``: on either side, 1 unless given.
+        """
+        from meshwright.cycle.certified_first_path import certify_first_path
+
+        return certify_first_path(self, begin, end, **how)
+
     def certify_path(self, begin, end, **how):
         """Proof of one branch of contact from one pinion angle (rad) to another, of the right-hand drive:
         :class:`~meshwright.contact.certified_path.CertifiedPath`.

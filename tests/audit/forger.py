@@ -3,7 +3,9 @@
 import json
 import re
 
-from derive.audit import check, store
+from derive.audit import store
+from derive.audit.checker.lines import canonical, sha256_of
+from derive.audit.checker.record import read_record, root_of
 from derive.audit.claims import FigureClaim
 from derive.audit.documents import rack_and_pinion, recess_action
 from derive.audit.ledger import Chapter, build
@@ -45,7 +47,7 @@ class Forger:
 
     def __init__(self, folder):
         self.folder = folder
-        self.objects = list(check.read_record(folder).values())
+        self.objects = list(read_record(folder).values())
 
     def one(self, **wanted):
         return next(item for item in self.objects if all(item.get(key) == value for key, value in wanted.items()))
@@ -86,7 +88,7 @@ class Forger:
             key = pending.pop()
             if key in by_hash and key not in found:
                 found.add(key)
-                pending += re.findall(r"[0-9a-f]{64}", check.canonical({**by_hash[key], "sha256": ""}))
+                pending += re.findall(r"[0-9a-f]{64}", canonical({**by_hash[key], "sha256": ""}))
         return [item for item in self.objects if item["sha256"] in found]
 
     def sealed(self, everything=False):
@@ -95,15 +97,15 @@ class Forger:
         kept = self.objects if everything else self.used()
         for kind in KINDS:
             for item in (item for item in kept if item["object"] == kind):
-                text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), check.canonical(item))
+                text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), canonical(item))
                 body = json.loads(text)
-                old, body["sha256"] = item["sha256"], check.sha256_of(body)
+                old, body["sha256"] = item["sha256"], sha256_of(body)
                 renamed[old] = body["sha256"]
                 objects[body["sha256"]] = body
         lines = {"ledger.jsonl": "", "certificates.jsonl": ""}
         for item in objects.values():
             name = "certificates.jsonl" if item["object"] == "certificate" else "ledger.jsonl"
-            lines[name] += check.canonical(item) + "\n"
+            lines[name] += canonical(item) + "\n"
         for name, text in lines.items():
             replace_text(self.folder / name, text)
         reseal(self.folder)
@@ -111,7 +113,7 @@ class Forger:
 
 def reseal(folder):
     """Root and seal made anew over the files as they are."""
-    root = check.root_of({json.loads(line)["sha256"]: 0 for name in ("ledger", "certificates")
+    root = root_of({json.loads(line)["sha256"]: 0 for name in ("ledger", "certificates")
                           for line in (folder / f"{name}.jsonl").read_text().splitlines()})  # fmt: skip
     for path in (folder.parent / "c").glob("*.h"):
         path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {root})", path.read_text()))

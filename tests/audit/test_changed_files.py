@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from derive.audit import mutations
+from derive.audit.checker.tables import OPERATIONS
 from derive.audit.mutations import EQUAL, REFUSED, SURVIVED
 from tests.quick import full
 
@@ -50,7 +51,7 @@ def test_an_exchange_that_changes_no_value_is_told_apart():
 def test_a_scale_that_leaves_a_unit_vector_is_told_apart():
     """x/sqrt(x²) is 3x/sqrt((3x)²) of real numbers, whatever stands for the root modulo a prime; 3x/sqrt(9x) is not."""
     words = ("{a} * {b}", "{a} * {a}", "sqrt({a})", "{a} / {b}")
-    multiply, square, root, divide = map(mutations.check_bounded.OPERATIONS.index, words)
+    multiply, square, root, divide = map(OPERATIONS.index, words)
     end = [(root, 3, 3, 0), (divide, 4, 2, 3)]
     kept, scaled, wrong = (
         SimpleNamespace(inputs=[0], constants=["(3.0)"], instructions=[*start, *end], outputs=[4])

@@ -6,7 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check_bounded as checker
+from derive.audit.checker import attempts, check_bounded
+from derive.audit.checker.any_root import kept_draws, with_any_root
+from derive.audit.checker.casadi_functions import Casadi
+from derive.audit.checker.edges import BoundedDrive, check_systems
+from derive.audit.checker.refusal import Rejected
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 SPUR = "spherical_convex_spur"
@@ -15,27 +19,27 @@ SPUR = "spherical_convex_spur"
 def drive_of(name, change=lambda text: text):
     texts = [(GENERATED / "c" / f"{name}{end}.h").read_text(encoding="utf-8") for end in ("", "_bounded")]
     description = json.loads((GENERATED / "descriptions" / f"{name}.json").read_text(encoding="utf-8"))
-    return checker.Drive(description, texts[0], change(texts[1]))
+    return BoundedDrive(description, texts[0], change(texts[1]))
 
 
 def only(drive, words, functions=None):
     """Of all checks those whose words hold a text, where roots exist or may be any function."""
-    chosen = [check for name, check in checker.checks_of(drive, functions) if words in name]
+    chosen = [check for name, check in check_bounded.checks_of(drive, functions) if words in name]
     assert chosen
-    draws = checker.kept_draws()
+    draws = kept_draws()
     for check, *arguments in chosen:
-        checker.with_any_root(check, tuple(arguments), draws)
+        with_any_root(check, tuple(arguments), draws)
 
 
 @pytest.fixture(autouse=True)
 def few_attempts(monkeypatch):
-    monkeypatch.setattr(checker.CODE, "ATTEMPTS", 500)
+    monkeypatch.setattr(attempts, "ATTEMPTS", 500)
 
 
 @pytest.mark.parametrize("name", [SPUR, pytest.param("face_worm", marks=pytest.mark.validate)])
 def test_edges_limits_and_casadi_hold(name):
     header = GENERATED / "c" / f"{name}.h"
-    assert checker.check_drive(GENERATED / "descriptions" / f"{name}.json", header, GENERATED / "casadi") > 30
+    assert check_bounded.check_drive(GENERATED / "descriptions" / f"{name}.json", header, GENERATED / "casadi") > 30
 
 
 @pytest.mark.parametrize(
@@ -55,26 +59,24 @@ def test_a_changed_function_is_refused(function, pattern, other, words):
         assert count == 1
         return head + name + changed
 
-    with pytest.raises(checker.Rejected):
+    with pytest.raises(Rejected):
         only(drive_of(SPUR, change), words)
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [("{ 0, 1, 2, 4, 8 }", "{ 0, 1, 2, 4, 7 }"), ("{ { -1, 1 }", "{ { -1, 0 }")]
-)
+@pytest.mark.parametrize(("old", "new"), [("{ 0, 1, 2, 4, 8 }", "{ 0, 1, 2, 4, 7 }"), ("{ { -1, 1 }", "{ { -1, 0 }")])
 def test_a_system_of_other_equations_is_refused(old, new):
     drive = drive_of(SPUR, lambda text: text.replace(old, new, 1))
-    with pytest.raises(checker.Rejected, match="edges"):
-        checker.check_systems(drive)
+    with pytest.raises(Rejected, match="edges"):
+        check_systems(drive)
 
 
 def test_a_changed_instruction_of_casadi_is_refused():
-    drive, functions = drive_of(SPUR), checker.Casadi(GENERATED / "casadi", SPUR)
+    drive, functions = drive_of(SPUR), Casadi(GENERATED / "casadi", SPUR)
     only(drive, "CasADi: residual", functions)
     function, loaded = functions("")
     at, _ = function.outputs["residual"]
     function.definitions[f"o[{at + 1}]"] = ("expression", f"-{function.definitions[f'o[{at + 1}]'][1]}")
-    with pytest.raises(checker.Rejected, match="residual"):
+    with pytest.raises(Rejected, match="residual"):
         only(drive, "CasADi: residual", functions)
 
 
@@ -98,5 +100,5 @@ def test_a_changed_table_is_refused(pattern, other, reason):
     text = (GENERATED / "c" / f"{SPUR}_certified.h").read_text(encoding="utf-8")
     drive.tables, count = re.subn(pattern, other, text, count=1)
     assert count == 1
-    with pytest.raises(checker.Rejected, match=reason):
+    with pytest.raises(Rejected, match=reason):
         only(drive, "table")

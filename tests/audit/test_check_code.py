@@ -9,17 +9,20 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check_code
+from derive.audit.checker import attempts, check_code
+from derive.audit.checker.kernels import check_kernels
+from derive.audit.checker.refusal import Rejected
 from meshwright.base.drives import folder_of
 from tests.quick import quick
 
-ALL_ATTEMPTS = check_code.ATTEMPTS
+ALL_ATTEMPTS = attempts.ATTEMPTS
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
+ZN = "cylindrical_worm_zn_zn"
 
 
 @pytest.mark.parametrize("drive", ["cylindrical_worm_zn_zn", "spherical_convex_spur"])
 def test_a_generated_header_is_its_own_mathematics(drive, monkeypatch):
-    monkeypatch.setattr(check_code, "ATTEMPTS", ALL_ATTEMPTS)
+    monkeypatch.setattr(attempts, "ATTEMPTS", ALL_ATTEMPTS)
     assert check_code.check_header(GENERATED / "c" / f"{drive}.h") > 10
 
 
@@ -40,13 +43,13 @@ def header(name):
 def rejected(tmp_path, text, match):
     path = tmp_path / "drive.h"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(check_code.Rejected, match=match):
+    with pytest.raises(Rejected, match=match):
         check_code.check_header(path)
 
 
 @pytest.fixture(autouse=True)
 def few_attempts(monkeypatch):
-    monkeypatch.setattr(check_code, "ATTEMPTS", 400)
+    monkeypatch.setattr(attempts, "ATTEMPTS", 400)
 
 
 def test_a_changed_jacobian_entry_is_caught(tmp_path):
@@ -92,7 +95,7 @@ def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path, every):
             path.write_text(source.replace(body, wrong), encoding="utf-8")
             try:
                 check_code.check_header(path)
-            except check_code.Rejected:
+            except Rejected:
                 caught += 1
     with capsys.disabled():
         print(f"\n{caught} of {total} changed signs in generated C caught")
@@ -152,7 +155,7 @@ def test_a_changed_constant_of_sine_and_cosine_is_caught(tmp_path, digits):
 
 def test_a_wrong_header_is_refused_within_seconds(tmp_path, monkeypatch):
     """A wrong normal, with as many inputs as the shipped checker may draw."""
-    monkeypatch.setattr(check_code, "ATTEMPTS", ALL_ATTEMPTS)
+    monkeypatch.setattr(attempts, "ATTEMPTS", ALL_ATTEMPTS)
     source = header("face_worm")
     body = source[source.index("_flank_wheel(const") :]
     wrong = re.sub(r"o\[4\] = (\w+);", r"o[4] = -\1;", body, count=1)
@@ -181,7 +184,17 @@ def test_a_folder_without_the_programs_is_rejected(tmp_path):
 )
 def test_what_stands_around_the_polynomials_of_sine_and_cosine_is_read(kept, wrong, message):
     text = header("spherical_convex_spur")
-    check_code.check_kernels(text)
+    check_kernels(text)
     assert kept in text
-    with pytest.raises(check_code.Rejected, match=message):
-        check_code.check_kernels(text.replace(kept, wrong, 1))
+    with pytest.raises(Rejected, match=message):
+        check_kernels(text.replace(kept, wrong, 1))
+
+
+@pytest.mark.parametrize(("old", "new"), [(f"work[{ZN}_NP + 1]", f"work[{ZN}_NP - 1]"), ("p[k] = s[", "p[0] = s[")])
+def test_what_calls_the_solver_stands_as_it_must(tmp_path, old, new):
+    path = tmp_path / "drive.h"
+    text = (GENERATED / "c" / f"{ZN}.h").read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(Rejected, match="not the text"):
+        check_code.check_header(path)

@@ -6,7 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check_description as checker
+from derive.audit.checker import attempts, check_description
+from derive.audit.checker.drive import Drive
+from derive.audit.checker.kernels import check_arc_kernel
+from derive.audit.checker.lanes import check_lanes
+from derive.audit.checker.refusal import Rejected
+from derive.audit.checker.straight_line import read_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 ZN, SPUR = "cylindrical_worm_zn_zn", "spherical_convex_spur"
@@ -18,30 +23,30 @@ def paths(name):
 
 @pytest.fixture(autouse=True)
 def few_attempts(monkeypatch):
-    monkeypatch.setattr(checker.CODE, "ATTEMPTS", 2000)
+    monkeypatch.setattr(attempts, "ATTEMPTS", 2000)
 
 
 def only(drive, words):
     """Of all checks those whose words hold a text."""
-    chosen = [check for name, check in checker.checks_of(drive) if words in name]
+    chosen = [check for name, check in check_description.checks_of(drive) if words in name]
     assert chosen
     for check in chosen:
-        checker.CODE.attempt(*check)
+        attempts.attempt(*check)
 
 
 @pytest.mark.parametrize("name", [SPUR, pytest.param("face_worm", marks=pytest.mark.validate)])
 def test_a_drive_is_its_description(name):
-    assert checker.check_drive(*paths(name)) > 80
+    assert check_description.check_drive(*paths(name)) > 80
 
 
 @pytest.mark.validate
 @pytest.mark.parametrize("name", [ZN, "cylindrical_worm_za_za", "cylindrical_worm_zc_zc", "spherical_convex_concave"])
 def test_further_drives_are_their_descriptions(name, capsys):
-    assert checker.main([str(GENERATED / "audit"), name]) == 0
+    assert check_description.main([str(GENERATED / "audit"), name]) == 0
 
 
 def test_a_drive_without_description_is_refused(tmp_path, capsys):
-    assert checker.main([str(tmp_path / "audit")]) == 1
+    assert check_description.main([str(tmp_path / "audit")]) == 1
     assert "no description" in capsys.readouterr().err
 
 
@@ -68,8 +73,8 @@ def test_a_changed_function_is_refused(function, pattern, other, words):
     head, signature, body = (head, signature, body) if "double *" in body[:40] else header.rpartition(signature)
     changed, count = re.subn(pattern, other, body, count=1)
     assert count == 1
-    with pytest.raises(checker.Rejected, match="description"):
-        only(checker.Drive(json.loads(description), head + signature + changed), words)
+    with pytest.raises(Rejected, match="description"):
+        only(Drive(json.loads(description), head + signature + changed), words)
 
 
 def test_a_normal_that_points_inward_is_refused():
@@ -78,8 +83,8 @@ def test_a_normal_that_points_inward_is_refused():
     head, signature, body = header.partition(f"{ZN}_flank_pinion(")
     changed = re.sub(r"o\[([345])\] = (\S+);", r"o[\1] = -\2;", body, count=3)
     assert changed != body
-    with pytest.raises(checker.Rejected, match="normal"):
-        only(checker.Drive(json.loads(description), head + signature + changed), "normal of flank_pinion")
+    with pytest.raises(Rejected, match="normal"):
+        only(Drive(json.loads(description), head + signature + changed), "normal of flank_pinion")
 
 
 def test_a_changed_factor_of_a_motion_is_refused():
@@ -88,8 +93,8 @@ def test_a_changed_factor_of_a_motion_is_refused():
     motion = described["bodies"][1]["motion"]
     turned = next(factor for factor in motion if factor[0] == "rotation")
     turned[2] = ["*", -1, turned[2]]
-    with pytest.raises(checker.Rejected, match="point_wheel_f"):
-        only(checker.Drive(described, header), "point_wheel_f")
+    with pytest.raises(Rejected, match="point_wheel_f"):
+        only(Drive(described, header), "point_wheel_f")
 
 
 def drive_of(name, change=lambda text: text, changes=lambda text: text):
@@ -97,7 +102,7 @@ def drive_of(name, change=lambda text: text, changes=lambda text: text):
     description, header = paths(name)
     beside = header.with_name(f"{name}_sensitivity.h").read_text(encoding="utf-8")
     text = change(header.read_text(encoding="utf-8"))
-    return checker.Drive(json.loads(description.read_text(encoding="utf-8")), text, changes(beside))
+    return Drive(json.loads(description.read_text(encoding="utf-8")), text, changes(beside))
 
 
 @pytest.mark.parametrize(
@@ -106,7 +111,7 @@ def drive_of(name, change=lambda text: text, changes=lambda text: text):
 )
 def test_a_wrong_change_of_a_rule_is_refused(old, new):
     only(drive_of(ZN), "changes by rule 9 ")
-    with pytest.raises(checker.Rejected, match="rule 9"):
+    with pytest.raises(Rejected, match="rule 9"):
         only(drive_of(ZN, changes=lambda text: text.replace(old, new, 1)), "changes by rule 9 ")
 
 
@@ -126,7 +131,7 @@ def test_a_changed_system_of_a_design_is_refused(old, new, words):
         assert old in body
         return head + signature + body.replace(old, new, 1)
 
-    with pytest.raises(checker.Rejected, match="description"):
+    with pytest.raises(Rejected, match="description"):
         only(drive_of("face_worm", change), words)
 
 
@@ -137,15 +142,15 @@ def test_a_changed_system_of_a_design_is_refused(old, new, words):
 )  # fmt: skip
 def test_a_changed_kernel_of_atan2_is_refused(old, new):
     text = paths(ZN)[1].read_text(encoding="utf-8")
-    checker.CODE.check_arc_kernel(text)
+    check_arc_kernel(text)
     assert old in text
-    with pytest.raises(checker.Rejected, match="atan2"):
-        checker.CODE.check_arc_kernel(text.replace(old, new))
+    with pytest.raises(Rejected, match="atan2"):
+        check_arc_kernel(text.replace(old, new))
 
 
 def test_a_guard_of_the_lanes_that_is_not_that_of_setup_is_refused():
     text, lanes = (paths(ZN)[1].with_name(f"{ZN}{end}.h").read_text(encoding="utf-8") for end in ("", "_lanes"))
-    header = checker.CODE.read_header(text, lanes)
+    header = read_header(text, lanes)
     changed = lanes.replace("(t35 > 0.0 ?", "(t36 > 0.0 ?", 1)
-    with pytest.raises(checker.Rejected, match="guard 0"):
-        checker.CODE.attempt(checker.CODE.check_lanes, header, changed)
+    with pytest.raises(Rejected, match="guard 0"):
+        attempts.attempt(check_lanes, header, changed)

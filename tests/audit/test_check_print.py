@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 
 from derive import drives
-from derive.audit import check_print as checker
+from derive.audit.checker import check_print
+from derive.audit.checker.printed import alternatives, is_about, read_printed, statements_of
+from derive.audit.checker.refusal import Rejected
 from derive.language import description
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
-PRINTED = checker.read_printed((Path(checker.__file__).with_name("printed.txt")).read_text(encoding="utf-8"))
+PRINTED = read_printed(Path(check_print.__file__).parent.with_name("printed.txt").read_text(encoding="utf-8"))
 ZN, SPUR, FACE = "cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm"
 REGROUND = "cylindrical_worm_zi_zc_reground"
 
@@ -29,7 +31,7 @@ def made(name):
 def checked(name, described, folder):
     path = folder / f"{name}.json"
     path.write_text(json.dumps(described), encoding="utf-8")
-    return checker.check_drive(path, PRINTED)
+    return check_print.check_drive(path, PRINTED)
 
 
 def minus(e):
@@ -63,7 +65,7 @@ def test_a_description_is_as_printed(name, tmp_path):
 
 @pytest.mark.validate
 def test_all_descriptions_are_as_printed(capsys):
-    assert checker.main([str(GENERATED / "audit")]) == 0
+    assert check_print.main([str(GENERATED / "audit")]) == 0
     drives = len(list((GENERATED / "descriptions").glob("*.json")))
     assert f"of {drives} descriptions hold" in capsys.readouterr().out
 
@@ -77,14 +79,14 @@ def test_a_drive_that_no_packaged_design_uses_is_as_printed_too(tmp_path):
 
 
 def test_patterns_name_alternatives_and_leave_drives_out():
-    patterns = [p for word in ("a_{b,c}{,_d}", "!*_d") for p in checker.alternatives(word)]
-    assert [name for name in ("a_b", "a_c", "a_b_d", "a_e") if checker.is_about(name, patterns)] == ["a_b", "a_c"]
+    patterns = [p for word in ("a_{b,c}{,_d}", "!*_d") for p in alternatives(word)]
+    assert [name for name in ("a_b", "a_c", "a_b_d", "a_e") if is_about(name, patterns)] == ["a_b", "a_c"]
 
 
 def test_abbreviations_alone_hold_from_there_on():
     alone, both, last = "[a_*]\nlet p: q\n", "[*_b]\nlet r: p\nsize y_mm: r | x\n", "[a_*]\nsize z_mm: p + r | x\n"
-    printed = checker.read_printed(alone + both + last)
-    assert [s.sides for s in checker.statements_of("a_b", printed)] == [("q",), (["+", "q", "r"],)]
+    printed = read_printed(alone + both + last)
+    assert [s.sides for s in statements_of("a_b", printed)] == [("q",), (["+", "q", "r"],)]
 
 
 WRONG = {
@@ -134,24 +136,24 @@ def test_wrong_physics_in_the_description_is_refused(words, tmp_path):
     name, change = WRONG[words]
     described = copy.deepcopy(description_of(name))
     change(described)
-    with pytest.raises(checker.Rejected):
+    with pytest.raises(Rejected):
         checked(name, described, tmp_path)
 
 
 def test_a_drive_of_which_nothing_is_printed_is_refused(tmp_path):
-    with pytest.raises(checker.Rejected, match="nothing printed"):
+    with pytest.raises(Rejected, match="nothing printed"):
         checked("cone_drive", description_of(SPUR), tmp_path)
 
 
 def test_a_line_that_says_nothing_is_refused():
-    with pytest.raises(checker.Rejected, match="not a statement"):
-        checker.read_printed("[a_*]\nrule A\n")
+    with pytest.raises(Rejected, match="not a statement"):
+        read_printed("[a_*]\nrule A\n")
 
 
 def test_what_nothing_is_said_of_is_refused(tmp_path):
     described = copy.deepcopy(description_of(SPUR))
     described["sizes"].append({"key": "made_up_mm", "value": "m", "meaning": "made up"})
-    with pytest.raises(checker.Rejected, match="nothing says what size made_up_mm is"):
+    with pytest.raises(Rejected, match="nothing says what size made_up_mm is"):
         checked(SPUR, described, tmp_path)
 
 
@@ -159,12 +161,12 @@ def test_a_result_that_gives_one_root_twice_is_refused(tmp_path):
     described = copy.deepcopy(description_of(ZN))
     function = next(f for f in described["functions"] if f["name"] == "tool_point")
     function["results"][0]["values"][1] = function["results"][0]["values"][0]
-    with pytest.raises(checker.Rejected, match="one root twice"):
+    with pytest.raises(Rejected, match="one root twice"):
         checked(ZN, described, tmp_path)
 
 
 def test_abbreviations_hold_for_their_own_section_and_word():
-    (_, found), (_, other) = checker.read_printed(
+    (_, found), (_, other) = read_printed(
         "[a_* x:1 y:2]\nlet p: q_%\nsize $_mm: p | source\n[b_*]\nsize z_mm: p | source\n"
     )
     assert [statement.sides for statement in found] == [("q_1",), ("q_2",)]

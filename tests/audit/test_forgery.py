@@ -6,7 +6,8 @@ import re
 
 import pytest
 
-from derive.audit import check
+from derive.audit.checker import certificates, check_record
+from derive.audit.checker.refusal import Rejected
 from tests.audit.forger import Forger, reseal
 
 MERSENNE = 2**61 - 1
@@ -19,7 +20,7 @@ def forger(record):
 
 def test_a_record_that_is_only_hashed_again_holds(forger, record):
     forger.sealed()
-    check.verify(record)
+    check_record.verify(record)
 
 
 # ---- mathematics -----------------------------------------------------------------------------------------------------
@@ -360,17 +361,17 @@ FORGED = [
 def test_forged_object_is_refused(forger, record, forge, reason):
     forge(forger)
     forger.sealed(everything=forge in (two_certificates, unused_object))
-    with pytest.raises(check.Rejected, match=reason):
-        check.verify(record)
+    with pytest.raises(Rejected, match=reason):
+        check_record.verify(record)
 
 
 def test_every_part_of_a_proof_that_fits_is_expanded_and_the_rest_meets_random_primes(forger, record, monkeypatch):
     """x + (2^61 - 1) y = x is refused at random points too: no prime is known beforehand."""
-    monkeypatch.setattr(check, "EXPANSION", 0)
+    monkeypatch.setattr(certificates, "EXPANSION", 0)
     multiple_of_a_prime(forger)
     forger.sealed()
-    with pytest.raises(check.Rejected, match="trees differ"):
-        check.verify(record)
+    with pytest.raises(Rejected, match="trees differ"):
+        check_record.verify(record)
 
 
 # ---- files -----------------------------------------------------------------------------------------------------------
@@ -456,7 +457,7 @@ def repeated_line(folder):
 FILES = [
     (altered("index.html", "proved", "false"), "index.html has been changed"),
     (altered("audit.tex", "proved", "false"), "audit.tex has been changed"),
-    (altered("check.py", "Rejected", "Accepted"), "check.py has been changed"),
+    (altered("checker/refusal.py", "Rejected", "Accepted"), "checker/refusal.py has been changed"),
     (emptied_list_of_files, "not sealed"),
     (emptied_equations_of_a_header, "other equations than its seal"),
     (added_header, "other.h is not sealed"),
@@ -481,5 +482,5 @@ FILES = [
 @pytest.mark.parametrize(("edit", "reason"), FILES, ids=[f"{k} {reason}" for k, (_, reason) in enumerate(FILES)])
 def test_forged_file_is_refused(record, edit, reason):
     edit(record)
-    with pytest.raises(check.Rejected, match=reason):
-        check.verify(record)
+    with pytest.raises(Rejected, match=reason):
+        check_record.verify(record)

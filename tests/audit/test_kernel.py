@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check, kernel, record
+from derive.audit import kernel, record
+from derive.audit.checker.trees import evaluate
 from derive.audit.kernel import derivatives, translate
 from derive.drives import cylindrical_worm
 
@@ -107,7 +108,7 @@ def test_the_whole_record_and_the_chain_of_the_zn_wheel_are_accepted(tmp_path, c
 def test_translated_names_are_names_of_coq():
     empty = dict.fromkeys(("definitions", "roots", "arcs", "jets"), {})
     scope = {**empty, "angles": {"I": "I"}, "signs": [], "generators": []}
-    value = check.evaluate(["+", "R", ["cos", "I"], "as"], translate.Written(scope))
+    value = evaluate(["+", "R", ["cos", "I"], "as"], translate.Written(scope))
     variables = {}
     translate._collect(value.node, variables)
     assert set(translate._readable(variables).values()) == {"R_", "cos_I", "as_"}

@@ -9,8 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import check_description as checker
 from derive.audit import mutations
+from derive.audit.checker import attempts, check_description
+from derive.audit.checker.design import check_unit
+from derive.audit.checker.draws import on_both_flanks
+from derive.audit.checker.drive import Drive
+from derive.audit.checker.refusal import Rejected
 from tests.quick import quick
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -33,21 +37,21 @@ def wrong_descriptions(description, count):
 
 
 def is_refused(description, header, tangents):
-    drive = checker.Drive(description, header, tangents)
+    drive = Drive(description, header, tangents)
     try:
         for number in range(len(description["keys"])):
-            checker.check_unit(drive, number)
-        for _, check in checker.checks_of(drive):
-            checker.attempt(*check)
-    except checker.Rejected:
+            check_unit(drive, number)
+        for _, check in check_description.checks_of(drive):
+            on_both_flanks(*check)
+    except Rejected:
         return True
     return False
 
 
 @pytest.mark.parametrize(("count", "least"), quick([(200, 0.97), (12, 0.9)], (12, 0.9)))
 def test_a_wrong_description_is_refused(count, least, capsys, monkeypatch):
-    monkeypatch.setattr(checker.CODE, "ATTEMPTS", 2000)
-    monkeypatch.setattr(checker.CODE, "REFUSALS", 8)
+    monkeypatch.setattr(attempts, "ATTEMPTS", 2000)
+    monkeypatch.setattr(attempts, "REFUSALS", 8)
     description = json.loads((GENERATED / "descriptions" / f"{SPUR}.json").read_text(encoding="utf-8"))
     header, tangents = (
         (GENERATED / "c" / f"{SPUR}{end}.h").read_text(encoding="utf-8") for end in ("", "_sensitivity")

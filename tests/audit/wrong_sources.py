@@ -283,20 +283,23 @@ def _of_all(drives: tuple[str, ...], folder: Path, kept: Path) -> tuple[str, str
 
 
 def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
-    from derive.audit import check_bounded, check_code, check_description, check_print, mutations
+    from derive.audit import mutations
+    from derive.audit.checker import attempts, check_bounded, check_code, check_description, check_print
+    from derive.audit.checker.printed import read_printed
+    from derive.audit.checker.refusal import Rejected
 
     assert Path(check_print.__file__).is_relative_to(folder)
     made = folder / "generated"
     shutil.rmtree(made, ignore_errors=True)
     shutil.copytree(kept / "audit", made / "audit")
-    printed = check_print.read_printed(Path(check_print.__file__).with_name("printed.txt").read_text(encoding="utf-8"))
+    printed = read_printed(Path(check_print.__file__).parent.with_name("printed.txt").read_text(encoding="utf-8"))
     description, header = made / "descriptions" / f"{drive}.json", made / "c" / f"{drive}.h"
     write_description(drive, description)
     changed = _differs(description, kept / "descriptions" / f"{drive}.json")
     try:
         if changed:
             check_print.check_drive(description, printed)
-    except check_print.Rejected as reason:
+    except Rejected as reason:
         return "print", str(reason)[:200]
     write_all(drive, made)
     if not changed and not any(_differs(path, kept / path.relative_to(made)) for path in written(drive, made)):
@@ -306,11 +309,11 @@ def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
         (check_description, lambda: check_description.check_drive(description, header)),
         (check_bounded, lambda: check_bounded.check_drive(description, header, made / "casadi")),
     )
+    attempts.ATTEMPTS = 3000
     for checker, check in checks:
-        checker.__dict__.get("CODE", checker).ATTEMPTS = 3000
         try:
             check()
-        except checker.Rejected as reason:
+        except Rejected as reason:
             return checker.__name__.rpartition("_")[2], str(reason)[:200]
     different = mutations.different(drive, made, kept)
     return ("survivor", different) if different else ("equal", "")

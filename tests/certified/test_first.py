@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
+from meshwright.base.library import ffi
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle import certified_first_path
 from tests.independent.first_touch import FirstTouch
 from tests.test_first_contact import EDGE_FIRST
 
@@ -137,3 +139,62 @@ def test_a_neighbouring_pair_overlaps_where_its_own_contact_comes_first():
     assert not own.flags[0] and earlier[0]  # the pair before is on its flanks and comes first
     assert "off_tip" in own.flags[1]  # the one behind is not on them yet
     assert [of.outcomes for of in found.neighbours.values()] == [("not_first",), ("first",)]
+
+
+def test_a_range_of_angles_is_first_at_each_and_no_place_overlaps():
+    drive = Drive.load("recess-action-full")
+    begin, end = np.radians([2400.0, 2418.0])
+    found = drive.certify_first_path(begin, end, neighbours=0)
+    assert found.outcome == "first" and found.failures == []
+    assert [found.spans[0].begin, found.spans[-1].end] == [begin, end]
+    assert all(a.end == b.begin for a, b in zip(found.spans, found.spans[1:], strict=False))
+    rng = np.random.default_rng(5)
+    for angle in rng.uniform(begin, end, 3):
+        contacts = drive.tca([angle])
+        q = places(rng, found.boxes["wheel"], 150)
+        away, p = met(drive, contacts, q[_inside(drive, "wheel", q)])
+        kept = _inside(drive, "pinion", p) & (np.abs(away) < found.reach)
+        assert kept.sum() > 10
+        assert np.all(away[kept] > -found.slack)
+
+
+def test_over_a_range_a_wheel_turned_into_the_worm_is_never_first(monkeypatch):
+    drive = Drive.load("recess-action-full")
+    begin, end = np.radians([2400.0, 2402.0])
+    words = {}
+    for turn in (-ARCSEC, ARCSEC):
+
+        def turned(_, member, __, turn=turn):
+            return ffi.new("mw_wide *", [turn if member == "wheel" else 0.0, 0.0, 0.0])[0]
+
+        monkeypatch.setattr(certified_first_path._Search, "_turn", turned)
+        words[np.sign(turn)] = drive.certify_first_path(begin, end, neighbours=0).outcome
+    opening = _opening(drive, drive.tca([begin]))
+    assert words == {opening: "first", -opening: "not_first"}
+
+
+def test_of_a_range_a_neighbour_that_comes_first_is_named():
+    drive = Drive.load("recess-action-full")
+    found = drive.certify_first_path(*np.radians([100.0, 101.0]), neighbours=1)
+    words = {later: {span.outcome for span in found.of(later)} for later in found.pairs}
+    assert words == {0: {"first"}, -1: {"not_first"}, 1: {"first"}} and found.outcome == "not_first"
+    (failure,) = found.failures
+    assert failure.overlap > 0.0 and failure.begin <= failure.angle <= failure.end
+    alone = proved(drive, np.degrees([failure.angle]), neighbours=1)[2]
+    assert alone.neighbours[-1].outcomes == ("not_first",)
+
+
+def test_where_the_contact_leaves_the_flanks_nothing_is_shown():
+    drive = Drive.load("recess-action-full")
+    found = drive.certify_first_path(*np.radians([48.0, 52.0]), neighbours=0)  # the contact begins at 49.32
+    assert found.outcome == "unknown" and {s.reason for s in found.failures} == {"off_flank"}
+    assert found.spans[-1].outcome == "first" and 49.3 < np.degrees(found.spans[-1].begin) < 51.0
+
+
+@pytest.mark.validate
+def test_an_edge_that_touches_before_is_found_in_a_range():
+    drive = Drive.from_tables(TILTED)
+    found = drive.certify_first_path(*np.radians([-60.0, -40.0]), neighbours=0)
+    assert found.outcome == "not_first"
+    worst = max(found.failures, key=lambda span: span.overlap)
+    assert proved(drive, np.degrees([worst.angle]))[2].outcomes == ("not_first",)

@@ -1,4 +1,4 @@
-"""Every operation on polynomials of two variables holds every function that its arguments hold, exactly judged."""
+"""Every operation on polynomials of three variables holds every function that its arguments hold, exactly judged."""
 
 import ctypes
 import subprocess
@@ -13,7 +13,10 @@ from tests.certified.arithmetic import C
 from tests.certified.test_arithmetic import arb
 from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outside
 
-COUNT, TERMS = 25, [(d - j, j) for d in range(5) for j in range(d + 1)]
+COUNT, TERMS = 25, [(d - j, j, k) for k in range(5) for d in range(5 - k) for j in range(d + 1)]
+
+#: Places in a row: radius; what of the coefficients occurs, highest degree in s and t and highest power of u.
+RADIUS, WIDTH = len(TERMS), len(TERMS) + 2
 
 _LOOP = """
 void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_sheet *s)
@@ -26,12 +29,12 @@ void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_s
 #: Error terms, halved: as of the polynomials of one variable. The bound of a sum of rounded products is twice what its
 #: terms come to at their worst, so it is left out, as are the tails of series.
 _TERMS = {
-    "add": ("a.radius = ((a.radius + b.radius) + ", "MWC_U * rounded)"),
-    "add, radii": ("a.radius = (", "(a.radius + b.radius) + MWC_U"),
+    "add": ("a.radius = ((a.radius + b->radius) + ", "MWC_U * rounded)"),
+    "add, radii": ("a.radius = (", "(a.radius + b->radius) + MWC_U"),
     "mul, degrees beyond the last": ("spread + ", "beyond +"),
-    "mul, first": ("spread = ", "mwc_sheet_part(&a, 0) * b.radius"),
-    "mul, second": ("a.radius * (", "mwc_sheet_part(&b, 0) + b.radius)"),
-    "mul, radii": ("a.radius * (mwc_sheet_part(&b, 0) + ", "b.radius)"),
+    "mul, first": ("spread = ", "size * b->radius"),
+    "mul, second": ("a->radius * (", "other + b->radius)"),
+    "mul, radii": ("a->radius * (other + ", "b->radius)"),
     "div": ("q.radius = least > 0.0 ? ", "mwc_sheet_most(&left)"),
     "sqrt": ("s.radius = defined ? ", "mwc_sheet_most(&left)"),
     "sincos, sine": ("sine->radius = (sine->radius + ", "radius)"),
@@ -47,12 +50,19 @@ def compiled(folder, replaced=None):
         assert text.count(replaced[0]) == 1, (replaced[0], text.count(replaced[0]))
         text = text.replace(*replaced)
     text = text.replace('"ball.h"', '"certify/ball.h"')
+    cube = (C / "certify" / "cube.h").read_text(encoding="utf-8").replace('#include "sheet.h"', "")
     calls = [(op, f"r[k] = mwc_sheet_{op}(a[k], b[k])") for op in BINARY]
     calls += [(op, f"r[k] = mwc_sheet_{op}(a[k])") for op in (*UNARY[:3], "sign")]
     calls.append(("sincos", "mwc_sheet_sincos(a[k], &r[k], &s[k])"))
+    calls += [
+        (f"half_{v}_{name}", f"(r[k] = a[k], mwc_cube_half(&r[k], {v}, {end}))")
+        for v in range(3)
+        for name, end in (("low", "-1.0"), ("high", "1.0"))
+    ]
+    calls.append(("low", "(r[k] = a[k], r[k].c[0] = mwc_cube_low(&a[k]))"))
     source, library = folder / "sheet.c", folder / "sheet.so"
     loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
-    source.write_text(f"#include <stddef.h>\n{text}{loops}", encoding="utf-8")
+    source.write_text(f"#include <stddef.h>\n{text}{cube}{loops}", encoding="utf-8")
     flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
     command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
     subprocess.run([*map(str, command)], check=True)
@@ -60,37 +70,53 @@ def compiled(folder, replaced=None):
 
 
 def run(loaded, op, a, b):
-    """Results (N, 16) of one operation; of ``sincos`` both."""
-    arrays = [np.ascontiguousarray(x, dtype=float) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
+    """Results (N, 37) of one operation; of ``sincos`` both."""
+    arrays = [_marked(x) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
     getattr(loaded, f"run_{op}")(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in arrays))
     return arrays[2:] if op == "sincos" else arrays[2:3]
 
 
-def at(row, s, t):
-    return sum(Fraction(float(c)) * s**i * t**j for c, (i, j) in zip(row, TERMS, strict=False))
+def _marked(rows):
+    """Rows with the degrees that occur in them, as the structure holds them."""
+    rows = np.array(rows, dtype=float)
+    occurs = rows[:, :RADIUS] != 0.0
+    degrees = [(i + j, k) for i, j, k in TERMS]
+    highest = np.where(occurs[..., None], degrees, 0).max(axis=1).astype(np.int32)
+    rows[:, -1] = np.ascontiguousarray(highest).view(float)[:, 0]
+    return rows
+
+
+def at(row, place):
+    powers = [[x**n for n in range(5)] for x in place]
+    return sum(
+        Fraction(float(c)) * powers[0][i] * powers[1][j] * powers[2][k]
+        for c, (i, j, k) in zip(row, TERMS, strict=False)
+        if c
+    )
 
 
 def misses(loaded, op, a, b):
     """How often a value somewhere, with the arguments at an end of their radii, lies outside the result."""
     found, count, one = run(loaded, op, a, b), 0, Fraction(1)
     for k in range(len(a)):
-        held = [result[k] for result in found if np.isfinite(result[k]).all()]
-        for s, t in ((-one, -one), (one, -one), (one, one), (one / 3, -one / 2)):
-            middles = [(at(row, s, t), Fraction(float(row[-1]))) for row in held]
+        held = [result[k] for result in found if np.isfinite(result[k][: RADIUS + 1]).all()]
+        for place in ((-one, -one, -one), (one, -one, one), (one, one, one), (one / 3, -one / 2, one / 5)):
+            middles = [(at(row, place), Fraction(float(row[RADIUS]))) for row in held]
+            ends = [(at(r[k], place), Fraction(float(r[k][RADIUS]))) for r in (a, b)]
             for sides in ((-1, -1), (-1, 1), (1, 1), (0, 0)):
-                x, y = (at(r[k], s, t) + e * Fraction(float(r[k][-1])) for r, e in zip((a, b), sides, strict=True))
+                x, y = (middle + e * radius for (middle, radius), e in zip(ends, sides, strict=True))
                 values = [EXACT[op](x, y)] if op in EXACT else [f(arb(x), arb(y)) for f in BALLS[op]]
                 count += sum(outside(value, *middle) for value, middle in zip(values, middles, strict=False))
     return count
 
 
-def sheets(rng, count, radii, kept=slice(0, 15)):
+def sheets(rng, count, radii, kept=slice(0, RADIUS)):
     """Coefficients that fall with the degree, the first of size 1; radius in shares of it."""
-    rows = np.zeros((count, 16))
-    size = np.array([0.1 ** (i + j) for i, j in TERMS])
-    rows[:, :15][:, kept] = (rng.uniform(-1, 1, (count, 15)) * size)[:, kept]
+    rows = np.zeros((count, WIDTH))
+    size = np.array([0.1 ** sum(term) for term in TERMS])
+    rows[:, :RADIUS][:, kept] = (rng.uniform(-1, 1, (count, RADIUS)) * size)[:, kept]
     rows[:, 0] = rng.uniform(1.0, 2.0, count)
-    rows[:, -1] = radii * rows[:, 0]
+    rows[:, RADIUS] = radii * rows[:, 0]
     return rows
 
 
@@ -100,14 +126,19 @@ def cases(rng):
         a, b = (sheets(rng, COUNT, radii) for _ in range(2))
         for op in (*BINARY, *UNARY):
             yield op, a, b
+    for kept in (slice(0, 15), slice(0, 3), [0, 15, 25, 31, 34], slice(0, 1)):  # fewer variables, lower degrees
+        a = sheets(rng, 3, 1e-9, kept)
+        for op in (*BINARY, *UNARY):
+            yield op, a, b[:3]
+            yield op, b[:3], a
     yield "add", *(sheets(rng, 8 * COUNT, 0.0, slice(0, 1)) for _ in range(2))
     for radii in (0.3, 0.6):
         yield "sqrt", *(sheets(rng, COUNT, radii, slice(0, 1)) for _ in range(2))
-    last = np.zeros((4, 16))
+    last = np.zeros((4, WIDTH))
     last[:, 10] = rng.uniform(1, 2, 4)
     yield "mul", last, last
-    near = np.zeros((4, 16))
-    near[:, -1] = 0.01
+    near = np.zeros((4, WIDTH))
+    near[:, RADIUS] = 0.01
     yield "sincos", near, near
     near[:, 0] = np.pi / 2
     yield "sincos", near, near
@@ -127,11 +158,45 @@ def test_every_operation_holds_the_exact_results(tmp_path):
 
 
 def test_a_sign_that_changes_is_anything_between(tmp_path):
-    a = np.zeros((3, 16))
+    a = np.zeros((3, WIDTH))
     a[:, 0], a[:, 1] = (1.0, 0.01, -1.0), 0.1
     (found,) = run(compiled(tmp_path), "sign", a, a)
-    assert found[:, 0].tolist() == [1.0, 0.0, -1.0] and found[:, -1] == pytest.approx([0.0, 1.0, 0.0], abs=1e-9)
-    assert found[1, -1] >= 1.0
+    assert found[:, 0].tolist() == [1.0, 0.0, -1.0] and found[:, RADIUS] == pytest.approx([0.0, 1.0, 0.0], abs=1e-9)
+    assert found[1, RADIUS] >= 1.0
+
+
+def test_halves_of_the_cube_and_lower_bounds_hold_every_value(tmp_path):
+    rng, loaded = np.random.default_rng(4), compiled(tmp_path)
+    rows = np.concatenate([sheets(rng, 8, 1e-6), sheets(rng, 8, 0.0, slice(0, 15)), sheets(rng, 4, 0.0, [0, 15, 25])])
+    rows[:, 0] *= rng.choice([0.0, 1.0], len(rows))
+    rows[:12, [3, 5]] = 0.4  # convex
+    rows[:4, [3, 5]] *= -1.0
+    places = [[Fraction(int(n), 8) for n in place] for place in rng.integers(-8, 9, (40, 3))]
+    (low,) = run(loaded, "low", rows, rows)
+    for row, bound in zip(rows, low, strict=True):
+        least = min(at(row, place) for place in places) - Fraction(float(row[RADIUS]))
+        assert bound[0] <= least and least - bound[0] < 3.0
+    for variable in range(3):
+        for end in (-1, 1):
+            (halves,) = run(loaded, f"half_{variable}_{'low' if end < 0 else 'high'}", rows, rows)
+            for row, half in zip(rows, halves, strict=True):
+                for place in places[:6]:
+                    inner = [*place]
+                    inner[variable] = (place[variable] + end) / 2
+                    off = abs(at(row, inner) - at(half, place))
+                    assert off <= Fraction(float(half[RADIUS])) - Fraction(float(row[RADIUS]))
+
+
+def test_the_lower_bound_of_a_convex_polynomial_is_sharp(tmp_path):
+    rows = np.zeros((2, WIDTH))
+    rows[:, [3, 5]] = 0.5
+    rows[:, 4] = 0.3
+    rows[0, [16, 17]] = 0.2, -0.1  # the lowest place moves with u
+    rows[0, 25] = 0.05
+    (found,) = run(compiled(tmp_path), "low", rows, rows)
+    assert np.all(found[:, 0] <= 0.0) and found[1, 0] > -1e-10
+    plain = -np.abs(rows[:, :RADIUS]).sum(axis=1)
+    assert np.all(found[:, 0] > 0.1 * plain)
 
 
 @pytest.mark.validate

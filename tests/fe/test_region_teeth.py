@@ -8,8 +8,7 @@ from on_flank import distance_from_flank
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.fe import analysis, loaded
-from meshwright.fe.analysis import Settings, prepare
+from meshwright.fe import loaded
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.closed_body import gear_tooth
 from meshwright.fe.compliance import tooth_compliance
@@ -23,7 +22,6 @@ from meshwright.flank.known_side import KnownSide
 from tests.quick import quick
 
 LOAD = Load(50e3, "wheel")
-MODEST = MeshDensity(growth=3.0, fillet_rows=4, rim_rows=3, coarse_fillet_rows=3)
 
 
 @pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate")))
@@ -166,21 +164,6 @@ def test_a_hypoid_pair_under_load(capsys):
         errors = [[p[f"{key}_transmission_error_arcsec"] for key in ("unloaded", "loaded")] for p in points]
         lags.append([abs(one - other) for one, other in errors])
     assert all(less < more < 4.0 * less for less, more in zip(*lags, strict=True))
-
-
-@pytest.mark.slow
-def test_finite_elements_of_a_hypoid_pair(ccx, tmp_path):
-    """CalculiX on the meshed pair: its gate holds, pressure as Hertz's and rotation as semi-analytic within 5 %."""
-    gear, angle = gear_pair(Drive.load("bevel-hypoid")), np.radians(43.0)
-    compliance = {name: tooth_compliance(getattr(gear, name)) for name in ("pinion", "wheel")}
-    settings = Settings(1, 3600.0, density=MODEST)
-    prepared = prepare(gear, compliance, angle, Load(100e3, "wheel"), settings, tmp_path / "run")
-    document = analysis.solve(prepared, ccx, settings)
-    assert all(check["held"] for check in document["gate"].values()), document["gate"]
-    (one,), (expected,) = document["pairs"], prepared.loaded.pairs
-    assert one["force_n"] == pytest.approx(expected.force, rel=5e-3)
-    assert one["peak_pressure_mpa"] == pytest.approx(expected.hertz.peak_pressure, rel=0.05)
-    assert document["rotation_rad"] == pytest.approx(prepared.loaded.rotation, rel=0.05)
 
 
 def test_a_bevel_pair_that_touches_along_lines_is_refused(capsys):

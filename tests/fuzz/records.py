@@ -15,7 +15,8 @@ import traceback
 from collections import Counter
 from pathlib import Path
 
-from derive.audit import check
+from derive.audit.checker import check_record
+from derive.audit.checker.refusal import Rejected
 from tests.audit import forger
 
 #: What the checker does not read, by object and key: where a statement stands, what a reader may think of it, under
@@ -92,8 +93,8 @@ def one(chance, ledger, folder):
     place = mutate(chance, forged.objects)
     forged.sealed(everything=True)
     try:
-        check.verify(record)
-    except check.Rejected:
+        check_record.verify(record)
+    except Rejected:
         return "refused", ""
     if place is None:
         return "same", ""

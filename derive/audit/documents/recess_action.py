@@ -227,6 +227,7 @@ across = Rx(lam1)@vec(0, 0, 1)
     },
 )
 
+
 def _throat(shift: str):
     """The drive's rule for the wheel's tip at 90 degrees, with the paper's limits and the pitch line shifted."""
     letters = {"dx": shift, "limits": "1", "Sigma": "pi/2", "m_n": "mn", "T_2": "T2", "lambda_worm": "lam3"}

@@ -84,6 +84,7 @@ N_g = turn@N
     },
 )
 
+
 def reserve(teeth: int, degrees: str, width: int) -> str:
     """Left side of the undercut condition at the end of the edge (l = 0) and of the face, R = r = mT/2, m = a = 4,
     convex.

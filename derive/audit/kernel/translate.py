@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from derive.audit import check
+from derive.audit.checker import certificates, numbers, points, polynomials, record, trees
 
 RESERVED = frozenset(
     [
@@ -105,7 +105,7 @@ LONGEST = 100_000
 WORK = 10**7
 
 
-class Written(check.Point):
+class Written(points.Point):
     """Trees evaluated to expressions; an exact zero leaves no trace."""
 
     def constant(self, number: int):
@@ -130,7 +130,7 @@ def theorems(objects: dict[str, dict]) -> dict[str, list[Theorem]]:
         if item["object"] == "certificate" and item["kind"] == "ring_nf":
             equation = objects[item["equation"]]
             document = equation["id"].partition("/")[0]
-            found.setdefault(document, []).extend(_theorems(item, equation, check.definitions_of(equation, objects)))
+            found.setdefault(document, []).extend(_theorems(item, equation, record.definitions_of(equation, objects)))
     return found
 
 
@@ -154,13 +154,13 @@ def module_name(document: str) -> str:
 
 
 def _theorems(certificate: dict, equation: dict, definitions: dict) -> Iterator[Theorem]:
-    scope = check.scope_of(certificate, equation, definitions)
+    scope = certificates.scope_of(certificate, equation, definitions)
     env = Written(scope)
     stem = re.sub(r"\W+", "_", equation["id"]).strip("_") + f"_{certificate['sha256'][:8]}"
     head = f"(* {equation['id'].replace('(*', '( *')}: certificate {certificate['sha256'][:16]} *)\n"
     for number, root in enumerate(certificate["roots"]):
         yield _root(f"{stem}_root{number}", head, root, certificate, env)
-    left, right = (check.flat(check.evaluate(equation[side], env)) for side in ("lhs", "rhs"))
+    left, right = (trees.flat(trees.evaluate(equation[side], env)) for side in ("lhs", "rhs"))
     for number, (a, b) in enumerate(zip(left, right, strict=True)):
         component = certificate["components"][number]
         scale = _scale(a, b, component, scope)
@@ -170,10 +170,10 @@ def _theorems(certificate: dict, equation: dict, definitions: dict) -> Iterator[
 def _root(name: str, head: str, root: dict, certificate: dict, env: Written) -> Theorem:
     """The radicand is the square of the generator over the square of its divisor."""
     square = next((r["square"] for r in certificate["relations"] if r["generator"] == root["generator"]), None)
-    divisor = env.polynomial(check.read_polynomial(root["divisor"]))
-    radicand = check.evaluate(root["radicand"], env)
-    over = check.inverse(check.mul(divisor, divisor))
-    stated = radicand if square is None else check.mul(env.polynomial(check.read_polynomial(square)), over)
+    divisor = env.polynomial(polynomials.read_polynomial(root["divisor"]))
+    radicand = trees.evaluate(root["radicand"], env)
+    over = numbers.inverse(numbers.mul(divisor, divisor))
+    stated = radicand if square is None else numbers.mul(env.polynomial(polynomials.read_polynomial(square)), over)
     return _theorem(name, head, radicand, stated, [], certificate["generators"], [])
 
 
@@ -182,18 +182,18 @@ def _scale(left, right, component: dict, scope: dict) -> list[dict]:
 
     The recorded numerator is that of the sides times these.
     """
-    env = check.Expanded(scope, WORK)
-    difference = check.add(_expanded(left, env), check.neg(_expanded(right, env)))
+    env = points.Expanded(scope, WORK)
+    difference = numbers.add(_expanded(left, env), numbers.neg(_expanded(right, env)))
     have = {} if type(difference) is int else dict(difference.factors)
     missing: list[dict] = []
     for text, times in component["denominators"]:
-        factor = check.read_polynomial(text)
+        factor = polynomials.read_polynomial(text)
         key = tuple(sorted(env.named(factor).items()))
         missing += [factor] * max(0, times - have.get(key, 0))
     return missing
 
 
-def _expanded(term: Any, env: check.Expanded) -> Any:  # noqa: ANN401  0, or a value of the checker's ring
+def _expanded(term: Any, env: points.Expanded) -> Any:  # noqa: ANN401  0, or a value of the checker's ring
     if not isinstance(term, Term):
         return 0
     match term.node:
@@ -213,7 +213,7 @@ def _expanded(term: Any, env: check.Expanded) -> Any:  # noqa: ANN401  0, or a v
 def _pairs(certificate: dict, component: dict) -> list[tuple[dict, str, dict]]:
     """(cofactor, generator, square) of every relation that this component uses."""
     return [
-        (check.read_polynomial(cofactor), relation["generator"], check.read_polynomial(relation["square"]))
+        (polynomials.read_polynomial(cofactor), relation["generator"], polynomials.read_polynomial(relation["square"]))
         for relation, cofactor in zip(certificate["relations"], component["cofactors"], strict=True)
         if cofactor
     ]

@@ -1,0 +1,34 @@
+"""A check at inputs drawn anew until one is found at which all roots exist."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import repeat
+from random import Random, SystemRandom
+
+from .modular import NoRoot
+from .refusal import Rejected
+
+#: Inputs that may be drawn until every radicand is a square, and inputs at which a check may fail before it is over.
+ATTEMPTS = 20000
+REFUSALS = 24
+
+
+def attempt(check: Callable[..., None], *arguments: object, sources: Iterable[Random] | None = None) -> None:
+    """Repeat a check with new inputs until every radicand is a square and every root has the sign that its real value
+    has.
+
+    Modulo a prime, sqrt(x*y*y) is y*sqrt(x) only up to sign, so a right program passes at a share of all inputs. A
+    wrong one passes at none: one input at which everything holds is enough.
+    """
+    refusals: list[Rejected] = []
+    for rng in sources or repeat(SystemRandom(), ATTEMPTS):
+        try:
+            return check(*arguments, rng)
+        except NoRoot:
+            continue
+        except Rejected as reason:
+            refusals.append(reason)
+            if len(refusals) == REFUSALS:
+                break
+    raise refusals[-1] if refusals else Rejected("no input was found at which every root exists")

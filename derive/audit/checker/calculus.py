@@ -1,0 +1,165 @@
+"""Jacobian, step, derivatives along a path, flanks and their curvature against calculus."""
+
+from __future__ import annotations
+
+import re
+from random import Random
+
+from .machine import Machine, machine
+from .modular import PRIME, Number
+from .refusal import require
+from .straight_line import Header
+
+
+def check_jacobian(header: Header, rng: Random) -> None:
+    run = machine(header, "eval", rng)
+    rows = sum(name.startswith("R[") for name in run.function.definitions)
+    columns = sum(name.startswith("J[") for name in run.function.definitions) // rows
+    for i in range(rows):
+        residual = run.value(f"R[{i}]")
+        rates = residual.rates + (0,) * (columns - len(residual.rates)) if residual.rates else (0,) * columns
+        for j in range(columns):
+            require(
+                run.value(f"J[{i * columns + j}]").value == rates[j] % PRIME,
+                f"eval: J[{i}][{j}] is not the derivative of R[{i}]",
+            )
+
+
+def check_assembly(header: Header, rng: Random) -> None:
+    """Residual and observation at one input.
+
+    R[0..2] is the difference of the two points, in whatever frame it was formed.
+    """
+    run = machine(header, "observe", rng)
+    other = Machine(run.inputs, header.functions["eval"], run.earlier, run.circle)
+    places = [run.function.outputs[f"point_{body}_f"][0] for body in ("pinion", "wheel")]
+    first, second = ([run.value(f"o[{at + k}]").value for k in range(3)] for at in places)
+    distance = sum((a - b) ** 2 for a, b in zip(first, second, strict=True))
+    require(
+        (distance - sum(other.value(f"R[{k}]").value ** 2 for k in range(3))) % PRIME == 0,
+        "eval: R[0..2] is not the distance of the two points",
+    )
+
+
+def check_agreement(header: Header, body: str, rng: Random) -> None:
+    """Flank and observation at one input: what both give in the body's frame is the same."""
+    seen = machine(header, "observe", rng)
+    own = {f"q[{k}]": seen.inputs[f"x[{place}]"] for k, place in enumerate(header.unknowns[body])}
+    flank = Machine(seen.inputs | own, header.functions[f"flank_{body}"], seen.earlier, seen.circle)
+    for key, (at, size) in flank.function.outputs.items():
+        first, _, rest = key.partition("_")
+        if first in ("point", "regular", "margin"):
+            there, _ = seen.function.outputs[f"{first}_{body}" + (f"_{rest}" if rest else "")]
+            for k in range(size):
+                require(
+                    flank.value(f"o[{at + k}]").value == seen.value(f"o[{there + k}]").value,
+                    f"flank_{body}: {key} is not that of the observation",
+                )
+
+
+def check_flank(header: Header, name: str, rng: Random) -> None:
+    run = machine(header, name, rng, arcs=True)
+    outputs = run.function.outputs
+
+    def vector(key: str) -> list[Number]:
+        at, size = outputs[key]
+        return [run.value(f"o[{at + k}]") for k in range(size)]
+
+    tangents = [key for key in outputs if key.startswith("tangent_")]
+    point, normal = vector("point"), vector("normal")
+    require(sum(n.value * n.value for n in normal) % PRIME == 1, f"{name}: the normal has not length one")
+    meets = []
+    for position, key in enumerate(tangents):
+        tangent = vector(key)
+        for k in range(3):
+            rate = point[k].rates[position] if len(point[k].rates) > position else 0
+            require(tangent[k].value == rate % PRIME, f"{name}: {key} is not the derivative of the point")
+        if sum(n.value * t.value for n, t in zip(normal, tangent, strict=True)) % PRIME:
+            meets.append(key)
+    implicit = [key for key in outputs if re.fullmatch(r"condition_\d+", key)]
+    require(len(meets) == len(implicit), f"{name}: the normal is not perpendicular to {', '.join(meets)}")
+    for key in implicit:
+        (condition,) = vector(key)
+        slopes = [number.value for number in vector(f"{key}_slopes")]
+        require(
+            slopes == [rate % PRIME for rate in condition.rates], f"{name}: the slopes of {key} are not its derivatives"
+        )
+
+
+def check_step(header: Header, rng: Random) -> None:
+    """J (x - new x) = R: the fused step solves the linear system that R and J state."""
+    run = machine(header, "eval", rng)
+    step = Machine(run.inputs, header.functions["step"], run.earlier, run.circle)
+    n = sum(name.startswith("R[") for name in run.function.definitions)
+    change = [run.inputs[f"x[{k}]"].value - step.value(f"new x[{k}]").value for k in range(n)]
+    for i in range(n):
+        moved = sum(run.value(f"J[{i * n + j}]").value * change[j] for j in range(n))
+        require((moved - run.value(f"R[{i}]").value) % PRIME == 0, f"step: row {i} of J dx = -R does not hold")
+
+
+def check_along(header: Header, rng: Random) -> None:
+    """d1 is the derivative of R along v, a direction of (x, phi), and d2 that of d1."""
+    n = header.sizes["eval"]
+    run = machine(header, "eval", rng)
+    rates = {f"x[{k}]": k for k in range(n)} | {"phi": n}
+    inputs = dict(run.inputs)
+    for key, place in rates.items():
+        inputs[key] = Number(inputs[key].value, tuple(int(j == place) for j in range(n + 1)), inputs[key].form)
+    setup = Machine(inputs, header.functions["setup"], None, run.circle)
+    instant = Machine(inputs, header.functions["set_phi"], setup, run.circle)
+    residual = Machine(inputs, header.functions["eval"], instant, run.circle)
+    speed = {f"v[{k}]": Number(rng.randrange(1, PRIME)) for k in range(n + 1)}
+    along = Machine(inputs | speed, header.functions["along"], setup, run.circle)
+
+    def slope(number: Number) -> int:
+        return sum(rate * speed[f"v[{k}]"].value for k, rate in enumerate(number.rates)) % PRIME
+
+    for i in range(n):
+        first = along.value(f"d1[{i}]")
+        require(first.value == slope(residual.value(f"R[{i}]")), f"along: d1[{i}] is not the derivative of R[{i}]")
+        require(along.value(f"d2[{i}]").value == slope(first), f"along: d2[{i}] is not the derivative of d1[{i}]")
+
+
+def check_start(header: Header, rng: Random) -> None:
+    """The Jacobian of the start system."""
+    run = machine(header, "start_eval", rng)
+    n = sum(name.startswith("R[") for name in run.function.definitions)
+    for i in range(n):
+        rates = run.value(f"R[{i}]").rates or (0,) * n
+        for j in range(n):
+            require(run.value(f"J[{i * n + j}]").value == rates[j] % PRIME, f"start_eval: J[{i}][{j}] is no derivative")
+
+
+def check_curvature(header: Header, name: str, rng: Random) -> None:
+    """An orthonormal basis of the tangent plane, the second form from the change of the normal, its trace and
+    determinant from the principal curvatures.
+    """
+    run = machine(header, name, rng, arcs=True)
+    curved = Machine(run.inputs, header.functions[f"curvature_{name}"], run.earlier, run.circle)
+
+    def read(machine_: Machine, key: str) -> list[Number]:
+        at, size = machine_.function.outputs[key]
+        return [machine_.value(f"o[{at + k}]") for k in range(size)]
+
+    def product(a: list[int], b: list[int]) -> int:
+        return sum(x * y for x, y in zip(a, b, strict=True)) % PRIME
+
+    basis = [number.value for number in read(curved, "tangent_basis")]
+    axes_ = basis[:3], basis[3:]
+    normal = read(run, "normal")
+    lengths = [product(axes_[0], axes_[0]), product(axes_[1], axes_[1]), product(axes_[0], axes_[1])]
+    require(lengths == [1, 1, 0], f"curvature_{name}: the basis is not orthonormal")
+    require(
+        all(product(a, [n.value for n in normal]) == 0 for a in axes_), f"curvature_{name}: the basis is not tangent"
+    )
+    form = [number.value for number in read(curved, "second_form")]
+    tangents = [[n.value for n in read(run, key)] for key in run.function.outputs if key.startswith("tangent_")]
+    for first in tangents:
+        for j in range(len(tangents)):
+            turned = [n.rates[j] if n.rates else 0 for n in normal]
+            (a, b), (c, d) = ([product(v, e) for e in axes_] for v in (first, tangents[j]))
+            expected = a * c * form[0] + (a * d + b * c) * form[1] + b * d * form[2]
+            require((expected + product(first, turned)) % PRIME == 0, f"curvature_{name}: not the change of the normal")
+    low, high = (number.value for number in read(curved, "curvature"))
+    require((low + high - form[0] - form[2]) % PRIME == 0, f"curvature_{name}: the curvatures have another sum")
+    require((low * high - form[0] * form[2] + form[1] ** 2) % PRIME == 0, f"curvature_{name}: another product")

@@ -1,0 +1,12 @@
+"""What a checker ends in that does not accept what it reads."""
+
+from __future__ import annotations
+
+
+class Rejected(Exception):
+    """The record is not what it claims to be; the message says where."""
+
+
+def require(condition: object, message: str) -> None:
+    if not condition:
+        raise Rejected(message)

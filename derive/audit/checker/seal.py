@@ -1,0 +1,57 @@
+"""The seal of all generated files, and what headers rest on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from .lines import read_file, read_json
+from .refusal import Rejected, require
+from .verdicts import is_proved
+
+
+def equations_named(text: str) -> list[str]:
+    """The equation ids in the comment at the top of a generated header."""
+    head = text.partition("*/")[0].partition("Equations (")[2]
+    return [line.strip(" *") for line in head.splitlines()[1:] if line.strip(" *")]
+
+
+def check_files(folder: Path, root: str, objects: dict[str, dict]) -> int:
+    """The seal names every generated file and no other; each is unchanged and rests on proved statements."""
+    seal_text = read_file(folder / "artifacts.json")
+    try:
+        seal = read_json(seal_text)
+    except ValueError as error:
+        raise Rejected(f"artifacts.json cannot be read: {error}") from error
+    require(seal_text == json.dumps(seal, indent=1, sort_keys=True) + "\n", "artifacts.json is not canonical")
+    require(set(seal) == {"root", "files"} and seal["root"] == root, "artifacts.json carries another root hash")
+    proved = {item["id"] for item in objects.values() if item["object"] == "verdict" and is_proved(item, objects)}
+    there = {
+        path.relative_to(folder.parent).as_posix()
+        for path in folder.parent.rglob("*")
+        if path.is_file() and path.parent.name != "__pycache__"
+    } - {f"{folder.name}/artifacts.json", "manifest.json"}
+    for name in sorted(there ^ set(seal["files"])):
+        raise Rejected(f"{name} is {'not sealed' if name in there else 'missing'}")
+    for name, expected in seal["files"].items():
+        data = (folder.parent / name).read_bytes()
+        require(set(expected) == {"sha256", "equations"}, f"{name}: not the keys of a seal")
+        require(hashlib.sha256(data).hexdigest() == expected["sha256"], f"{name} has been changed")
+        named = equations_named(data.decode("utf-8")) if name.endswith(".h") else []
+        require(named == expected["equations"], f"{name} names other equations than its seal")
+        require(named or b"_setup(const double" not in data or not name.endswith(".h"), f"{name} names no equation")
+        require(not named or root.encode() in data, f"{name} does not carry the root hash")
+        for key in named:
+            require(key in proved, f"{name} rests on {key}, which is not a proved statement of the record")
+    check_manifest(folder, seal)
+    return len(seal["files"])
+
+
+def check_manifest(folder: Path, seal: dict) -> None:
+    """The list of all files beside the record, where there is one."""
+    path = folder.parent / "manifest.json"
+    if path.is_file():
+        expected = {name: entry["sha256"] for name, entry in seal["files"].items()}
+        expected[f"{folder.name}/artifacts.json"] = hashlib.sha256((folder / "artifacts.json").read_bytes()).hexdigest()
+        require(read_json(read_file(path)).get("files") == expected, "manifest.json lists other files than the seal")
