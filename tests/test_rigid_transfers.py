@@ -95,3 +95,15 @@ def test_pairs_that_lead_together_to_round_off_transmit_no_error():
 def test_where_no_pair_touches_there_is_no_peak_to_peak():
     rigid, _ = teeth(lambda x: -x * x if abs(x) < 0.45 * PITCH else math.nan, -0.5, 0.5)
     assert math.isnan(rigid.peak_to_peak())
+
+
+def test_what_is_transmitted_is_unknown_where_the_first_contact_of_a_pair_is():
+    """A pair that meets its mate, but whose first contact was not found, may lead: no number is given then."""
+
+    def curve(x):
+        return math.inf if 0.30 < x < 0.34 else -0.003 * x * x
+
+    rigid, _ = teeth(curve, -1.0, 1.2)
+    found = rigid.transmitted([0.0, 0.32, 0.1])
+    assert np.isnan(found).tolist() == [False, True, False]
+    assert math.isnan(rigid.peak_to_peak())

@@ -108,7 +108,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     }
     if (best.found) name_limits(&h, &best);
     const double left = fmax(best.highest, best.floor);
-    if (!best.found) return found->status = left > -HUGE_VAL ? MW_DIVERGED : MW_NO_CONTACT;
+    if (!best.found) return found->status = left > best.least ? MW_DIVERGED : MW_NO_CONTACT;
     found->unresolved = fmax(0.0, (left - best.at.value) * fabs(best.at.lever));
     found->wheel_turn = best.at.delta;
     found->lever = best.at.lever;

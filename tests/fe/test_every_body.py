@@ -28,7 +28,7 @@ TEETH = 3
 SEED = 17
 
 ONCE_WRONG = [
-    ("zk-zn-45", "wheel"), ("zk-zn-60", "wheel"), ("face-worm-conical-concave", "wheel"),
+    ("plain-zc", "wheel"), ("zk-zn-45", "wheel"), ("zk-zn-60", "wheel"), ("face-worm-conical-concave", "wheel"),
     ("face-worm-cylindrical-concave", "wheel"), ("bevel-crowned-profile", "pinion"),
 ]  # fmt: skip
 

@@ -32,6 +32,9 @@ STARTS = (0, 1, 2, 4, 8, 16, 32)
 #: Searches that come to the angle and find places, but no extreme of them, before it is given up.
 SEARCHES = 2
 
+#: What stands for a first contact where the flanks meet, but a search for their extreme ends nowhere.
+UNKNOWN = object()
+
 #: Steps from the aligned drive.
 LEAD = 12
 
@@ -46,8 +49,8 @@ class FirstContacts:
     ``kinds``: "tangency", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges that
     cross, None for a tangency; ``limits``: the events. ``errors`` (N,): transmission error, rad. ``points``,
     ``normals`` (N, 3) (out of the pinion), fixed frame; ``levers`` (N,), mm of normal approach per rad of the wheel.
-    ``unresolved`` (N,): a place that the search could have missed overlaps by this at most, mm. ``reason``: why there
-    is none anywhere, or "".
+    ``unresolved`` (N,): a place that the search could have missed overlaps by this at most, mm; infinite where flanks
+    meet whose first contact was not found. ``reason``: why there is none anywhere, or "".
     """
 
     angles: np.ndarray
@@ -117,8 +120,9 @@ def first_contact_of(mesh):
 
 def pair_errors(mesh):
     """Function of a pair's own pinion angles (N,), rad, to the transmission error at which its bounded flanks touch
-    first, NaN where they never do; None where the blank does not bound them. Given an error ``until``, a contact that
-    comes no earlier may be a later one of the pair, or missing: it is found in less time.
+    first, NaN where they never do, infinite where they meet, but it is not found; None where the blank does not bound
+    them. Given an error ``until``, a contact that comes no earlier may be a later one of the pair, or missing: it is
+    found in less time.
     """
     search = mesh.search
     if search is None:
@@ -126,9 +130,15 @@ def pair_errors(mesh):
 
     def errors(angles, until=None):
         found = search.at(mesh.mirror * np.asarray(angles), None if until is None else mesh.mirror * until)
-        return mesh.mirror * np.array([math.nan if f is None else f.wheel_turn for f in found])
+        return mesh.mirror * np.array([_wheel_turn(f) for f in found])
 
     return errors
+
+
+def _wheel_turn(found):
+    if found is None:
+        return math.nan
+    return math.inf if found is UNKNOWN else found.wheel_turn
 
 
 def search_from(drive, path):
@@ -139,6 +149,8 @@ def search_from(drive, path):
 
 
 def _gathered(drive, angles, found, reason):
+    unknown = np.array([f is UNKNOWN for f in found], dtype=bool)
+    found = [None if f is UNKNOWN else f for f in found]
     mirror, nothing = drive.design.mirror, np.full(3, np.nan)
     bodies = drive.design.description["bodies"]
     kinds, members, limits = zip(*(_held(bodies, f) for f in found), strict=True) if len(found) else ((), (), ())
@@ -155,7 +167,7 @@ def _gathered(drive, angles, found, reason):
         points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
         normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
         levers=mirror.sign * column(lambda f: f.lever),
-        unresolved=column(lambda f: f.unresolved),
+        unresolved=np.where(unknown, np.inf, column(lambda f: f.unresolved)),
         reason=reason,
     )
 
@@ -241,8 +253,8 @@ class _Search:
         return cls(drive, table, (kept, views), work, solutions, angles, lead, turn, sense), ""
 
     def at(self, angles, until=None):
-        """``mw_first`` or None at angles (N,) of the right-hand drive; beyond the turn of the wheel ``until``, perhaps
-        of a later contact.
+        """``mw_first``, None or UNKNOWN at angles (N,) of the right-hand drive; beyond the turn of the wheel ``until``,
+        perhaps of a later contact.
         """
         until = -self.sense * math.inf if until is None else until
         design = self.drive.design
@@ -262,7 +274,7 @@ class _Search:
             searches += found.met > 0
             if found.status == library().MW_NO_CONTACT or searches == SEARCHES:
                 break
-        return None
+        return UNKNOWN if searches and found.status == library().MW_DIVERGED else None
 
     def _from(self, known, compiled, state, angle, here, until):
         away, x = angle - self.solved_at[known], self.solutions[known]

@@ -35,11 +35,13 @@ class RigidTeeth:
 
     Angles and errors in rad; with the mesh's sense of rotation the pair that leads has the largest error. ``known``: by
     angle and pair its error, and what it had to exceed to be told for sure: if it does not, the true one does not.
+    ``unknown``: the angles at which a search met the flanks of a pair without finding its first contact.
     """
 
     mesh: object
     first: object
     known: dict = field(default_factory=lambda: defaultdict(dict), repr=False)
+    unknown: set = field(default_factory=set, repr=False)
 
     @cached_property
     def sense(self):
@@ -54,7 +56,8 @@ class RigidTeeth:
         first = pair_errors(mesh)
         found = None if first is None else cls(mesh, first)
         middle = 0.5 * (mesh.window.begin.angle + mesh.window.end.angle)
-        return found if found is not None and math.isfinite(found.ahead(0, middle)) else None
+        bounded = found is not None and (math.isfinite(found.ahead(0, middle)) or found.unknown)
+        return found if bounded else None
 
     def ahead(self, number, angle, least=-math.inf):
         """Sense times the error at which pair ``number`` touches at a pinion angle; −infinity where it never does.
@@ -65,6 +68,8 @@ class RigidTeeth:
         if error <= exceeded and not exceeded <= least:
             until = None if least == -math.inf else self.sense * least
             (error,) = self.first([angle - number * self.mesh.drive.pitch()], until)
+            if math.isinf(error):
+                self.unknown.add(angle)
             error = float(self.sense * error) if math.isfinite(error) else -math.inf
             here[number] = error, least
         return error
@@ -101,19 +106,23 @@ class RigidTeeth:
         return best, highest
 
     def transmitted(self, angles):
-        """Error that rigid teeth transmit at pinion angles (N,), rad: (N,); NaN where no pair touches."""
+        """Error that rigid teeth transmit at pinion angles (N,), rad: (N,); NaN where no pair touches, or none is known
+        to touch first.
+        """
         values, likely = np.empty(len(angles)), None
         for k, angle in enumerate(angles):
             likely, values[k] = self.leader(float(angle), likely)
+        values[[float(angle) in self.unknown for angle in angles]] = np.nan
         return self.sense * np.where(np.isfinite(values), values, np.nan)
 
     def peak_to_peak(self):
-        """Largest less smallest transmitted error of one pitch, rad; NaN if there is an angle at which no pair touches.
+        """Largest less smallest transmitted error of one pitch, rad; NaN if there is an angle at which no pair touches,
+        or none is known to touch first.
 
         Sampled; the transfers between samples are located, and the extremes of the pairs about the extreme samples.
         """
         angles, numbers, values = self._sampled()
-        if not np.isfinite(values).all():
+        if self.unknown or not np.isfinite(values).all():
             return math.nan
         lowest, highest = values.min(), values.max()
         spread = highest - lowest
@@ -131,7 +140,7 @@ class RigidTeeth:
             if not any(_goes_on(three, (angle, sign * error)) for angle, error in shifted):
                 found = self._extreme(sign, angles[k - 1 : k + 2], values[k - 1 : k + 2])
                 lowest, highest = min(lowest, found), max(highest, found)
-        return float(highest - lowest)
+        return math.nan if self.unknown else float(highest - lowest)
 
     def _sampled(self):
         """Angles of one pitch and one beyond either end; number and error (sense times it) of the leader at each."""

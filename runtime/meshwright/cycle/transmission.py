@@ -66,7 +66,7 @@ def transmission_error(mesh):
     upper, lower = _ranges(mesh, (low, high), vertex, transfers)
     teeth = mesh.rigid
     rigid = math.nan if teeth is None else teeth.peak_to_peak()
-    if not math.isfinite(rigid):
+    if teeth is None or not (math.isfinite(rigid) or teeth.unknown):
         rigid = _ranges(mesh, (low, high), vertex, transfers, edge_paths(mesh))[0 if mesh.sense > 0 else 1]
     transmitted, other = (upper, lower) if mesh.sense > 0 else (lower, upper)
     if transfers and math.isfinite(vertex):

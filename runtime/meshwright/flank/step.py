@@ -14,9 +14,10 @@ from meshwright.flank.border import DEGREE, cornered, loops
 from meshwright.flank.lines import corners, lines
 from meshwright.flank.mesh import mesh
 
-#: The surface is refined until it departs by no more than this from the exact one, mm, or has as many points as that.
+#: The surface is refined until it departs by no more than this from the exact one, mm, or has as many points as that in
+#: a direction: both are refined together over a chart, each as it needs them between lines across the region.
 TOLERANCE = 5e-4
-MOST = 257
+MOST, MOST_BETWEEN = 257, 1025
 
 #: Border points and surface points keep so far from the edges of the B-spline's own domain, in parts of it.
 ROOM = 0.02
@@ -162,7 +163,7 @@ def _along_lines(lines_at, first, last, counts):
         if deviation <= TOLERANCE:
             return spline, deviation
         worst = np.array([away[1::2, ::2].max(), away[::2, 1::2].max()])
-        more = (worst > 0.25 * worst.max()) & (2 * np.array(counts) <= MOST)
+        more = (worst > 0.25 * worst.max()) & (2 * np.array(counts) <= MOST_BETWEEN)
         finer = [2 * n - 1 if grows else n for n, grows in zip(counts, more, strict=True)]
         if finer == counts:
             return spline, deviation
