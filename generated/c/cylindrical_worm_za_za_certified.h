@@ -146,9 +146,9 @@ static const unsigned short cylindrical_worm_za_za_certified_observed_operation[
 1,109,87,109, 2,114,72,114, 2,119,115,119, 0,119,114,119, 2,119,109,119, 2,80,80,64, 2,109,85,123, 0,109,80,109, 2,106,72,106, 2,90,115,90, 
 1,90,106,90, 2,90,109,90, 0,90,119,90, 1,90,81,90, 2,90,90,48, 2,81,78,64, 2,119,82,123, 1,119,81,119, 3,119,119,119, 2,123,78,123, 
 2,64,82,64, 0,64,123,64, 3,64,64,64, 0,64,119,64, 6,64,64,64, 1,119,49,64, 1,64,50,64, 3,64,64,64, 0,73,75,73, 3,75,73,73, 
-0,75,64,75, 6,75,75,75, 0,75,75,51, 9,64,73,73, 2,64,73,64, 1,64,52,64, 1,73,53,12, 2,85,85,54, 
+0,75,64,75, 6,75,75,75, 0,75,75,51, 9,73,73,73, 1,73,52,73, 1,64,53,12, 2,85,85,54, 
 };
-static const unsigned short cylindrical_worm_za_za_certified_observed_output[] = { 58,61,63,65,67,69,91,88,94,95,96,98,89,100,117,121,83,62,90,119,75,64,73,85 };
+static const unsigned short cylindrical_worm_za_za_certified_observed_output[] = { 58,61,63,65,67,69,91,88,94,95,96,98,89,100,117,121,83,62,90,119,75,73,64,85 };
 
 static const unsigned short cylindrical_worm_za_za_certified_along_input[] = { 119,121,125,126,130,120,1,114,124,122,3,4,123,5,6,2,7,8,9,10,11,12,127,128,129,30,13,48,17,18,19,33,21,22,20,25,38,24,26,37,27,28,34,36 };
 static const mw_wide cylindrical_worm_za_za_certified_along_constant[] = { { 1.0, 0.0, 0.0 },  };
@@ -201,15 +201,16 @@ static const unsigned short cylindrical_worm_za_za_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_za_za_certified_along_output[] = { 61,60,54,96,106,79,90,116,93,85 };
 
-static const unsigned short cylindrical_worm_za_za_certified_flank_0_input[] = { 120,119,13,14,15,10,16,45,46,48,47,49,50,51 };
+static const unsigned short cylindrical_worm_za_za_certified_flank_0_input[] = { 116,120,119,13,14,15,10,16,45,46,48,47,49,50,51 };
 static const mw_wide cylindrical_worm_za_za_certified_flank_0_constant[] = { { 0.0, 0.0, 0.0 } };
 static const unsigned short cylindrical_worm_za_za_certified_flank_0_operation[] = {
-7,14,0,15, 2,16,1,15, 2,17,1,14, 2,18,0,2, 1,19,1,3, 2,19,4,19, 0,19,5,19, 2,19,19,6, 0,19,18,19, 2,18,1,7, 
-2,20,18,15, 2,21,8,14, 1,21,20,21, 2,20,2,14, 2,22,9,16, 1,22,20,22, 2,22,21,22, 2,18,18,14, 2,21,8,15, 0,21,18,21, 
-2,18,9,17, 2,20,2,15, 0,20,18,20, 2,20,21,20, 1,20,22,20, 2,22,10,1, 2,21,15,16, 2,18,14,17, 0,18,21,18, 2,18,22,18, 
-1,18,20,18, 2,18,18,11, 5,18,18,18, 3,20,16,16, 3,22,17,17, 0,22,20,22, 6,22,22,22, 1,20,12,22, 1,22,22,13, 5,21,17,17, 
+0,15,0,1, 7,16,15,17, 2,15,2,17, 2,18,2,16, 2,19,1,3, 1,20,2,4, 2,20,5,20, 0,20,6,20, 2,20,20,7, 0,20,19,20, 
+2,19,2,8, 7,21,1,22, 2,23,19,22, 2,24,9,21, 1,24,23,24, 2,23,3,21, 2,25,2,22, 2,26,10,25, 1,26,23,26, 2,26,24,26, 
+2,19,19,21, 2,24,9,22, 0,24,19,24, 2,19,2,21, 2,23,10,19, 2,27,3,22, 0,27,23,27, 2,27,24,27, 1,27,26,27, 2,26,11,2, 
+2,22,22,25, 2,21,21,19, 0,21,22,21, 2,21,26,21, 1,21,27,21, 2,21,21,12, 5,21,21,21, 3,25,25,25, 3,19,19,19, 0,19,25,19, 
+6,19,19,19, 1,25,13,19, 1,19,19,14, 5,27,18,18, 
 };
-static const unsigned short cylindrical_worm_za_za_certified_flank_0_output[] = { 16,17,19,18,20,22,15,14,9,21,16,2 };
+static const unsigned short cylindrical_worm_za_za_certified_flank_0_output[] = { 15,18,20,21,25,19,17,16,10,27,15,3 };
 
 static const unsigned short cylindrical_worm_za_za_certified_flank_1_input[] = { 120,119,2,3,4,5,6,7,8,9,10,11,12,20,21,22,25,30,31,32,33,34,36,52,53,54,55,56,57,58 };
 static const mw_wide cylindrical_worm_za_za_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 },  };
@@ -230,8 +231,8 @@ static const unsigned short cylindrical_worm_za_za_certified_flank_1_operation[]
 2,56,51,56, 2,51,38,46, 2,52,44,47, 1,52,51,52, 2,45,45,22, 2,39,32,39, 1,39,45,39, 2,45,39,55, 2,31,31,15, 2,54,5,54, 
 0,54,31,54, 2,31,54,35, 0,31,45,31, 2,31,52,31, 2,47,38,47, 2,46,44,46, 0,46,47,46, 2,47,39,57, 2,38,54,37, 1,38,47,38, 
 2,38,46,38, 0,38,31,38, 1,38,56,38, 2,38,38,23, 3,56,43,43, 3,31,49,49, 0,31,56,31, 6,31,31,31, 1,56,24,31, 1,31,25,31, 
-3,31,31,31, 3,46,50,50, 0,46,31,46, 6,46,46,46, 0,46,46,26, 9,31,50,50, 2,31,50,31, 1,31,27,31, 1,47,28,1, 2,44,44,29, 
-5,37,37,37, 5,39,39,39, 
+3,31,31,31, 3,46,50,50, 0,46,31,46, 6,46,46,46, 0,46,46,26, 9,31,50,50, 1,31,27,31, 1,47,28,1, 2,44,44,29, 5,37,37,37, 
+5,39,39,39, 
 };
 static const unsigned short cylindrical_worm_za_za_certified_flank_1_output[] = { 43,49,50,38,56,46,31,47,44,57,55,54,37,35,39 };
 
@@ -440,11 +441,11 @@ static const mw_certified cylindrical_worm_za_za_certified = {
     { 142, 28, 9, 314, 314, 116, cylindrical_worm_za_za_certified_setup_input, cylindrical_worm_za_za_certified_setup_constant, cylindrical_worm_za_za_certified_setup_operation, cylindrical_worm_za_za_certified_setup_output },
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_za_za_certified_instant_input, cylindrical_worm_za_za_certified_instant_constant, cylindrical_worm_za_za_certified_instant_operation, cylindrical_worm_za_za_certified_instant_output },
     { 103, 47, 2, 278, 119, 30, cylindrical_worm_za_za_certified_equations_input, cylindrical_worm_za_za_certified_equations_constant, cylindrical_worm_za_za_certified_equations_operation, cylindrical_worm_za_za_certified_equations_output },
-    { 128, 55, 3, 568, 568, 24, cylindrical_worm_za_za_certified_observed_input, cylindrical_worm_za_za_certified_observed_constant, cylindrical_worm_za_za_certified_observed_operation, cylindrical_worm_za_za_certified_observed_output },
+    { 128, 55, 3, 567, 567, 24, cylindrical_worm_za_za_certified_observed_input, cylindrical_worm_za_za_certified_observed_constant, cylindrical_worm_za_za_certified_observed_operation, cylindrical_worm_za_za_certified_observed_output },
     { 119, 44, 1, 449, 449, 10, cylindrical_worm_za_za_certified_along_input, cylindrical_worm_za_za_certified_along_constant, cylindrical_worm_za_za_certified_along_operation, cylindrical_worm_za_za_certified_along_output },
     {
-        { 23, 14, 0, 40, 39, 12, cylindrical_worm_za_za_certified_flank_0_input, cylindrical_worm_za_za_certified_flank_0_constant, cylindrical_worm_za_za_certified_flank_0_operation, cylindrical_worm_za_za_certified_flank_0_output },
-        { 58, 30, 1, 172, 170, 15, cylindrical_worm_za_za_certified_flank_1_input, cylindrical_worm_za_za_certified_flank_1_constant, cylindrical_worm_za_za_certified_flank_1_operation, cylindrical_worm_za_za_certified_flank_1_output }
+        { 28, 15, 0, 44, 10, 12, cylindrical_worm_za_za_certified_flank_0_input, cylindrical_worm_za_za_certified_flank_0_constant, cylindrical_worm_za_za_certified_flank_0_operation, cylindrical_worm_za_za_certified_flank_0_output },
+        { 58, 30, 1, 171, 48, 15, cylindrical_worm_za_za_certified_flank_1_input, cylindrical_worm_za_za_certified_flank_1_constant, cylindrical_worm_za_za_certified_flank_1_operation, cylindrical_worm_za_za_certified_flank_1_output }
     },
     { 29, 16, 2, 19, 19, 36, cylindrical_worm_za_za_certified_placement_input, cylindrical_worm_za_za_certified_placement_constant, cylindrical_worm_za_za_certified_placement_operation, cylindrical_worm_za_za_certified_placement_output },
     1

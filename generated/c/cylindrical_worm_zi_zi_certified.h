@@ -176,9 +176,9 @@ static const unsigned short cylindrical_worm_zi_zi_certified_observed_operation[
 2,107,80,107, 2,88,90,88, 0,88,107,88, 2,88,125,88, 2,102,102,70, 2,125,108,133, 0,125,102,125, 2,130,80,130, 2,115,90,115, 1,115,130,115, 
 2,115,125,115, 0,115,88,115, 1,115,100,115, 2,115,115,43, 2,100,101,70, 2,88,104,133, 1,88,100,88, 3,88,88,88, 2,133,101,133, 2,70,104,70, 
 0,70,133,70, 3,70,70,70, 0,70,88,70, 6,70,70,70, 1,88,44,70, 1,70,45,70, 3,70,70,70, 0,81,91,81, 3,91,81,81, 0,91,70,91, 
-6,91,91,91, 0,91,91,46, 9,70,81,81, 2,70,81,70, 1,70,47,70, 1,81,48,11, 2,108,108,49, 
+6,91,91,91, 0,91,91,46, 9,81,81,81, 1,81,47,81, 1,70,48,11, 2,108,108,49, 
 };
-static const unsigned short cylindrical_worm_zi_zi_certified_observed_output[] = { 53,56,62,73,76,77,116,113,119,112,120,122,114,64,93,98,109,69,58,115,88,91,70,81,108,82 };
+static const unsigned short cylindrical_worm_zi_zi_certified_observed_output[] = { 53,56,62,73,76,77,116,113,119,112,120,122,114,64,93,98,109,69,58,115,88,91,81,70,108,82 };
 
 static const unsigned short cylindrical_worm_zi_zi_certified_along_input[] = { 112,114,118,119,123,113,1,107,117,115,3,116,4,5,6,7,8,2,9,10,11,12,13,120,121,122,30,14,15,23,41,18,19,20,29,21,25,24,26,27,28,32 };
 static const mw_wide cylindrical_worm_zi_zi_certified_along_constant[] = { { 1.0, 0.0, 0.0 }, { 0.5, 0.0, 0.0 },  };
@@ -256,18 +256,19 @@ static const unsigned short cylindrical_worm_zi_zi_certified_along_operation[] =
 };
 static const unsigned short cylindrical_worm_zi_zi_certified_along_output[] = { 60,129,138,150,158,106,120,167,142,130 };
 
-static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_input[] = { 113,112,14,15,16,17,6,23,24,41,42,43,44 };
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_input[] = { 109,113,112,14,15,16,17,6,23,24,41,42,43,44 };
 static const mw_wide cylindrical_worm_zi_zi_certified_flank_0_constant[] = { { 1.0, 0.0, 0.0 }, { 0.5, 0.0, 0.0 },  };
 static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_operation[] = {
-7,15,0,16, 2,17,1,16, 2,18,1,15, 2,19,0,2, 1,20,1,3, 0,21,1,3, 2,22,20,21, 6,23,22,22, 8,24,23,3, 7,25,24,26, 
-4,27,13,26, 2,28,25,27, 1,24,4,24, 0,24,28,24, 2,24,2,24, 0,24,5,24, 2,24,6,24, 0,24,19,24, 2,19,1,3, 0,22,22,7, 
-2,22,23,22, 4,22,19,22, 3,19,28,28, 2,19,19,8, 2,19,22,19, 2,22,6,1, 2,19,19,22, 2,29,16,19, 2,30,8,15, 1,30,29,30, 
-2,29,2,15, 0,21,20,21, 4,31,14,23, 2,31,21,31, 2,31,3,31, 3,23,23,23, 0,23,7,23, 4,23,31,23, 2,26,26,23, 2,25,25,23, 
-2,25,28,25, 0,25,26,25, 2,25,27,25, 1,23,25,23, 2,23,23,9, 2,25,23,17, 1,25,29,25, 2,25,30,25, 2,19,15,19, 2,30,8,16, 
-0,30,19,30, 2,19,23,18, 2,29,2,16, 0,29,19,29, 2,29,30,29, 1,29,25,29, 2,25,16,17, 2,30,15,18, 0,30,25,30, 2,30,22,30, 
-1,30,29,30, 2,30,30,10, 5,30,30,30, 3,29,17,17, 3,22,18,18, 0,22,29,22, 6,22,22,22, 1,29,11,22, 1,22,22,12, 5,25,18,18, 
+0,16,0,1, 7,17,16,18, 2,16,2,18, 2,19,2,17, 2,20,1,3, 1,21,2,4, 0,22,2,4, 2,23,21,22, 6,24,23,23, 8,25,24,4, 
+7,26,25,27, 4,28,14,27, 2,29,26,28, 1,25,5,25, 0,25,29,25, 2,25,3,25, 0,25,6,25, 2,25,7,25, 0,25,20,25, 7,20,1,30, 
+2,31,2,4, 0,23,23,8, 2,23,24,23, 4,23,31,23, 3,31,29,29, 2,31,31,9, 2,31,23,31, 2,23,7,2, 2,31,31,23, 2,32,30,31, 
+2,33,9,20, 1,33,32,33, 2,32,3,20, 0,22,21,22, 4,34,15,24, 2,34,22,34, 2,34,4,34, 3,24,24,24, 0,24,8,24, 4,24,34,24, 
+2,27,27,24, 2,26,26,24, 2,26,29,26, 0,26,27,26, 2,26,28,26, 1,24,26,24, 2,24,24,10, 2,26,2,30, 2,28,24,26, 1,28,32,28, 
+2,28,33,28, 2,31,20,31, 2,33,9,30, 0,33,31,33, 2,31,2,20, 2,32,24,31, 2,27,3,30, 0,27,32,27, 2,27,33,27, 1,27,28,27, 
+2,30,30,26, 2,20,20,31, 0,20,30,20, 2,20,23,20, 1,20,27,20, 2,20,20,11, 5,20,20,20, 3,26,26,26, 3,31,31,31, 0,31,26,31, 
+6,31,31,31, 1,26,12,31, 1,31,31,13, 5,27,19,19, 
 };
-static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_output[] = { 17,18,24,30,29,22,20,16,15,23,25,17,2 };
+static const unsigned short cylindrical_worm_zi_zi_certified_flank_0_output[] = { 16,19,25,20,26,31,21,18,17,24,27,16,3 };
 
 static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_input[] = { 113,112,2,3,4,5,6,7,8,9,10,11,12,13,21,25,30,29,31,33,45,46,47,48,49,50,51 };
 static const mw_wide cylindrical_worm_zi_zi_certified_flank_1_constant[] = { { 1.0, 0.0, 0.0 }, { 0.5, 0.0, 0.0 },  };
@@ -294,7 +295,7 @@ static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_operation[]
 2,47,57,62, 1,47,48,47, 2,46,46,19, 2,52,30,52, 1,52,46,52, 2,46,52,40, 2,29,29,14, 2,35,7,35, 0,35,29,35, 2,29,35,59, 
 0,29,46,29, 2,29,47,29, 2,62,51,62, 2,61,57,61, 0,61,62,61, 2,62,52,63, 2,51,35,60, 1,51,62,51, 2,51,61,51, 0,51,29,51, 
 1,51,49,51, 2,51,51,20, 3,49,55,55, 3,29,64,64, 0,29,49,29, 6,29,29,29, 1,49,21,29, 1,29,22,29, 3,29,29,29, 3,61,65,65, 
-0,61,29,61, 6,61,61,61, 0,61,61,23, 9,29,65,65, 2,29,65,29, 1,29,24,29, 1,62,25,1, 2,57,57,26, 5,60,60,60, 5,52,52,52, 
+0,61,29,61, 6,61,61,61, 0,61,61,23, 9,29,65,65, 1,29,24,29, 1,62,25,1, 2,57,57,26, 5,60,60,60, 5,52,52,52, 
 };
 static const unsigned short cylindrical_worm_zi_zi_certified_flank_1_output[] = { 55,64,65,51,49,61,29,62,57,34,63,40,35,60,59,52 };
 
@@ -503,11 +504,11 @@ static const mw_certified cylindrical_worm_zi_zi_certified = {
     { 136, 28, 10, 395, 395, 109, cylindrical_worm_zi_zi_certified_setup_input, cylindrical_worm_zi_zi_certified_setup_constant, cylindrical_worm_zi_zi_certified_setup_operation, cylindrical_worm_zi_zi_certified_setup_output },
     { 5, 3, 0, 2, 2, 3, cylindrical_worm_zi_zi_certified_instant_input, cylindrical_worm_zi_zi_certified_instant_constant, cylindrical_worm_zi_zi_certified_instant_operation, cylindrical_worm_zi_zi_certified_instant_output },
     { 120, 45, 3, 390, 157, 30, cylindrical_worm_zi_zi_certified_equations_input, cylindrical_worm_zi_zi_certified_equations_constant, cylindrical_worm_zi_zi_certified_equations_operation, cylindrical_worm_zi_zi_certified_equations_output },
-    { 134, 50, 3, 677, 677, 26, cylindrical_worm_zi_zi_certified_observed_input, cylindrical_worm_zi_zi_certified_observed_constant, cylindrical_worm_zi_zi_certified_observed_operation, cylindrical_worm_zi_zi_certified_observed_output },
+    { 134, 50, 3, 676, 676, 26, cylindrical_worm_zi_zi_certified_observed_input, cylindrical_worm_zi_zi_certified_observed_constant, cylindrical_worm_zi_zi_certified_observed_operation, cylindrical_worm_zi_zi_certified_observed_output },
     { 171, 42, 2, 691, 691, 10, cylindrical_worm_zi_zi_certified_along_input, cylindrical_worm_zi_zi_certified_along_constant, cylindrical_worm_zi_zi_certified_along_operation, cylindrical_worm_zi_zi_certified_along_output },
     {
-        { 32, 13, 2, 70, 69, 13, cylindrical_worm_zi_zi_certified_flank_0_input, cylindrical_worm_zi_zi_certified_flank_0_constant, cylindrical_worm_zi_zi_certified_flank_0_operation, cylindrical_worm_zi_zi_certified_flank_0_output },
-        { 69, 27, 2, 230, 228, 16, cylindrical_worm_zi_zi_certified_flank_1_input, cylindrical_worm_zi_zi_certified_flank_1_constant, cylindrical_worm_zi_zi_certified_flank_1_operation, cylindrical_worm_zi_zi_certified_flank_1_output }
+        { 35, 14, 2, 74, 19, 13, cylindrical_worm_zi_zi_certified_flank_0_input, cylindrical_worm_zi_zi_certified_flank_0_constant, cylindrical_worm_zi_zi_certified_flank_0_operation, cylindrical_worm_zi_zi_certified_flank_0_output },
+        { 69, 27, 2, 229, 67, 16, cylindrical_worm_zi_zi_certified_flank_1_input, cylindrical_worm_zi_zi_certified_flank_1_constant, cylindrical_worm_zi_zi_certified_flank_1_operation, cylindrical_worm_zi_zi_certified_flank_1_output }
     },
     { 29, 16, 2, 19, 19, 36, cylindrical_worm_zi_zi_certified_placement_input, cylindrical_worm_zi_zi_certified_placement_constant, cylindrical_worm_zi_zi_certified_placement_operation, cylindrical_worm_zi_zi_certified_placement_output },
     1

@@ -142,6 +142,12 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
 typedef struct mwc_turn {
     mw_ball sine, cosine;
 } mwc_turn;
@@ -283,6 +289,12 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     const mw_wide s = mwc_wide_joined(first.hi, mwc_wide_sub(a, mwc_wide_sqr(first)).hi / (2.0 * first.hi), 0.0);
     const double left = mwc_wide_most(mwc_wide_sub(a, mwc_wide_sqr(s))), least = mwc_wide_least(s) * (1.0 - 8.0 * MWC_U);
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
+}
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
 }
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {

@@ -142,6 +142,12 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
 typedef struct mwc_turn {
     mw_ball sine, cosine;
 } mwc_turn;
@@ -283,6 +289,12 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     const mw_wide s = mwc_wide_joined(first.hi, mwc_wide_sub(a, mwc_wide_sqr(first)).hi / (2.0 * first.hi), 0.0);
     const double left = mwc_wide_most(mwc_wide_sub(a, mwc_wide_sqr(s))), least = mwc_wide_least(s) * (1.0 - 8.0 * MWC_U);
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
+}
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
 }
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {
@@ -1916,29 +1928,28 @@ static inline int face_worm_certify_setup(const mw_wide *p, double *s)
     const mw_wide w324 = mwc_wide_neg(w259);
     const mw_wide w325 = mwc_wide(-4.0, 0.0, 0.0);
     const mw_wide w326 = mwc_wide_mul(w3, w325);
-    const mw_wide w327 = mwc_wide_sign(w15);
-    const mw_wide w328 = mwc_wide_mul(w15, w327);
-    const mw_wide w329 = mwc_wide_div(w326, w328);
-    const mw_wide w330 = mwc_wide(4.0, 0.0, 0.0);
-    const mw_wide w331 = mwc_wide_mul(w3, w330);
-    const mw_wide w332 = mwc_wide_div(w331, w328);
-    const mw_wide w333 = p[51];
-    const mw_wide w334 = mwc_wide_div(w333, w16);
-    const mw_wide w335 = mwc_wide_div(w333, w292);
-    const mw_wide w336 = mwc_wide_neg(w335);
-    const mw_wide w337 = mwc_wide_div(w252, w292);
-    const mw_wide w338 = mwc_wide_mul(w287, w23);
-    const mw_wide w339 = mwc_wide_sub(w294, w252);
-    const mw_wide w340 = mwc_wide_add(w333, w294);
-    const mw_wide w341 = mwc_wide(1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33);
-    const mw_wide w342 = mwc_wide_mul(w287, w341);
-    const mw_wide w343 = mwc_wide_div(w252, w16);
-    const mw_wide w344 = mwc_wide(-1.6, 8.881784197001253e-17, 4.930380657631324e-33);
-    const mw_wide w345 = mwc_wide_mul(w287, w344);
-    const mw_wide w346 = mwc_wide_mul(w52, w20);
-    const mw_wide w347 = mwc_wide_mul(w56, w20);
-    const mw_wide w348 = mwc_wide_mul(w58, w20);
-    const mw_wide w349 = p[19];
+    const mw_wide w327 = mwc_wide_magnitude(w15);
+    const mw_wide w328 = mwc_wide_div(w326, w327);
+    const mw_wide w329 = mwc_wide(4.0, 0.0, 0.0);
+    const mw_wide w330 = mwc_wide_mul(w3, w329);
+    const mw_wide w331 = mwc_wide_div(w330, w327);
+    const mw_wide w332 = p[51];
+    const mw_wide w333 = mwc_wide_div(w332, w16);
+    const mw_wide w334 = mwc_wide_div(w332, w292);
+    const mw_wide w335 = mwc_wide_neg(w334);
+    const mw_wide w336 = mwc_wide_div(w252, w292);
+    const mw_wide w337 = mwc_wide_mul(w287, w23);
+    const mw_wide w338 = mwc_wide_sub(w294, w252);
+    const mw_wide w339 = mwc_wide_add(w332, w294);
+    const mw_wide w340 = mwc_wide(1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33);
+    const mw_wide w341 = mwc_wide_mul(w287, w340);
+    const mw_wide w342 = mwc_wide_div(w252, w16);
+    const mw_wide w343 = mwc_wide(-1.6, 8.881784197001253e-17, 4.930380657631324e-33);
+    const mw_wide w344 = mwc_wide_mul(w287, w343);
+    const mw_wide w345 = mwc_wide_mul(w52, w20);
+    const mw_wide w346 = mwc_wide_mul(w56, w20);
+    const mw_wide w347 = mwc_wide_mul(w58, w20);
+    const mw_wide w348 = p[19];
     mwc_put(s, 0, mwc_of_wide(w8));
     mwc_put(s, 1, mwc_of_wide(w13));
     mwc_put(s, 2, mwc_of_wide(w16));
@@ -2030,7 +2041,7 @@ static inline int face_worm_certify_setup(const mw_wide *p, double *s)
     mwc_put(s, 88, mwc_of_wide(w244));
     mwc_put(s, 89, mwc_of_wide(w245));
     mwc_put(s, 90, mwc_of_wide(w247));
-    mwc_put(s, 91, mwc_of_wide(w333));
+    mwc_put(s, 91, mwc_of_wide(w332));
     mwc_put(s, 92, mwc_of_wide(w254));
     mwc_put(s, 93, mwc_of_wide(w255));
     mwc_put(s, 94, mwc_of_wide(w258));
@@ -2056,7 +2067,7 @@ static inline int face_worm_certify_setup(const mw_wide *p, double *s)
     mwc_put(s, 114, mwc_of_wide(w289));
     mwc_put(s, 115, mwc_of_wide(w292));
     mwc_put(s, 116, mwc_of_wide(w294));
-    mwc_put(s, 117, mwc_of_wide(w349));
+    mwc_put(s, 117, mwc_of_wide(w348));
     mwc_put(s, 118, mwc_of_wide(w0));
     mwc_put(s, 119, mwc_of_wide(w288));
     mwc_put(s, 120, mwc_of_wide(w295));
@@ -2079,22 +2090,22 @@ static inline int face_worm_certify_setup(const mw_wide *p, double *s)
     mwc_put(s, 137, mwc_of_wide(w322));
     mwc_put(s, 138, mwc_of_wide(w323));
     mwc_put(s, 139, mwc_of_wide(w324));
-    mwc_put(s, 140, mwc_of_wide(w329));
-    mwc_put(s, 141, mwc_of_wide(w332));
-    mwc_put(s, 142, mwc_of_wide(w334));
-    mwc_put(s, 143, mwc_of_wide(w336));
-    mwc_put(s, 144, mwc_of_wide(w337));
+    mwc_put(s, 140, mwc_of_wide(w328));
+    mwc_put(s, 141, mwc_of_wide(w331));
+    mwc_put(s, 142, mwc_of_wide(w333));
+    mwc_put(s, 143, mwc_of_wide(w335));
+    mwc_put(s, 144, mwc_of_wide(w336));
     mwc_put(s, 145, mwc_of_wide(w26));
-    mwc_put(s, 146, mwc_of_wide(w338));
-    mwc_put(s, 147, mwc_of_wide(w339));
-    mwc_put(s, 148, mwc_of_wide(w340));
+    mwc_put(s, 146, mwc_of_wide(w337));
+    mwc_put(s, 147, mwc_of_wide(w338));
+    mwc_put(s, 148, mwc_of_wide(w339));
     mwc_put(s, 149, mwc_of_wide(w285));
-    mwc_put(s, 150, mwc_of_wide(w342));
-    mwc_put(s, 151, mwc_of_wide(w343));
-    mwc_put(s, 152, mwc_of_wide(w345));
-    mwc_put(s, 153, mwc_of_wide(w346));
-    mwc_put(s, 154, mwc_of_wide(w347));
-    mwc_put(s, 155, mwc_of_wide(w348));
+    mwc_put(s, 150, mwc_of_wide(w341));
+    mwc_put(s, 151, mwc_of_wide(w342));
+    mwc_put(s, 152, mwc_of_wide(w344));
+    mwc_put(s, 153, mwc_of_wide(w345));
+    mwc_put(s, 154, mwc_of_wide(w346));
+    mwc_put(s, 155, mwc_of_wide(w347));
     s[332] = mwc_arithmetic() ? 1.0 : 0.0;
     return s[332] > 0.0;
 }

@@ -32,12 +32,11 @@ static const unsigned short spherical_concave_convex_certified_setup_operation[]
 1,93,93,1, 2,33,19,33, 2,94,4,19, 2,95,4,36, 2,96,19,37, 2,97,19,39, 2,97,37,97, 4,97,23,97, 2,97,20,97, 2,37,4,20, 
 2,37,11,37, 4,37,37,47, 2,98,4,24, 2,98,6,98, 4,98,98,39, 2,99,2,7, 6,99,99,99, 4,99,99,7, 2,100,2,0, 6,100,100,100, 
 4,100,100,0, 4,101,23,2, 4,102,23,99, 4,103,23,100, 5,104,74,74, 2,105,15,22, 1,106,7,10, 0,106,105,106, 2,107,22,106, 4,107,107,28, 
-4,106,106,28, 1,106,47,106, 9,47,106,106, 2,47,106,47, 2,47,21,47, 0,47,44,47, 0,47,107,47, 1,107,29,10, 1,106,23,27, 2,108,18,106, 
-1,108,107,108, 2,107,17,22, 1,109,0,5, 0,109,107,109, 2,110,22,109, 4,110,110,28, 4,109,109,28, 1,109,39,109, 9,39,109,109, 2,39,109,39, 
-2,39,21,39, 0,39,45,39, 0,39,110,39, 1,110,30,5, 2,106,19,106, 1,106,110,106, 4,110,9,3, 2,109,4,21, 2,109,2,109, 2,109,9,109, 
-2,109,27,109, 2,32,27,32, 
+4,106,106,28, 1,106,47,106, 9,106,106,106, 2,106,21,106, 0,106,44,106, 0,106,107,106, 1,107,29,10, 1,47,23,27, 2,108,18,47, 1,108,107,108, 
+2,107,17,22, 1,109,0,5, 0,109,107,109, 2,110,22,109, 4,110,110,28, 4,109,109,28, 1,109,39,109, 9,109,109,109, 2,109,21,109, 0,109,45,109, 
+0,109,110,109, 1,110,30,5, 2,47,19,47, 1,47,110,47, 4,110,9,3, 2,39,4,21, 2,39,2,39, 2,39,9,39, 2,39,27,39, 2,32,27,32, 
 };
-static const unsigned short spherical_concave_convex_certified_setup_output[] = { 26,28,5,30,31,34,27,36,38,40,41,10,42,4,45,29,46,35,48,44,43,49,51,50,52,53,54,55,56,57,58,59,7,60,61,63,64,62,65,66,0,67,68,69,70,71,77,84,76,73,82,79,85,80,75,90,81,87,89,74,1,18,86,78,88,91,92,93,19,33,94,95,96,97,37,98,2,99,100,101,102,103,104,47,72,9,108,105,39,83,3,106,107,110,109,32 };
+static const unsigned short spherical_concave_convex_certified_setup_output[] = { 26,28,5,30,31,34,27,36,38,40,41,10,42,4,45,29,46,35,48,44,43,49,51,50,52,53,54,55,56,57,58,59,7,60,61,63,64,62,65,66,0,67,68,69,70,71,77,84,76,73,82,79,85,80,75,90,81,87,89,74,1,18,86,78,88,91,92,93,19,33,94,95,96,97,37,98,2,99,100,101,102,103,104,106,72,9,108,105,109,83,3,47,107,110,39,32 };
 
 static const unsigned short spherical_concave_convex_certified_instant_input[] = { 101,93,75,74,94,84,95,89 };
 static const mw_wide spherical_concave_convex_certified_instant_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -150,16 +149,16 @@ static const unsigned short spherical_concave_convex_certified_observed_operatio
 2,109,109,105, 2,127,74,127, 0,127,109,127, 1,127,111,127, 2,66,66,127, 0,66,64,66, 2,66,78,66, 1,66,126,66, 2,129,127,129, 2,86,123,86, 
 1,86,129,86, 2,86,137,86, 1,86,66,86, 2,86,86,45, 3,66,76,76, 1,137,46,66, 6,137,137,137, 0,137,47,137, 4,137,66,137, 2,66,67,96, 
 2,129,74,105, 1,129,66,129, 3,129,129,129, 2,96,74,96, 2,105,67,105, 0,105,96,105, 3,105,105,105, 0,105,129,105, 6,105,105,105, 1,105,48,105, 
-0,105,137,105, 9,137,76,76, 2,137,76,137, 1,137,49,137, 1,76,50,2, 7,129,93,96, 2,93,101,96, 2,67,6,129, 1,67,93,67, 2,93,121,129, 
-2,74,89,96, 2,66,92,74, 0,66,93,66, 2,93,122,96, 2,89,89,129, 2,123,94,89, 1,123,93,123, 0,123,66,123, 2,66,70,123, 2,93,90,129, 
-2,127,88,96, 2,126,92,127, 0,126,93,126, 2,93,87,96, 2,88,88,129, 2,78,94,88, 1,78,93,78, 0,78,126,78, 2,126,107,78, 1,126,66,126, 
-2,126,67,126, 2,67,6,96, 2,101,101,129, 0,101,67,101, 2,90,90,96, 2,88,92,88, 1,88,90,88, 2,87,87,129, 2,127,94,127, 0,127,87,127, 
-1,127,88,127, 2,107,107,127, 2,121,121,96, 2,89,92,89, 1,89,121,89, 2,122,122,129, 2,74,94,74, 0,74,122,74, 1,74,89,74, 2,70,70,74, 
-1,70,107,70, 2,70,101,70, 0,70,126,70, 2,78,74,78, 2,127,123,127, 1,127,78,127, 2,127,100,127, 0,127,70,127, 2,127,127,51, 2,70,92,96, 
-2,100,94,129, 1,100,70,100, 3,100,100,100, 2,96,94,96, 2,129,92,129, 0,129,96,129, 3,129,129,129, 0,129,100,129, 6,129,129,129, 1,129,52,129, 
-3,100,99,99, 1,96,53,100, 6,96,96,96, 0,96,54,96, 4,96,100,96, 1,96,129,96, 9,129,99,99, 2,129,99,129, 1,129,55,129, 1,100,56,22, 
+0,105,137,105, 9,76,76,76, 1,76,49,76, 1,137,50,2, 7,129,93,96, 2,93,101,96, 2,67,6,129, 1,67,93,67, 2,93,121,129, 2,74,89,96, 
+2,66,92,74, 0,66,93,66, 2,93,122,96, 2,89,89,129, 2,123,94,89, 1,123,93,123, 0,123,66,123, 2,66,70,123, 2,93,90,129, 2,127,88,96, 
+2,126,92,127, 0,126,93,126, 2,93,87,96, 2,88,88,129, 2,78,94,88, 1,78,93,78, 0,78,126,78, 2,126,107,78, 1,126,66,126, 2,126,67,126, 
+2,67,6,96, 2,101,101,129, 0,101,67,101, 2,90,90,96, 2,88,92,88, 1,88,90,88, 2,87,87,129, 2,127,94,127, 0,127,87,127, 1,127,88,127, 
+2,107,107,127, 2,121,121,96, 2,89,92,89, 1,89,121,89, 2,122,122,129, 2,74,94,74, 0,74,122,74, 1,74,89,74, 2,70,70,74, 1,70,107,70, 
+2,70,101,70, 0,70,126,70, 2,78,74,78, 2,127,123,127, 1,127,78,127, 2,127,100,127, 0,127,70,127, 2,127,127,51, 2,70,92,96, 2,100,94,129, 
+1,100,70,100, 3,100,100,100, 2,96,94,96, 2,129,92,129, 0,129,96,129, 3,129,129,129, 0,129,100,129, 6,129,129,129, 1,129,52,129, 3,100,99,99, 
+1,96,53,100, 6,96,96,96, 0,96,54,96, 4,96,100,96, 1,96,129,96, 9,129,99,99, 1,129,55,129, 1,100,56,22, 
 };
-static const unsigned short spherical_concave_convex_certified_observed_output[] = { 77,79,73,81,80,84,97,98,99,102,104,103,106,125,128,86,105,137,76,2,127,96,129,100,22 };
+static const unsigned short spherical_concave_convex_certified_observed_output[] = { 77,79,73,81,80,84,97,98,99,102,104,103,106,125,128,86,105,76,137,2,127,96,129,100,22 };
 
 static const unsigned short spherical_concave_convex_certified_along_input[] = { 101,93,75,106,105,0,104,1,2,3,4,5,6,7,8,9,110,109,112,111,45,103,108,10,107,102,11,12,14,24,13,15,16,17,18,74,19,20,22,23,26,25,27 };
 static const mw_wide spherical_concave_convex_certified_along_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -226,25 +225,32 @@ static const unsigned short spherical_concave_convex_certified_along_operation[]
 };
 static const unsigned short spherical_concave_convex_certified_along_output[] = { 100,76,107,115,136,71,52,58,121,66 };
 
-static const unsigned short spherical_concave_convex_certified_flank_0_input[] = { 102,10,101,1,11,15,4,16,6,17,8,18,13,19,26,32,45,29,24,46,47,48,49,50,51 };
+static const unsigned short spherical_concave_convex_certified_flank_0_input[] = { 102,10,101,1,11,15,4,16,6,17,8,18,97,13,19,20,12,22,23,26,32,45,29,24,46,47,48,49,50,51,27,25 };
 static const mw_wide spherical_concave_convex_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
 static const unsigned short spherical_concave_convex_certified_flank_0_operation[] = {
-2,27,0,25, 7,28,27,29, 3,27,28,28, 2,27,27,1, 2,30,2,3, 1,30,30,4, 7,31,0,32, 2,33,30,32, 0,34,33,5, 0,34,27,34, 
-2,27,34,6, 0,27,27,7, 2,35,2,8, 1,35,9,35, 2,36,32,10, 2,36,35,36, 1,36,27,36, 2,36,36,11, 4,27,26,32, 2,36,36,27, 
-7,37,36,38, 2,39,34,38, 2,40,12,35, 2,41,36,13, 0,41,40,41, 2,40,41,37, 1,40,39,40, 2,39,41,38, 2,42,34,37, 0,42,39,42, 
-2,39,28,1, 2,43,29,39, 2,30,30,31, 1,43,43,30, 2,44,32,14, 2,45,44,38, 2,46,6,37, 1,46,45,46, 2,45,15,29, 2,45,29,45, 
-2,47,25,28, 2,47,39,47, 1,47,45,47, 1,33,47,33, 2,47,3,32, 2,45,47,37, 2,39,32,16, 2,32,32,17, 0,32,39,32, 2,32,11,32, 
-2,32,32,27, 2,39,32,38, 2,48,34,39, 0,48,45,48, 2,45,13,32, 1,45,45,18, 2,49,45,38, 2,32,32,37, 2,50,41,32, 1,50,49,50, 
-0,50,48,50, 2,48,33,50, 2,49,3,31, 2,29,25,29, 2,29,28,29, 0,29,29,29, 2,29,1,29, 1,30,29,30, 2,29,30,37, 2,28,10,31, 
-2,28,35,28, 2,35,6,30, 0,35,28,35, 2,35,11,35, 2,36,36,31, 0,36,35,36, 2,36,27,36, 2,27,36,38, 2,35,34,27, 0,35,29,35, 
-2,29,13,36, 2,28,29,38, 2,36,36,37, 2,51,41,36, 1,51,28,51, 0,51,35,51, 2,35,49,51, 0,35,48,35, 2,35,46,35, 2,46,6,38, 
-2,44,44,37, 0,44,46,44, 2,30,30,38, 2,36,34,36, 1,36,30,36, 2,29,29,37, 2,27,41,27, 0,27,29,27, 1,27,36,27, 2,36,49,27, 
-2,38,47,38, 2,32,34,32, 1,32,38,32, 2,37,45,37, 2,39,41,39, 0,39,37,39, 1,39,32,39, 2,32,33,39, 0,32,36,32, 2,32,44,32, 
-1,32,35,32, 2,31,31,14, 2,35,39,51, 2,44,50,27, 1,44,35,44, 2,44,31,44, 1,44,32,44, 2,44,44,19, 3,32,43,43, 1,31,20,32, 
-6,31,31,31, 0,31,21,31, 4,31,32,31, 3,32,40,40, 3,35,42,42, 0,35,32,35, 6,35,35,35, 1,35,22,35, 0,35,31,35, 9,31,43,43, 
-2,31,43,31, 1,31,23,31, 1,32,24,2, 5,49,49,49, 
+2,34,0,32, 7,35,34,36, 3,34,35,35, 2,34,34,1, 2,37,2,3, 1,37,37,4, 7,38,0,39, 2,40,37,39, 0,41,40,5, 0,41,34,41, 
+2,34,41,6, 0,34,34,7, 2,42,2,8, 1,42,9,42, 2,43,39,10, 2,43,42,43, 1,43,34,43, 2,43,43,11, 4,34,33,39, 2,43,43,34, 
+0,44,43,12, 7,45,44,46, 2,44,41,46, 2,47,13,42, 2,48,43,14, 0,48,47,48, 2,47,48,45, 1,47,44,47, 2,44,47,15, 2,49,35,1, 
+2,50,36,49, 2,37,37,38, 1,50,50,37, 2,51,50,16, 0,51,44,51, 2,44,46,48, 2,52,41,45, 0,52,44,52, 2,44,52,17, 2,53,15,50, 
+2,47,47,16, 1,47,53,47, 2,53,47,18, 1,53,44,53, 2,52,52,18, 2,47,17,47, 0,47,52,47, 2,52,39,19, 7,44,43,54, 2,55,52,54, 
+2,56,6,44, 1,56,55,56, 2,55,20,36, 2,55,36,55, 2,57,32,35, 2,57,49,57, 1,57,55,57, 1,40,57,40, 2,57,3,39, 2,55,57,44, 
+2,49,39,21, 2,39,39,22, 0,39,49,39, 2,39,11,39, 2,39,39,34, 2,49,39,54, 2,58,41,49, 0,58,55,58, 2,55,14,39, 1,55,55,23, 
+2,59,55,54, 2,60,39,44, 2,61,48,60, 1,61,59,61, 0,61,58,61, 2,58,40,61, 2,59,3,38, 2,36,32,36, 2,36,35,36, 0,36,36,36, 
+2,36,1,36, 1,37,36,37, 2,36,37,44, 2,35,10,38, 2,35,42,35, 2,42,6,37, 0,42,35,42, 2,42,11,42, 2,43,43,38, 0,43,42,43, 
+2,43,34,43, 2,34,43,54, 2,42,41,34, 0,42,36,42, 2,36,14,43, 2,35,36,54, 2,62,43,44, 2,63,48,62, 1,63,35,63, 0,63,42,63, 
+2,42,59,63, 0,42,58,42, 2,42,56,42, 2,56,6,54, 2,52,52,44, 0,52,56,52, 2,56,37,54, 2,62,41,62, 1,62,56,62, 2,56,36,44, 
+2,34,48,34, 0,34,56,34, 1,34,62,34, 2,59,59,34, 2,62,57,54, 2,60,41,60, 1,60,62,60, 2,62,55,44, 2,49,48,49, 0,49,62,49, 
+1,49,60,49, 2,60,40,49, 0,60,59,60, 2,60,52,60, 1,60,42,60, 2,42,38,19, 2,63,49,63, 2,34,61,34, 1,34,63,34, 2,34,42,34, 
+1,34,60,34, 2,34,34,24, 3,60,50,50, 1,42,25,60, 6,42,42,42, 0,42,26,42, 4,42,60,42, 2,60,41,54, 2,63,48,44, 1,63,60,63, 
+3,63,63,63, 2,54,48,54, 2,44,41,44, 0,44,54,44, 3,44,44,44, 0,44,63,44, 6,44,44,44, 1,44,27,44, 0,44,42,44, 9,50,50,50, 
+1,50,28,50, 1,42,29,2, 2,63,46,57, 2,54,45,39, 2,60,41,54, 1,60,63,60, 2,63,45,55, 2,39,46,39, 2,61,48,39, 0,61,63,61, 
+1,61,60,61, 2,60,15,61, 2,63,38,30, 1,63,60,63, 2,38,38,31, 2,61,16,61, 0,61,38,61, 2,38,18,61, 2,57,45,57, 2,39,41,39, 
+0,39,57,39, 2,55,46,55, 2,54,48,54, 1,54,55,54, 0,54,39,54, 2,39,17,54, 0,39,38,39, 2,54,18,54, 2,61,17,61, 1,61,54,61, 
+2,54,16,40, 2,38,46,37, 2,55,45,43, 2,57,41,55, 1,57,38,57, 2,38,45,36, 2,43,46,43, 2,60,48,43, 0,60,38,60, 1,60,57,60, 
+2,57,15,60, 0,57,54,57, 2,37,45,37, 2,43,41,43, 0,43,37,43, 2,36,46,36, 2,55,48,55, 1,55,36,55, 0,55,43,55, 2,43,17,55, 
+2,40,15,40, 2,60,16,60, 1,60,40,60, 2,40,18,60, 1,40,43,40, 2,60,17,60, 2,55,18,55, 0,55,60,55, 
 };
-static const unsigned short spherical_concave_convex_certified_flank_0_output[] = { 40,42,43,44,35,31,32,2,39,50,49,27,51,33 };
+static const unsigned short spherical_concave_convex_certified_flank_0_output[] = { 51,53,47,34,44,50,42,2,63,39,61,57,40,55 };
 
 static const unsigned short spherical_concave_convex_certified_flank_1_input[] = { 102,0,101,1,2,3,4,5,6,7,8,9,13,14,44,26,40,45,29,24,52,53,54,55,56,57 };
 static const mw_wide spherical_concave_convex_certified_flank_1_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -261,8 +267,8 @@ static const unsigned short spherical_concave_convex_certified_flank_1_operation
 0,45,47,45, 2,33,33,40, 2,38,35,38, 1,38,33,38, 2,30,30,39, 2,28,42,28, 0,28,30,28, 1,28,38,28, 2,38,50,28, 2,40,34,40, 
 2,32,35,32, 1,32,40,32, 2,39,46,39, 2,48,42,48, 0,48,39,48, 1,48,32,48, 2,32,41,48, 1,32,38,32, 2,32,45,32, 0,32,29,32, 
 2,31,31,15, 2,29,48,52, 2,45,51,28, 1,45,29,45, 2,45,31,45, 0,45,32,45, 2,45,45,20, 3,32,36,36, 3,31,43,43, 0,31,32,31, 
-6,31,31,31, 1,31,21,31, 3,32,44,44, 1,29,22,32, 6,29,29,29, 0,29,23,29, 4,29,32,29, 1,29,31,29, 9,31,44,44, 2,31,44,31, 
-1,31,24,31, 1,32,25,2, 
+6,31,31,31, 1,31,21,31, 3,32,44,44, 1,29,22,32, 6,29,29,29, 0,29,23,29, 4,29,32,29, 1,29,31,29, 9,31,44,44, 1,31,24,31, 
+1,32,25,2, 
 };
 static const unsigned short spherical_concave_convex_certified_flank_1_output[] = { 36,43,44,45,29,31,32,2,48,51,50,28,52,41 };
 
@@ -356,9 +362,9 @@ static const unsigned short spherical_concave_convex_certified_rule_11_input[] =
 static const mw_wide spherical_concave_convex_certified_rule_11_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_concave_convex_certified_rule_11_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_concave_convex_certified_rule_11_output[] = { 11 };
+static const unsigned short spherical_concave_convex_certified_rule_11_output[] = { 12 };
 
 static const unsigned short spherical_concave_convex_certified_rule_12_input[] = { 24,9 };
 static const mw_wide spherical_concave_convex_certified_rule_12_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -392,9 +398,9 @@ static const unsigned short spherical_concave_convex_certified_rule_16_input[] =
 static const mw_wide spherical_concave_convex_certified_rule_16_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_concave_convex_certified_rule_16_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_concave_convex_certified_rule_16_output[] = { 11 };
+static const unsigned short spherical_concave_convex_certified_rule_16_output[] = { 12 };
 
 static const unsigned short spherical_concave_convex_certified_rule_17_input[] = { 24,16 };
 static const mw_wide spherical_concave_convex_certified_rule_17_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -415,12 +421,12 @@ static const mw_certified_rule spherical_concave_convex_certified_rules[] = {
     { 8, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_8_input, spherical_concave_convex_certified_rule_8_constant, spherical_concave_convex_certified_rule_8_operation, spherical_concave_convex_certified_rule_8_output } },
     { 9, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_9_input, spherical_concave_convex_certified_rule_9_constant, spherical_concave_convex_certified_rule_9_operation, spherical_concave_convex_certified_rule_9_output } },
     { 10, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_10_input, spherical_concave_convex_certified_rule_10_constant, spherical_concave_convex_certified_rule_10_operation, spherical_concave_convex_certified_rule_10_output } },
-    { 11, { 13, 4, 5, 17, 17, 1, spherical_concave_convex_certified_rule_11_input, spherical_concave_convex_certified_rule_11_constant, spherical_concave_convex_certified_rule_11_operation, spherical_concave_convex_certified_rule_11_output } },
+    { 11, { 13, 4, 5, 16, 16, 1, spherical_concave_convex_certified_rule_11_input, spherical_concave_convex_certified_rule_11_constant, spherical_concave_convex_certified_rule_11_operation, spherical_concave_convex_certified_rule_11_output } },
     { 12, { 3, 2, 0, 2, 2, 1, spherical_concave_convex_certified_rule_12_input, spherical_concave_convex_certified_rule_12_constant, spherical_concave_convex_certified_rule_12_operation, spherical_concave_convex_certified_rule_12_output } },
     { 15, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_13_input, spherical_concave_convex_certified_rule_13_constant, spherical_concave_convex_certified_rule_13_operation, spherical_concave_convex_certified_rule_13_output } },
     { 16, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_14_input, spherical_concave_convex_certified_rule_14_constant, spherical_concave_convex_certified_rule_14_operation, spherical_concave_convex_certified_rule_14_output } },
     { 17, { 1, 1, 0, 0, 0, 1, spherical_concave_convex_certified_rule_15_input, spherical_concave_convex_certified_rule_15_constant, spherical_concave_convex_certified_rule_15_operation, spherical_concave_convex_certified_rule_15_output } },
-    { 18, { 13, 4, 5, 17, 17, 1, spherical_concave_convex_certified_rule_16_input, spherical_concave_convex_certified_rule_16_constant, spherical_concave_convex_certified_rule_16_operation, spherical_concave_convex_certified_rule_16_output } },
+    { 18, { 13, 4, 5, 16, 16, 1, spherical_concave_convex_certified_rule_16_input, spherical_concave_convex_certified_rule_16_constant, spherical_concave_convex_certified_rule_16_operation, spherical_concave_convex_certified_rule_16_output } },
     { 19, { 3, 2, 0, 2, 2, 1, spherical_concave_convex_certified_rule_17_input, spherical_concave_convex_certified_rule_17_constant, spherical_concave_convex_certified_rule_17_operation, spherical_concave_convex_certified_rule_17_output } },
     { -1, { 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL } }
 };
@@ -431,14 +437,14 @@ static const mw_wide spherical_concave_convex_certified_factors[] = { { 1.0, 0.0
 
 static const mw_certified spherical_concave_convex_certified = {
     101, 96, spherical_concave_convex_certified_factors, spherical_concave_convex_certified_rules, spherical_concave_convex_certified_systems,
-    { 111, 20, 6, 242, 242, 96, spherical_concave_convex_certified_setup_input, spherical_concave_convex_certified_setup_constant, spherical_concave_convex_certified_setup_operation, spherical_concave_convex_certified_setup_output },
+    { 111, 20, 6, 240, 240, 96, spherical_concave_convex_certified_setup_input, spherical_concave_convex_certified_setup_constant, spherical_concave_convex_certified_setup_operation, spherical_concave_convex_certified_setup_output },
     { 13, 8, 0, 7, 7, 5, spherical_concave_convex_certified_instant_input, spherical_concave_convex_certified_instant_constant, spherical_concave_convex_certified_instant_operation, spherical_concave_convex_certified_instant_output },
     { 107, 48, 3, 369, 138, 30, spherical_concave_convex_certified_equations_input, spherical_concave_convex_certified_equations_constant, spherical_concave_convex_certified_equations_operation, spherical_concave_convex_certified_equations_output },
-    { 138, 57, 3, 660, 660, 25, spherical_concave_convex_certified_observed_input, spherical_concave_convex_certified_observed_constant, spherical_concave_convex_certified_observed_operation, spherical_concave_convex_certified_observed_output },
+    { 138, 57, 3, 658, 658, 25, spherical_concave_convex_certified_observed_input, spherical_concave_convex_certified_observed_constant, spherical_concave_convex_certified_observed_operation, spherical_concave_convex_certified_observed_output },
     { 141, 43, 2, 589, 589, 10, spherical_concave_convex_certified_along_input, spherical_concave_convex_certified_along_constant, spherical_concave_convex_certified_along_operation, spherical_concave_convex_certified_along_output },
     {
-        { 52, 25, 2, 134, 133, 14, spherical_concave_convex_certified_flank_0_input, spherical_concave_convex_certified_flank_0_constant, spherical_concave_convex_certified_flank_0_operation, spherical_concave_convex_certified_flank_0_output },
-        { 53, 26, 2, 132, 132, 14, spherical_concave_convex_certified_flank_1_input, spherical_concave_convex_certified_flank_1_constant, spherical_concave_convex_certified_flank_1_operation, spherical_concave_convex_certified_flank_1_output }
+        { 64, 32, 2, 208, 47, 14, spherical_concave_convex_certified_flank_0_input, spherical_concave_convex_certified_flank_0_constant, spherical_concave_convex_certified_flank_0_operation, spherical_concave_convex_certified_flank_0_output },
+        { 53, 26, 2, 131, 34, 14, spherical_concave_convex_certified_flank_1_input, spherical_concave_convex_certified_flank_1_constant, spherical_concave_convex_certified_flank_1_operation, spherical_concave_convex_certified_flank_1_output }
     },
     { 25, 13, 3, 21, 21, 36, spherical_concave_convex_certified_placement_input, spherical_concave_convex_certified_placement_constant, spherical_concave_convex_certified_placement_operation, spherical_concave_convex_certified_placement_output },
     1

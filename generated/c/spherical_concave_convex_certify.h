@@ -142,6 +142,12 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
 typedef struct mwc_turn {
     mw_ball sine, cosine;
 } mwc_turn;
@@ -283,6 +289,12 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     const mw_wide s = mwc_wide_joined(first.hi, mwc_wide_sub(a, mwc_wide_sqr(first)).hi / (2.0 * first.hi), 0.0);
     const double left = mwc_wide_most(mwc_wide_sub(a, mwc_wide_sqr(s))), least = mwc_wide_least(s) * (1.0 - 8.0 * MWC_U);
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
+}
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
 }
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {
@@ -1367,36 +1379,34 @@ static inline int spherical_concave_convex_certify_setup(const mw_wide *p, doubl
     const mw_wide w240 = mwc_wide_div(w239, w5);
     const mw_wide w241 = mwc_wide_div(w238, w5);
     const mw_wide w242 = mwc_wide_sub(w48, w241);
-    const mw_wide w243 = mwc_wide_sign(w242);
-    const mw_wide w244 = mwc_wide_mul(w242, w243);
-    const mw_wide w245 = mwc_wide_mul(w7, w244);
-    const mw_wide w246 = mwc_wide_add(w53, w245);
-    const mw_wide w247 = mwc_wide_add(w240, w246);
-    const mw_wide w248 = mwc_wide_sub(w41, w44);
-    const mw_wide w249 = mwc_wide_sub(w29, w4);
-    const mw_wide w250 = mwc_wide_mul(w199, w249);
-    const mw_wide w251 = mwc_wide_sub(w248, w250);
-    const mw_wide w252 = mwc_wide_mul(w193, w13);
-    const mw_wide w253 = mwc_wide_sub(w0, w19);
-    const mw_wide w254 = mwc_wide_add(w252, w253);
-    const mw_wide w255 = mwc_wide_mul(w13, w254);
-    const mw_wide w256 = mwc_wide_div(w255, w5);
-    const mw_wide w257 = mwc_wide_div(w254, w5);
-    const mw_wide w258 = mwc_wide_sub(w26, w257);
-    const mw_wide w259 = mwc_wide_sign(w258);
-    const mw_wide w260 = mwc_wide_mul(w258, w259);
-    const mw_wide w261 = mwc_wide_mul(w7, w260);
-    const mw_wide w262 = mwc_wide_add(w39, w261);
-    const mw_wide w263 = mwc_wide_add(w256, w262);
-    const mw_wide w264 = mwc_wide_sub(w10, w19);
-    const mw_wide w265 = mwc_wide_mul(w211, w249);
-    const mw_wide w266 = mwc_wide_sub(w264, w265);
-    const mw_wide w267 = mwc_wide_div(w40, w9);
-    const mw_wide w268 = mwc_wide_mul(w11, w7);
-    const mw_wide w269 = mwc_wide_mul(w6, w268);
-    const mw_wide w270 = mwc_wide_mul(w40, w269);
-    const mw_wide w271 = mwc_wide_mul(w4, w270);
-    const mw_wide w272 = mwc_wide_mul(w4, w42);
+    const mw_wide w243 = mwc_wide_magnitude(w242);
+    const mw_wide w244 = mwc_wide_mul(w7, w243);
+    const mw_wide w245 = mwc_wide_add(w53, w244);
+    const mw_wide w246 = mwc_wide_add(w240, w245);
+    const mw_wide w247 = mwc_wide_sub(w41, w44);
+    const mw_wide w248 = mwc_wide_sub(w29, w4);
+    const mw_wide w249 = mwc_wide_mul(w199, w248);
+    const mw_wide w250 = mwc_wide_sub(w247, w249);
+    const mw_wide w251 = mwc_wide_mul(w193, w13);
+    const mw_wide w252 = mwc_wide_sub(w0, w19);
+    const mw_wide w253 = mwc_wide_add(w251, w252);
+    const mw_wide w254 = mwc_wide_mul(w13, w253);
+    const mw_wide w255 = mwc_wide_div(w254, w5);
+    const mw_wide w256 = mwc_wide_div(w253, w5);
+    const mw_wide w257 = mwc_wide_sub(w26, w256);
+    const mw_wide w258 = mwc_wide_magnitude(w257);
+    const mw_wide w259 = mwc_wide_mul(w7, w258);
+    const mw_wide w260 = mwc_wide_add(w39, w259);
+    const mw_wide w261 = mwc_wide_add(w255, w260);
+    const mw_wide w262 = mwc_wide_sub(w10, w19);
+    const mw_wide w263 = mwc_wide_mul(w211, w248);
+    const mw_wide w264 = mwc_wide_sub(w262, w263);
+    const mw_wide w265 = mwc_wide_div(w40, w9);
+    const mw_wide w266 = mwc_wide_mul(w11, w7);
+    const mw_wide w267 = mwc_wide_mul(w6, w266);
+    const mw_wide w268 = mwc_wide_mul(w40, w267);
+    const mw_wide w269 = mwc_wide_mul(w4, w268);
+    const mw_wide w270 = mwc_wide_mul(w4, w42);
     mwc_put(s, 0, mwc_of_wide(w2));
     mwc_put(s, 1, mwc_of_wide(w5));
     mwc_put(s, 2, mwc_of_wide(w19));
@@ -1480,19 +1490,19 @@ static inline int spherical_concave_convex_certify_setup(const mw_wide *p, doubl
     mwc_put(s, 80, mwc_of_wide(w233));
     mwc_put(s, 81, mwc_of_wide(w234));
     mwc_put(s, 82, mwc_of_wide(w235));
-    mwc_put(s, 83, mwc_of_wide(w247));
+    mwc_put(s, 83, mwc_of_wide(w246));
     mwc_put(s, 84, mwc_of_wide(w84));
     mwc_put(s, 85, mwc_of_wide(w40));
-    mwc_put(s, 86, mwc_of_wide(w251));
+    mwc_put(s, 86, mwc_of_wide(w250));
     mwc_put(s, 87, mwc_of_wide(w236));
-    mwc_put(s, 88, mwc_of_wide(w263));
+    mwc_put(s, 88, mwc_of_wide(w261));
     mwc_put(s, 89, mwc_of_wide(w141));
     mwc_put(s, 90, mwc_of_wide(w9));
-    mwc_put(s, 91, mwc_of_wide(w266));
-    mwc_put(s, 92, mwc_of_wide(w252));
-    mwc_put(s, 93, mwc_of_wide(w267));
-    mwc_put(s, 94, mwc_of_wide(w271));
-    mwc_put(s, 95, mwc_of_wide(w272));
+    mwc_put(s, 91, mwc_of_wide(w264));
+    mwc_put(s, 92, mwc_of_wide(w251));
+    mwc_put(s, 93, mwc_of_wide(w265));
+    mwc_put(s, 94, mwc_of_wide(w269));
+    mwc_put(s, 95, mwc_of_wide(w270));
     s[202] = mwc_arithmetic() ? 1.0 : 0.0;
     return s[202] > 0.0;
 }

@@ -32,12 +32,12 @@ static const unsigned short spherical_convex_convex_certified_setup_operation[] 
 2,93,20,93, 4,94,25,24, 1,94,94,1, 2,33,19,33, 2,95,4,19, 2,96,4,36, 2,97,19,37, 2,98,19,39, 2,98,37,98, 4,98,23,98, 
 2,98,20,98, 2,37,4,20, 2,37,10,37, 4,37,37,45, 2,99,4,24, 2,99,6,99, 4,99,99,39, 2,100,2,7, 6,100,100,100, 4,100,100,7, 
 2,101,2,0, 6,101,101,101, 4,101,101,0, 4,102,23,2, 4,103,23,100, 4,104,23,101, 5,105,75,75, 2,106,15,22, 1,107,7,9, 0,107,106,107, 
-2,108,22,107, 4,108,108,28, 4,107,107,28, 1,107,45,107, 9,45,107,107, 2,45,107,45, 2,45,21,45, 0,45,41,45, 0,45,108,45, 1,108,29,9, 
-1,107,23,27, 2,109,18,107, 1,109,108,109, 2,108,17,22, 1,110,0,5, 0,110,108,110, 2,111,22,110, 4,111,111,28, 4,110,110,28, 1,110,39,110, 
-9,39,110,110, 2,39,110,39, 2,39,21,39, 0,39,42,39, 0,39,111,39, 1,111,30,5, 2,107,19,107, 1,107,111,107, 4,111,8,3, 2,110,4,21, 
-2,110,2,110, 2,110,8,110, 2,110,27,110, 2,32,27,32, 
+2,108,22,107, 4,108,108,28, 4,107,107,28, 1,107,45,107, 9,107,107,107, 2,107,21,107, 0,107,41,107, 0,107,108,107, 1,108,29,9, 1,45,23,27, 
+2,109,18,45, 1,109,108,109, 2,108,17,22, 1,110,0,5, 0,110,108,110, 2,111,22,110, 4,111,111,28, 4,110,110,28, 1,110,39,110, 9,110,110,110, 
+2,110,21,110, 0,110,42,110, 0,110,111,110, 1,111,30,5, 2,45,19,45, 1,45,111,45, 4,111,8,3, 2,39,4,21, 2,39,2,39, 2,39,8,39, 
+2,39,27,39, 2,32,27,32, 
 };
-static const unsigned short spherical_convex_convex_certified_setup_output[] = { 26,28,5,30,31,34,27,36,38,40,4,42,43,9,29,44,35,46,41,48,49,47,50,52,51,53,54,55,56,57,58,59,60,7,61,62,64,65,66,63,67,0,68,69,70,71,72,78,77,74,85,83,80,86,81,76,91,82,88,90,75,1,18,87,79,89,92,93,94,19,33,95,96,97,98,37,99,2,100,101,102,103,104,105,45,73,8,109,106,39,84,3,107,108,111,110,32 };
+static const unsigned short spherical_convex_convex_certified_setup_output[] = { 26,28,5,30,31,34,27,36,38,40,4,42,43,9,29,44,35,46,41,48,49,47,50,52,51,53,54,55,56,57,58,59,60,7,61,62,64,65,66,63,67,0,68,69,70,71,72,78,77,74,85,83,80,86,81,76,91,82,88,90,75,1,18,87,79,89,92,93,94,19,33,95,96,97,98,37,99,2,100,101,102,103,104,105,107,73,8,109,106,110,84,3,45,108,111,39,32 };
 
 static const unsigned short spherical_convex_convex_certified_instant_input[] = { 102,94,76,75,95,85,96,90 };
 static const mw_wide spherical_convex_convex_certified_instant_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -150,16 +150,16 @@ static const unsigned short spherical_convex_convex_certified_observed_operation
 2,128,78,128, 0,128,110,128, 1,128,112,128, 2,97,97,128, 1,97,62,97, 2,97,77,97, 0,97,127,97, 2,130,128,130, 2,87,124,87, 1,87,130,87, 
 2,87,138,87, 0,87,97,87, 2,87,87,46, 2,97,71,65, 2,138,78,106, 1,138,97,138, 3,138,138,138, 2,65,78,65, 2,106,71,106, 0,106,65,106, 
 3,106,106,106, 0,106,138,106, 6,106,106,106, 1,106,47,106, 3,138,68,68, 1,65,48,138, 6,65,65,65, 0,65,49,65, 4,65,138,65, 1,65,106,65, 
-9,106,68,68, 2,106,68,106, 1,106,50,106, 1,68,51,0, 7,138,94,71, 2,94,102,71, 2,78,8,138, 1,78,94,78, 2,94,122,138, 2,97,90,71, 
-2,130,93,97, 0,130,94,130, 2,94,123,71, 2,90,90,138, 2,124,95,90, 1,124,94,124, 0,124,130,124, 2,130,69,124, 2,94,91,138, 2,128,89,71, 
-2,127,93,128, 0,127,94,127, 2,94,88,71, 2,89,89,138, 2,77,95,89, 1,77,94,77, 0,77,127,77, 2,127,108,77, 1,127,130,127, 2,127,78,127, 
-2,78,8,71, 2,102,102,138, 0,102,78,102, 2,91,91,71, 2,89,93,89, 1,89,91,89, 2,88,88,138, 2,128,95,128, 0,128,88,128, 1,128,89,128, 
-2,108,108,128, 2,122,122,71, 2,90,93,90, 1,90,122,90, 2,123,123,138, 2,97,95,97, 0,97,123,97, 1,97,90,97, 2,69,69,97, 1,69,108,69, 
-2,69,102,69, 0,69,127,69, 2,77,97,77, 2,128,124,128, 1,128,77,128, 2,128,101,128, 0,128,69,128, 2,128,128,52, 2,69,93,71, 2,101,95,138, 
-1,101,69,101, 3,101,101,101, 2,71,95,71, 2,138,93,138, 0,138,71,138, 3,138,138,138, 0,138,101,138, 6,138,138,138, 1,138,53,138, 3,101,100,100, 
-1,71,54,101, 6,71,71,71, 0,71,55,71, 4,71,101,71, 1,71,138,71, 9,138,100,100, 2,138,100,138, 1,138,56,138, 1,101,57,23, 
+9,68,68,68, 1,68,50,68, 1,106,51,0, 7,138,94,71, 2,94,102,71, 2,78,8,138, 1,78,94,78, 2,94,122,138, 2,97,90,71, 2,130,93,97, 
+0,130,94,130, 2,94,123,71, 2,90,90,138, 2,124,95,90, 1,124,94,124, 0,124,130,124, 2,130,69,124, 2,94,91,138, 2,128,89,71, 2,127,93,128, 
+0,127,94,127, 2,94,88,71, 2,89,89,138, 2,77,95,89, 1,77,94,77, 0,77,127,77, 2,127,108,77, 1,127,130,127, 2,127,78,127, 2,78,8,71, 
+2,102,102,138, 0,102,78,102, 2,91,91,71, 2,89,93,89, 1,89,91,89, 2,88,88,138, 2,128,95,128, 0,128,88,128, 1,128,89,128, 2,108,108,128, 
+2,122,122,71, 2,90,93,90, 1,90,122,90, 2,123,123,138, 2,97,95,97, 0,97,123,97, 1,97,90,97, 2,69,69,97, 1,69,108,69, 2,69,102,69, 
+0,69,127,69, 2,77,97,77, 2,128,124,128, 1,128,77,128, 2,128,101,128, 0,128,69,128, 2,128,128,52, 2,69,93,71, 2,101,95,138, 1,101,69,101, 
+3,101,101,101, 2,71,95,71, 2,138,93,138, 0,138,71,138, 3,138,138,138, 0,138,101,138, 6,138,138,138, 1,138,53,138, 3,101,100,100, 1,71,54,101, 
+6,71,71,71, 0,71,55,71, 4,71,101,71, 1,71,138,71, 9,138,100,100, 1,138,56,138, 1,101,57,23, 
 };
-static const unsigned short spherical_convex_convex_certified_observed_output[] = { 74,80,79,82,85,84,98,99,100,103,105,104,107,126,129,87,65,106,68,0,128,71,138,101,23 };
+static const unsigned short spherical_convex_convex_certified_observed_output[] = { 74,80,79,82,85,84,98,99,100,103,105,104,107,126,129,87,65,68,106,0,128,71,138,101,23 };
 
 static const unsigned short spherical_convex_convex_certified_along_input[] = { 102,94,76,107,106,0,105,1,2,3,4,5,6,7,8,9,111,110,113,112,46,11,26,10,104,12,103,13,14,15,16,17,75,109,108,18,19,20,21,23,24,27,25,28 };
 static const mw_wide spherical_convex_convex_certified_along_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -226,25 +226,32 @@ static const unsigned short spherical_convex_convex_certified_along_operation[] 
 };
 static const unsigned short spherical_convex_convex_certified_along_output[] = { 101,72,107,114,126,75,53,59,121,55 };
 
-static const unsigned short spherical_convex_convex_certified_flank_0_input[] = { 103,12,102,1,13,14,4,15,6,16,8,17,10,18,20,27,33,46,30,26,47,48,49,50,51,52 };
+static const unsigned short spherical_convex_convex_certified_flank_0_input[] = { 102,1,13,103,20,21,12,14,4,15,6,16,8,17,98,10,18,19,23,24,27,33,46,30,26,47,48,49,50,51,52,28,25 };
 static const mw_wide spherical_convex_convex_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
 static const unsigned short spherical_convex_convex_certified_flank_0_operation[] = {
-2,28,0,26, 7,29,28,30, 3,28,29,29, 2,28,28,1, 2,31,2,3, 1,31,31,4, 7,32,0,33, 2,34,31,33, 0,35,34,5, 0,35,28,35, 
-2,28,35,6, 0,28,28,7, 2,36,2,8, 1,36,9,36, 2,37,33,10, 2,37,36,37, 1,37,28,37, 2,37,37,11, 4,28,27,33, 2,37,37,28, 
-7,38,37,39, 2,40,35,39, 2,41,12,36, 2,42,37,13, 0,42,41,42, 2,41,42,38, 1,41,40,41, 2,40,42,39, 2,43,35,38, 0,43,40,43, 
-2,31,31,32, 2,40,30,14, 2,44,29,40, 0,44,31,44, 2,45,33,15, 2,46,45,39, 2,47,6,38, 1,47,46,47, 2,30,26,30, 2,40,40,30, 
-2,46,16,29, 2,46,29,46, 1,46,40,46, 0,46,34,46, 2,34,3,33, 2,40,34,38, 2,48,33,17, 2,33,33,18, 0,33,48,33, 2,33,11,33, 
-2,33,33,28, 2,48,33,39, 2,49,35,48, 0,49,40,49, 2,40,13,33, 1,40,40,19, 2,50,40,39, 2,33,33,38, 2,51,42,33, 1,51,50,51, 
-0,51,49,51, 2,49,46,51, 2,50,3,32, 2,30,29,30, 0,30,30,30, 2,30,1,30, 1,31,30,31, 2,30,31,38, 2,29,32,10, 2,29,36,29, 
-2,36,6,31, 0,36,29,36, 2,36,11,36, 2,37,32,37, 0,37,36,37, 2,37,28,37, 2,28,37,39, 2,36,35,28, 0,36,30,36, 2,30,13,37, 
-2,29,30,39, 2,37,37,38, 2,52,42,37, 1,52,29,52, 0,52,36,52, 2,36,50,52, 1,36,49,36, 2,36,47,36, 2,47,6,39, 2,45,45,38, 
-0,45,47,45, 2,31,31,39, 2,37,35,37, 1,37,31,37, 2,30,30,38, 2,28,42,28, 0,28,30,28, 1,28,37,28, 2,37,50,28, 2,39,34,39, 
-2,33,35,33, 1,33,39,33, 2,38,40,38, 2,48,42,48, 0,48,38,48, 1,48,33,48, 2,33,46,48, 1,33,37,33, 2,33,45,33, 0,33,36,33, 
-2,32,32,15, 2,36,48,52, 2,45,51,28, 1,45,36,45, 2,45,32,45, 0,45,33,45, 2,45,45,20, 3,33,41,41, 3,32,43,43, 0,32,33,32, 
-6,32,32,32, 1,32,21,32, 3,33,44,44, 1,36,22,33, 6,36,36,36, 0,36,23,36, 4,36,33,36, 1,36,32,36, 9,32,44,44, 2,32,44,32, 
-1,32,24,32, 1,33,25,2, 
+2,35,0,1, 1,35,35,2, 7,36,3,37, 2,38,35,36, 2,39,3,33, 7,40,39,41, 2,39,41,4, 2,42,40,39, 0,42,38,42, 2,43,42,5, 
+3,44,40,40, 2,44,44,6, 2,35,35,37, 0,45,35,7, 0,45,44,45, 2,44,45,8, 0,44,44,9, 2,46,0,10, 1,46,11,46, 2,47,37,12, 
+2,47,46,47, 1,47,44,47, 2,47,47,13, 4,44,34,37, 2,47,47,44, 0,48,47,14, 7,49,48,50, 2,48,45,50, 2,51,15,46, 2,52,47,16, 
+0,52,51,52, 2,51,52,49, 1,51,48,51, 2,48,51,17, 0,48,43,48, 2,43,50,52, 2,53,45,49, 0,53,43,53, 2,43,53,18, 2,54,42,17, 
+2,51,5,51, 1,51,54,51, 2,54,51,19, 1,54,43,54, 2,51,18,51, 2,53,53,19, 0,53,51,53, 2,51,37,20, 7,43,47,55, 2,56,51,55, 
+2,57,8,43, 1,57,56,57, 2,41,33,41, 2,39,39,41, 2,56,21,40, 2,56,40,56, 1,56,39,56, 0,56,35,56, 2,35,1,37, 2,39,35,43, 
+2,58,37,22, 2,37,37,23, 0,37,58,37, 2,37,13,37, 2,37,37,44, 2,58,37,55, 2,59,45,58, 0,59,39,59, 2,39,16,37, 1,39,39,24, 
+2,60,39,55, 2,61,37,43, 2,62,52,61, 1,62,60,62, 0,62,59,62, 2,59,56,62, 2,60,1,36, 2,41,40,41, 0,41,41,41, 2,41,6,41, 
+1,38,41,38, 2,41,38,43, 2,40,36,12, 2,40,46,40, 2,46,8,38, 0,46,40,46, 2,46,13,46, 2,47,36,47, 0,47,46,47, 2,47,44,47, 
+2,44,47,55, 2,46,45,44, 0,46,41,46, 2,41,16,47, 2,40,41,55, 2,63,47,43, 2,64,52,63, 1,64,40,64, 0,64,46,64, 2,46,60,64, 
+1,46,59,46, 2,46,57,46, 2,57,8,55, 2,51,51,43, 0,51,57,51, 2,57,38,55, 2,63,45,63, 1,63,57,63, 2,57,41,43, 2,44,52,44, 
+0,44,57,44, 1,44,63,44, 2,60,60,44, 2,63,35,55, 2,61,45,61, 1,61,63,61, 2,63,39,43, 2,58,52,58, 0,58,63,58, 1,58,61,58, 
+2,61,56,58, 1,61,60,61, 2,61,51,61, 0,61,46,61, 2,46,36,20, 2,64,58,64, 2,44,62,44, 1,44,64,44, 2,44,46,44, 0,44,61,44, 
+2,44,44,25, 2,61,45,55, 2,46,52,43, 1,46,61,46, 3,46,46,46, 2,55,52,55, 2,43,45,43, 0,43,55,43, 3,43,43,43, 0,43,46,43, 
+6,43,43,43, 1,43,26,43, 3,46,42,42, 1,55,27,46, 6,55,55,55, 0,55,28,55, 4,55,46,55, 1,55,43,55, 9,42,42,42, 1,42,29,42, 
+1,43,30,0, 2,46,36,31, 2,61,50,35, 2,64,49,37, 2,62,45,64, 1,62,61,62, 2,61,49,39, 2,37,50,37, 2,58,52,37, 0,58,61,58, 
+1,58,62,58, 2,62,17,58, 0,62,46,62, 2,35,49,35, 2,37,45,37, 0,37,35,37, 2,39,50,39, 2,64,52,64, 1,64,39,64, 0,64,37,64, 
+2,37,18,64, 2,36,36,32, 2,58,5,58, 1,58,36,58, 2,36,19,58, 1,36,37,36, 2,64,19,64, 2,58,18,58, 0,58,64,58, 2,64,5,56, 
+2,37,50,38, 2,39,49,47, 2,35,45,39, 1,35,37,35, 2,37,49,41, 2,47,50,47, 2,46,52,47, 0,46,37,46, 1,46,35,46, 2,35,17,46, 
+0,35,64,35, 2,38,49,38, 2,47,45,47, 0,47,38,47, 2,41,50,41, 2,39,52,39, 1,39,41,39, 0,39,47,39, 2,47,18,39, 2,56,17,56, 
+2,46,5,46, 1,46,56,46, 2,56,19,46, 1,56,47,56, 2,39,19,39, 2,46,18,46, 0,46,39,46, 
 };
-static const unsigned short spherical_convex_convex_certified_flank_0_output[] = { 41,43,44,45,36,32,33,2,48,51,50,28,52,46 };
+static const unsigned short spherical_convex_convex_certified_flank_0_output[] = { 48,54,53,44,55,42,43,0,62,36,58,35,56,46 };
 
 static const unsigned short spherical_convex_convex_certified_flank_1_input[] = { 103,0,102,1,2,3,4,5,6,7,8,9,10,11,45,27,41,46,30,26,53,54,55,56,57,58 };
 static const mw_wide spherical_convex_convex_certified_flank_1_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -261,8 +268,8 @@ static const unsigned short spherical_convex_convex_certified_flank_1_operation[
 0,45,47,45, 2,33,33,40, 2,38,35,38, 1,38,33,38, 2,30,30,39, 2,28,42,28, 0,28,30,28, 1,28,38,28, 2,38,50,28, 2,40,34,40, 
 2,32,35,32, 1,32,40,32, 2,39,46,39, 2,48,42,48, 0,48,39,48, 1,48,32,48, 2,32,41,48, 1,32,38,32, 2,32,45,32, 0,32,29,32, 
 2,31,31,15, 2,29,48,52, 2,45,51,28, 1,45,29,45, 2,45,31,45, 0,45,32,45, 2,45,45,20, 3,32,36,36, 3,31,43,43, 0,31,32,31, 
-6,31,31,31, 1,31,21,31, 3,32,44,44, 1,29,22,32, 6,29,29,29, 0,29,23,29, 4,29,32,29, 1,29,31,29, 9,31,44,44, 2,31,44,31, 
-1,31,24,31, 1,32,25,2, 
+6,31,31,31, 1,31,21,31, 3,32,44,44, 1,29,22,32, 6,29,29,29, 0,29,23,29, 4,29,32,29, 1,29,31,29, 9,31,44,44, 1,31,24,31, 
+1,32,25,2, 
 };
 static const unsigned short spherical_convex_convex_certified_flank_1_output[] = { 36,43,44,45,29,31,32,2,48,51,50,28,52,41 };
 
@@ -356,9 +363,9 @@ static const unsigned short spherical_convex_convex_certified_rule_11_input[] = 
 static const mw_wide spherical_convex_convex_certified_rule_11_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_convex_convex_certified_rule_11_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_convex_convex_certified_rule_11_output[] = { 11 };
+static const unsigned short spherical_convex_convex_certified_rule_11_output[] = { 12 };
 
 static const unsigned short spherical_convex_convex_certified_rule_12_input[] = { 24,9 };
 static const mw_wide spherical_convex_convex_certified_rule_12_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -392,9 +399,9 @@ static const unsigned short spherical_convex_convex_certified_rule_16_input[] = 
 static const mw_wide spherical_convex_convex_certified_rule_16_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_convex_convex_certified_rule_16_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_convex_convex_certified_rule_16_output[] = { 11 };
+static const unsigned short spherical_convex_convex_certified_rule_16_output[] = { 12 };
 
 static const unsigned short spherical_convex_convex_certified_rule_17_input[] = { 24,16 };
 static const mw_wide spherical_convex_convex_certified_rule_17_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -415,12 +422,12 @@ static const mw_certified_rule spherical_convex_convex_certified_rules[] = {
     { 8, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_8_input, spherical_convex_convex_certified_rule_8_constant, spherical_convex_convex_certified_rule_8_operation, spherical_convex_convex_certified_rule_8_output } },
     { 9, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_9_input, spherical_convex_convex_certified_rule_9_constant, spherical_convex_convex_certified_rule_9_operation, spherical_convex_convex_certified_rule_9_output } },
     { 10, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_10_input, spherical_convex_convex_certified_rule_10_constant, spherical_convex_convex_certified_rule_10_operation, spherical_convex_convex_certified_rule_10_output } },
-    { 11, { 13, 4, 5, 17, 17, 1, spherical_convex_convex_certified_rule_11_input, spherical_convex_convex_certified_rule_11_constant, spherical_convex_convex_certified_rule_11_operation, spherical_convex_convex_certified_rule_11_output } },
+    { 11, { 13, 4, 5, 16, 16, 1, spherical_convex_convex_certified_rule_11_input, spherical_convex_convex_certified_rule_11_constant, spherical_convex_convex_certified_rule_11_operation, spherical_convex_convex_certified_rule_11_output } },
     { 12, { 3, 2, 0, 2, 2, 1, spherical_convex_convex_certified_rule_12_input, spherical_convex_convex_certified_rule_12_constant, spherical_convex_convex_certified_rule_12_operation, spherical_convex_convex_certified_rule_12_output } },
     { 15, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_13_input, spherical_convex_convex_certified_rule_13_constant, spherical_convex_convex_certified_rule_13_operation, spherical_convex_convex_certified_rule_13_output } },
     { 16, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_14_input, spherical_convex_convex_certified_rule_14_constant, spherical_convex_convex_certified_rule_14_operation, spherical_convex_convex_certified_rule_14_output } },
     { 17, { 1, 1, 0, 0, 0, 1, spherical_convex_convex_certified_rule_15_input, spherical_convex_convex_certified_rule_15_constant, spherical_convex_convex_certified_rule_15_operation, spherical_convex_convex_certified_rule_15_output } },
-    { 18, { 13, 4, 5, 17, 17, 1, spherical_convex_convex_certified_rule_16_input, spherical_convex_convex_certified_rule_16_constant, spherical_convex_convex_certified_rule_16_operation, spherical_convex_convex_certified_rule_16_output } },
+    { 18, { 13, 4, 5, 16, 16, 1, spherical_convex_convex_certified_rule_16_input, spherical_convex_convex_certified_rule_16_constant, spherical_convex_convex_certified_rule_16_operation, spherical_convex_convex_certified_rule_16_output } },
     { 19, { 3, 2, 0, 2, 2, 1, spherical_convex_convex_certified_rule_17_input, spherical_convex_convex_certified_rule_17_constant, spherical_convex_convex_certified_rule_17_operation, spherical_convex_convex_certified_rule_17_output } },
     { -1, { 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL } }
 };
@@ -431,14 +438,14 @@ static const mw_wide spherical_convex_convex_certified_factors[] = { { 1.0, 0.0,
 
 static const mw_certified spherical_convex_convex_certified = {
     102, 97, spherical_convex_convex_certified_factors, spherical_convex_convex_certified_rules, spherical_convex_convex_certified_systems,
-    { 112, 20, 6, 244, 244, 97, spherical_convex_convex_certified_setup_input, spherical_convex_convex_certified_setup_constant, spherical_convex_convex_certified_setup_operation, spherical_convex_convex_certified_setup_output },
+    { 112, 20, 6, 242, 242, 97, spherical_convex_convex_certified_setup_input, spherical_convex_convex_certified_setup_constant, spherical_convex_convex_certified_setup_operation, spherical_convex_convex_certified_setup_output },
     { 13, 8, 0, 7, 7, 5, spherical_convex_convex_certified_instant_input, spherical_convex_convex_certified_instant_constant, spherical_convex_convex_certified_instant_operation, spherical_convex_convex_certified_instant_output },
     { 109, 49, 3, 365, 138, 30, spherical_convex_convex_certified_equations_input, spherical_convex_convex_certified_equations_constant, spherical_convex_convex_certified_equations_operation, spherical_convex_convex_certified_equations_output },
-    { 139, 58, 3, 659, 659, 25, spherical_convex_convex_certified_observed_input, spherical_convex_convex_certified_observed_constant, spherical_convex_convex_certified_observed_operation, spherical_convex_convex_certified_observed_output },
+    { 139, 58, 3, 657, 657, 25, spherical_convex_convex_certified_observed_input, spherical_convex_convex_certified_observed_constant, spherical_convex_convex_certified_observed_operation, spherical_convex_convex_certified_observed_output },
     { 140, 44, 2, 589, 589, 10, spherical_convex_convex_certified_along_input, spherical_convex_convex_certified_along_constant, spherical_convex_convex_certified_along_operation, spherical_convex_convex_certified_along_output },
     {
-        { 53, 26, 2, 132, 132, 14, spherical_convex_convex_certified_flank_0_input, spherical_convex_convex_certified_flank_0_constant, spherical_convex_convex_certified_flank_0_operation, spherical_convex_convex_certified_flank_0_output },
-        { 53, 26, 2, 132, 132, 14, spherical_convex_convex_certified_flank_1_input, spherical_convex_convex_certified_flank_1_constant, spherical_convex_convex_certified_flank_1_operation, spherical_convex_convex_certified_flank_1_output }
+        { 65, 33, 2, 207, 47, 14, spherical_convex_convex_certified_flank_0_input, spherical_convex_convex_certified_flank_0_constant, spherical_convex_convex_certified_flank_0_operation, spherical_convex_convex_certified_flank_0_output },
+        { 53, 26, 2, 131, 34, 14, spherical_convex_convex_certified_flank_1_input, spherical_convex_convex_certified_flank_1_constant, spherical_convex_convex_certified_flank_1_operation, spherical_convex_convex_certified_flank_1_output }
     },
     { 25, 13, 3, 21, 21, 36, spherical_convex_convex_certified_placement_input, spherical_convex_convex_certified_placement_constant, spherical_convex_convex_certified_placement_operation, spherical_convex_convex_certified_placement_output },
     1

@@ -142,6 +142,12 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
 typedef struct mwc_turn {
     mw_ball sine, cosine;
 } mwc_turn;
@@ -283,6 +289,12 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     const mw_wide s = mwc_wide_joined(first.hi, mwc_wide_sub(a, mwc_wide_sqr(first)).hi / (2.0 * first.hi), 0.0);
     const double left = mwc_wide_most(mwc_wide_sub(a, mwc_wide_sqr(s))), least = mwc_wide_least(s) * (1.0 - 8.0 * MWC_U);
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
+}
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
 }
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {
@@ -1367,36 +1379,34 @@ static inline int spherical_convex_convex_certify_setup(const mw_wide *p, double
     const mw_wide w242 = mwc_wide_div(w241, w5);
     const mw_wide w243 = mwc_wide_div(w240, w5);
     const mw_wide w244 = mwc_wide_sub(w44, w243);
-    const mw_wide w245 = mwc_wide_sign(w244);
-    const mw_wide w246 = mwc_wide_mul(w244, w245);
-    const mw_wide w247 = mwc_wide_mul(w7, w246);
-    const mw_wide w248 = mwc_wide_add(w49, w247);
-    const mw_wide w249 = mwc_wide_add(w242, w248);
-    const mw_wide w250 = mwc_wide_sub(w37, w40);
-    const mw_wide w251 = mwc_wide_sub(w29, w4);
-    const mw_wide w252 = mwc_wide_mul(w201, w251);
-    const mw_wide w253 = mwc_wide_sub(w250, w252);
-    const mw_wide w254 = mwc_wide_mul(w195, w13);
-    const mw_wide w255 = mwc_wide_sub(w0, w19);
-    const mw_wide w256 = mwc_wide_add(w254, w255);
-    const mw_wide w257 = mwc_wide_mul(w13, w256);
-    const mw_wide w258 = mwc_wide_div(w257, w5);
-    const mw_wide w259 = mwc_wide_div(w256, w5);
-    const mw_wide w260 = mwc_wide_sub(w26, w259);
-    const mw_wide w261 = mwc_wide_sign(w260);
-    const mw_wide w262 = mwc_wide_mul(w260, w261);
-    const mw_wide w263 = mwc_wide_mul(w7, w262);
-    const mw_wide w264 = mwc_wide_add(w33, w263);
-    const mw_wide w265 = mwc_wide_add(w258, w264);
-    const mw_wide w266 = mwc_wide_sub(w10, w19);
-    const mw_wide w267 = mwc_wide_mul(w213, w251);
-    const mw_wide w268 = mwc_wide_sub(w266, w267);
-    const mw_wide w269 = mwc_wide_div(w36, w9);
-    const mw_wide w270 = mwc_wide_mul(w11, w7);
-    const mw_wide w271 = mwc_wide_mul(w6, w270);
-    const mw_wide w272 = mwc_wide_mul(w36, w271);
-    const mw_wide w273 = mwc_wide_mul(w4, w272);
-    const mw_wide w274 = mwc_wide_mul(w4, w38);
+    const mw_wide w245 = mwc_wide_magnitude(w244);
+    const mw_wide w246 = mwc_wide_mul(w7, w245);
+    const mw_wide w247 = mwc_wide_add(w49, w246);
+    const mw_wide w248 = mwc_wide_add(w242, w247);
+    const mw_wide w249 = mwc_wide_sub(w37, w40);
+    const mw_wide w250 = mwc_wide_sub(w29, w4);
+    const mw_wide w251 = mwc_wide_mul(w201, w250);
+    const mw_wide w252 = mwc_wide_sub(w249, w251);
+    const mw_wide w253 = mwc_wide_mul(w195, w13);
+    const mw_wide w254 = mwc_wide_sub(w0, w19);
+    const mw_wide w255 = mwc_wide_add(w253, w254);
+    const mw_wide w256 = mwc_wide_mul(w13, w255);
+    const mw_wide w257 = mwc_wide_div(w256, w5);
+    const mw_wide w258 = mwc_wide_div(w255, w5);
+    const mw_wide w259 = mwc_wide_sub(w26, w258);
+    const mw_wide w260 = mwc_wide_magnitude(w259);
+    const mw_wide w261 = mwc_wide_mul(w7, w260);
+    const mw_wide w262 = mwc_wide_add(w33, w261);
+    const mw_wide w263 = mwc_wide_add(w257, w262);
+    const mw_wide w264 = mwc_wide_sub(w10, w19);
+    const mw_wide w265 = mwc_wide_mul(w213, w250);
+    const mw_wide w266 = mwc_wide_sub(w264, w265);
+    const mw_wide w267 = mwc_wide_div(w36, w9);
+    const mw_wide w268 = mwc_wide_mul(w11, w7);
+    const mw_wide w269 = mwc_wide_mul(w6, w268);
+    const mw_wide w270 = mwc_wide_mul(w36, w269);
+    const mw_wide w271 = mwc_wide_mul(w4, w270);
+    const mw_wide w272 = mwc_wide_mul(w4, w38);
     mwc_put(s, 0, mwc_of_wide(w2));
     mwc_put(s, 1, mwc_of_wide(w5));
     mwc_put(s, 2, mwc_of_wide(w19));
@@ -1481,19 +1491,19 @@ static inline int spherical_convex_convex_certify_setup(const mw_wide *p, double
     mwc_put(s, 81, mwc_of_wide(w235));
     mwc_put(s, 82, mwc_of_wide(w236));
     mwc_put(s, 83, mwc_of_wide(w237));
-    mwc_put(s, 84, mwc_of_wide(w249));
+    mwc_put(s, 84, mwc_of_wide(w248));
     mwc_put(s, 85, mwc_of_wide(w86));
     mwc_put(s, 86, mwc_of_wide(w36));
-    mwc_put(s, 87, mwc_of_wide(w253));
+    mwc_put(s, 87, mwc_of_wide(w252));
     mwc_put(s, 88, mwc_of_wide(w238));
-    mwc_put(s, 89, mwc_of_wide(w265));
+    mwc_put(s, 89, mwc_of_wide(w263));
     mwc_put(s, 90, mwc_of_wide(w143));
     mwc_put(s, 91, mwc_of_wide(w9));
-    mwc_put(s, 92, mwc_of_wide(w268));
-    mwc_put(s, 93, mwc_of_wide(w254));
-    mwc_put(s, 94, mwc_of_wide(w269));
-    mwc_put(s, 95, mwc_of_wide(w273));
-    mwc_put(s, 96, mwc_of_wide(w274));
+    mwc_put(s, 92, mwc_of_wide(w266));
+    mwc_put(s, 93, mwc_of_wide(w253));
+    mwc_put(s, 94, mwc_of_wide(w267));
+    mwc_put(s, 95, mwc_of_wide(w271));
+    mwc_put(s, 96, mwc_of_wide(w272));
     s[204] = mwc_arithmetic() ? 1.0 : 0.0;
     return s[204] > 0.0;
 }

@@ -31,11 +31,11 @@ static const unsigned short spherical_convex_spur_certified_setup_operation[] = 
 2,91,17,36, 2,92,17,45, 2,92,36,92, 4,92,21,92, 2,92,22,92, 4,93,24,23, 1,93,93,0, 2,32,18,32, 2,94,4,18, 2,95,4,35, 
 2,96,18,36, 2,97,18,38, 2,97,36,97, 4,97,21,97, 2,97,22,97, 2,36,4,22, 2,36,9,36, 4,36,36,45, 2,98,4,23, 2,98,5,98, 
 4,98,98,38, 2,99,1,6, 6,99,99,99, 4,100,99,6, 4,101,21,1, 4,102,21,100, 4,103,21,99, 5,104,86,86, 2,105,14,20, 1,106,6,8, 
-0,106,105,106, 2,107,20,106, 4,107,107,26, 4,106,106,26, 1,106,45,106, 9,45,106,106, 2,45,106,45, 2,45,19,45, 0,45,40,45, 0,45,107,45, 
-1,107,27,8, 1,106,21,25, 2,108,17,106, 1,108,107,108, 5,38,38,38, 2,106,18,106, 1,106,29,106, 2,107,16,20, 4,109,7,2, 2,110,4,19, 
-2,110,1,110, 2,110,7,110, 2,110,25,110, 2,31,25,31, 
+0,106,105,106, 2,107,20,106, 4,107,107,26, 4,106,106,26, 1,106,45,106, 9,106,106,106, 2,106,19,106, 0,106,40,106, 0,106,107,106, 1,107,27,8, 
+1,45,21,25, 2,108,17,45, 1,108,107,108, 5,38,38,38, 2,45,18,45, 1,45,29,45, 2,107,16,20, 4,109,7,2, 2,110,4,19, 2,110,1,110, 
+2,110,7,110, 2,110,25,110, 2,31,25,31, 
 };
-static const unsigned short spherical_convex_spur_certified_setup_output[] = { 26,29,30,33,25,35,37,39,4,42,43,8,27,44,34,46,40,48,49,47,50,52,51,53,54,55,56,57,58,59,60,6,63,64,65,67,68,66,69,70,71,72,73,61,79,78,75,84,62,81,82,28,90,89,76,85,88,86,0,17,77,87,80,91,92,93,18,32,94,95,96,97,41,36,98,1,100,99,101,102,103,104,45,74,7,108,105,38,83,2,106,107,109,110,31 };
+static const unsigned short spherical_convex_spur_certified_setup_output[] = { 26,29,30,33,25,35,37,39,4,42,43,8,27,44,34,46,40,48,49,47,50,52,51,53,54,55,56,57,58,59,60,6,63,64,65,67,68,66,69,70,71,72,73,61,79,78,75,84,62,81,82,28,90,89,76,85,88,86,0,17,77,87,80,91,92,93,18,32,94,95,96,97,41,36,98,1,100,99,101,102,103,104,106,74,7,108,105,38,83,2,45,107,109,110,31 };
 
 static const unsigned short spherical_convex_spur_certified_instant_input[] = { 100,92,74,73,93,83,94,88 };
 static const mw_wide spherical_convex_spur_certified_instant_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -127,13 +127,13 @@ static const unsigned short spherical_convex_spur_certified_observed_operation[]
 2,95,95,92, 2,110,77,110, 0,110,95,110, 1,110,97,110, 2,108,108,110, 1,108,61,108, 2,108,76,108, 0,108,111,108, 2,101,110,101, 2,109,88,109, 
 1,109,101,109, 2,109,117,109, 0,109,108,109, 2,109,109,45, 2,108,70,64, 2,117,77,92, 1,117,108,117, 3,117,117,117, 2,64,77,64, 2,92,70,92, 
 0,92,64,92, 3,92,92,92, 0,92,117,92, 6,92,92,92, 1,92,46,92, 3,117,67,67, 1,64,47,117, 6,64,64,64, 0,64,48,64, 4,64,117,64, 
-1,64,92,64, 9,92,67,67, 2,92,67,92, 1,92,49,92, 1,67,50,0, 7,117,82,70, 2,82,20,70, 2,77,8,117, 1,77,82,77, 2,82,1,117, 
-2,108,38,70, 2,101,85,108, 0,101,82,101, 2,82,39,70, 2,88,38,117, 2,110,86,88, 1,110,82,110, 0,110,101,110, 2,110,77,110, 2,77,20,117, 
-2,101,8,70, 0,101,77,101, 2,77,1,70, 2,88,85,88, 1,88,77,88, 2,77,39,117, 2,108,86,108, 0,108,77,108, 1,108,88,108, 2,108,101,108, 
-1,108,110,108, 2,108,108,51, 2,110,85,70, 2,101,86,117, 1,101,110,101, 3,101,101,101, 2,70,86,70, 2,117,85,117, 0,117,70,117, 3,117,117,117, 
-0,117,101,117, 6,117,117,117, 1,117,52,117, 9,101,53,53, 2,101,53,101, 1,101,54,101, 1,70,55,23, 
+1,64,92,64, 9,67,67,67, 1,67,49,67, 1,92,50,0, 7,117,82,70, 2,82,20,70, 2,77,8,117, 1,77,82,77, 2,82,1,117, 2,108,38,70, 
+2,101,85,108, 0,101,82,101, 2,82,39,70, 2,88,38,117, 2,110,86,88, 1,110,82,110, 0,110,101,110, 2,110,77,110, 2,77,20,117, 2,101,8,70, 
+0,101,77,101, 2,77,1,70, 2,88,85,88, 1,88,77,88, 2,77,39,117, 2,108,86,108, 0,108,77,108, 1,108,88,108, 2,108,101,108, 1,108,110,108, 
+2,108,108,51, 2,110,85,70, 2,101,86,117, 1,101,110,101, 3,101,101,101, 2,70,86,70, 2,117,85,117, 0,117,70,117, 3,117,117,117, 0,117,101,117, 
+6,117,117,117, 1,117,52,117, 9,101,53,53, 1,101,54,101, 1,70,55,23, 
 };
-static const unsigned short spherical_convex_spur_certified_observed_output[] = { 73,79,78,81,84,83,89,90,53,91,93,59,68,106,107,109,64,92,67,0,108,117,101,70,23 };
+static const unsigned short spherical_convex_spur_certified_observed_output[] = { 73,79,78,81,84,83,89,90,53,91,93,59,68,106,107,109,64,67,92,0,108,117,101,70,23 };
 
 static const unsigned short spherical_convex_spur_certified_along_input[] = { 100,92,74,105,103,0,1,2,3,4,5,6,7,108,111,110,28,43,9,23,8,102,10,101,11,12,13,14,15,73,107,106,16,17,18,19,21,22,109,25,24,26 };
 static const mw_wide spherical_convex_spur_certified_along_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -184,25 +184,32 @@ static const unsigned short spherical_convex_spur_certified_along_operation[] = 
 };
 static const unsigned short spherical_convex_spur_certified_along_output[] = { 84,55,82,93,101,108,45,64,69,109 };
 
-static const unsigned short spherical_convex_spur_certified_flank_0_input[] = { 101,10,100,0,11,12,2,13,4,14,6,15,8,16,18,25,31,43,28,23,44,45,46,47,48,49 };
+static const unsigned short spherical_convex_spur_certified_flank_0_input[] = { 100,0,11,101,18,19,10,12,2,13,4,14,6,15,96,8,16,17,21,22,25,31,43,28,23,44,45,46,47,48,49,26,24 };
 static const mw_wide spherical_convex_spur_certified_flank_0_constant[] = { { 0.5, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
 static const unsigned short spherical_convex_spur_certified_flank_0_operation[] = {
-2,28,0,26, 7,29,28,30, 3,28,29,29, 2,28,28,1, 2,31,2,3, 1,31,31,4, 7,32,0,33, 2,34,31,33, 0,35,34,5, 0,35,28,35, 
-2,28,35,6, 0,28,28,7, 2,36,2,8, 1,36,9,36, 2,37,33,10, 2,37,36,37, 1,37,28,37, 2,37,37,11, 4,28,27,33, 2,37,37,28, 
-7,38,37,39, 2,40,35,39, 2,41,12,36, 2,42,37,13, 0,42,41,42, 2,41,42,38, 1,41,40,41, 2,40,42,39, 2,43,35,38, 0,43,40,43, 
-2,31,31,32, 2,40,30,14, 2,44,29,40, 0,44,31,44, 2,45,33,15, 2,46,45,39, 2,47,6,38, 1,47,46,47, 2,30,26,30, 2,40,40,30, 
-2,46,16,29, 2,46,29,46, 1,46,40,46, 0,46,34,46, 2,34,3,33, 2,40,34,38, 2,48,33,17, 2,33,33,18, 0,33,48,33, 2,33,11,33, 
-2,33,33,28, 2,48,33,39, 2,49,35,48, 0,49,40,49, 2,40,13,33, 1,40,40,19, 2,50,40,39, 2,33,33,38, 2,51,42,33, 1,51,50,51, 
-0,51,49,51, 2,49,46,51, 2,50,3,32, 2,30,29,30, 0,30,30,30, 2,30,1,30, 1,31,30,31, 2,30,31,38, 2,29,32,10, 2,29,36,29, 
-2,36,6,31, 0,36,29,36, 2,36,11,36, 2,37,32,37, 0,37,36,37, 2,37,28,37, 2,28,37,39, 2,36,35,28, 0,36,30,36, 2,30,13,37, 
-2,29,30,39, 2,37,37,38, 2,52,42,37, 1,52,29,52, 0,52,36,52, 2,36,50,52, 1,36,49,36, 2,36,47,36, 2,47,6,39, 2,45,45,38, 
-0,45,47,45, 2,31,31,39, 2,37,35,37, 1,37,31,37, 2,30,30,38, 2,28,42,28, 0,28,30,28, 1,28,37,28, 2,37,50,28, 2,39,34,39, 
-2,33,35,33, 1,33,39,33, 2,38,40,38, 2,48,42,48, 0,48,38,48, 1,48,33,48, 2,33,46,48, 1,33,37,33, 2,33,45,33, 0,33,36,33, 
-2,32,32,15, 2,36,48,52, 2,45,51,28, 1,45,36,45, 2,45,32,45, 0,45,33,45, 2,45,45,20, 3,33,41,41, 3,32,43,43, 0,32,33,32, 
-6,32,32,32, 1,32,21,32, 3,33,44,44, 1,36,22,33, 6,36,36,36, 0,36,23,36, 4,36,33,36, 1,36,32,36, 9,32,44,44, 2,32,44,32, 
-1,32,24,32, 1,33,25,2, 
+2,35,0,1, 1,35,35,2, 7,36,3,37, 2,38,35,36, 2,39,3,33, 7,40,39,41, 2,39,41,4, 2,42,40,39, 0,42,38,42, 2,43,42,5, 
+3,44,40,40, 2,44,44,6, 2,35,35,37, 0,45,35,7, 0,45,44,45, 2,44,45,8, 0,44,44,9, 2,46,0,10, 1,46,11,46, 2,47,37,12, 
+2,47,46,47, 1,47,44,47, 2,47,47,13, 4,44,34,37, 2,47,47,44, 0,48,47,14, 7,49,48,50, 2,48,45,50, 2,51,15,46, 2,52,47,16, 
+0,52,51,52, 2,51,52,49, 1,51,48,51, 2,48,51,17, 0,48,43,48, 2,43,50,52, 2,53,45,49, 0,53,43,53, 2,43,53,18, 2,54,42,17, 
+2,51,5,51, 1,51,54,51, 2,54,51,19, 1,54,43,54, 2,51,18,51, 2,53,53,19, 0,53,51,53, 2,51,37,20, 7,43,47,55, 2,56,51,55, 
+2,57,8,43, 1,57,56,57, 2,41,33,41, 2,39,39,41, 2,56,21,40, 2,56,40,56, 1,56,39,56, 0,56,35,56, 2,35,1,37, 2,39,35,43, 
+2,58,37,22, 2,37,37,23, 0,37,58,37, 2,37,13,37, 2,37,37,44, 2,58,37,55, 2,59,45,58, 0,59,39,59, 2,39,16,37, 1,39,39,24, 
+2,60,39,55, 2,61,37,43, 2,62,52,61, 1,62,60,62, 0,62,59,62, 2,59,56,62, 2,60,1,36, 2,41,40,41, 0,41,41,41, 2,41,6,41, 
+1,38,41,38, 2,41,38,43, 2,40,36,12, 2,40,46,40, 2,46,8,38, 0,46,40,46, 2,46,13,46, 2,47,36,47, 0,47,46,47, 2,47,44,47, 
+2,44,47,55, 2,46,45,44, 0,46,41,46, 2,41,16,47, 2,40,41,55, 2,63,47,43, 2,64,52,63, 1,64,40,64, 0,64,46,64, 2,46,60,64, 
+1,46,59,46, 2,46,57,46, 2,57,8,55, 2,51,51,43, 0,51,57,51, 2,57,38,55, 2,63,45,63, 1,63,57,63, 2,57,41,43, 2,44,52,44, 
+0,44,57,44, 1,44,63,44, 2,60,60,44, 2,63,35,55, 2,61,45,61, 1,61,63,61, 2,63,39,43, 2,58,52,58, 0,58,63,58, 1,58,61,58, 
+2,61,56,58, 1,61,60,61, 2,61,51,61, 0,61,46,61, 2,46,36,20, 2,64,58,64, 2,44,62,44, 1,44,64,44, 2,44,46,44, 0,44,61,44, 
+2,44,44,25, 2,61,45,55, 2,46,52,43, 1,46,61,46, 3,46,46,46, 2,55,52,55, 2,43,45,43, 0,43,55,43, 3,43,43,43, 0,43,46,43, 
+6,43,43,43, 1,43,26,43, 3,46,42,42, 1,55,27,46, 6,55,55,55, 0,55,28,55, 4,55,46,55, 1,55,43,55, 9,42,42,42, 1,42,29,42, 
+1,43,30,0, 2,46,36,31, 2,61,50,35, 2,64,49,37, 2,62,45,64, 1,62,61,62, 2,61,49,39, 2,37,50,37, 2,58,52,37, 0,58,61,58, 
+1,58,62,58, 2,62,17,58, 0,62,46,62, 2,35,49,35, 2,37,45,37, 0,37,35,37, 2,39,50,39, 2,64,52,64, 1,64,39,64, 0,64,37,64, 
+2,37,18,64, 2,36,36,32, 2,58,5,58, 1,58,36,58, 2,36,19,58, 1,36,37,36, 2,64,19,64, 2,58,18,58, 0,58,64,58, 2,64,5,56, 
+2,37,50,38, 2,39,49,47, 2,35,45,39, 1,35,37,35, 2,37,49,41, 2,47,50,47, 2,46,52,47, 0,46,37,46, 1,46,35,46, 2,35,17,46, 
+0,35,64,35, 2,38,49,38, 2,47,45,47, 0,47,38,47, 2,41,50,41, 2,39,52,39, 1,39,41,39, 0,39,47,39, 2,47,18,39, 2,56,17,56, 
+2,46,5,46, 1,46,56,46, 2,56,19,46, 1,56,47,56, 2,39,19,39, 2,46,18,46, 0,46,39,46, 
 };
-static const unsigned short spherical_convex_spur_certified_flank_0_output[] = { 41,43,44,45,36,32,33,2,48,51,50,28,52,46 };
+static const unsigned short spherical_convex_spur_certified_flank_0_output[] = { 48,54,53,44,55,42,43,0,62,36,58,35,56,46 };
 
 static const unsigned short spherical_convex_spur_certified_flank_1_input[] = { 100,0,1,2,3,4,5,6,7,8,9,25,33,32,50,51,101,52,53 };
 static const mw_wide spherical_convex_spur_certified_flank_1_constant[] = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },  };
@@ -212,7 +219,7 @@ static const unsigned short spherical_convex_spur_certified_flank_1_operation[] 
 2,28,3,25, 1,28,22,28, 2,22,1,25, 2,29,12,26, 2,30,21,29, 0,30,22,30, 2,22,13,26, 2,31,12,25, 2,32,24,31, 1,32,22,32, 
 0,32,30,32, 2,28,28,32, 2,30,11,25, 2,22,3,26, 0,22,30,22, 2,26,1,26, 2,31,21,31, 1,31,26,31, 2,25,13,25, 2,29,24,29, 
 0,29,25,29, 1,29,31,29, 2,22,22,29, 1,22,28,22, 2,22,22,14, 3,28,23,23, 3,31,27,27, 0,31,28,31, 6,31,31,31, 1,31,15,31, 
-9,28,16,16, 2,28,16,28, 1,28,17,28, 1,25,18,0, 
+9,28,16,16, 1,28,17,28, 1,25,18,0, 
 };
 static const unsigned short spherical_convex_spur_certified_flank_1_output[] = { 23,27,16,22,31,28,25,0,29,32,19,19,19,20 };
 
@@ -306,9 +313,9 @@ static const unsigned short spherical_convex_spur_certified_rule_11_input[] = { 
 static const mw_wide spherical_convex_spur_certified_rule_11_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_convex_spur_certified_rule_11_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_convex_spur_certified_rule_11_output[] = { 11 };
+static const unsigned short spherical_convex_spur_certified_rule_11_output[] = { 12 };
 
 static const unsigned short spherical_convex_spur_certified_rule_12_input[] = { 23,9 };
 static const mw_wide spherical_convex_spur_certified_rule_12_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -342,9 +349,9 @@ static const unsigned short spherical_convex_spur_certified_rule_16_input[] = { 
 static const mw_wide spherical_convex_spur_certified_rule_16_constant[] = { { 1.5707963267948966, 6.123233995736766e-17, 1.4973849048591698e-33 }, { 0.5, 0.0, 0.0 }, { 0.38, -4.440892098500626e-18, 9.24446373305874e-35 }, { -0.5, 0.0, 0.0 }, { 0.19, -2.220446049250313e-18, 4.62223186652937e-35 },  };
 static const unsigned short spherical_convex_spur_certified_rule_16_operation[] = {
 2,9,0,4, 1,9,9,1, 7,10,2,11, 4,10,10,11, 2,10,3,10, 1,10,9,10, 2,9,5,10, 4,9,9,11, 2,12,0,6, 4,11,10,11, 
-1,11,12,11, 9,12,11,11, 2,12,11,12, 2,12,12,7, 2,11,0,8, 0,11,12,11, 0,11,9,11, 
+1,11,12,11, 9,11,11,11, 2,11,11,7, 2,12,0,8, 0,12,11,12, 0,12,9,12, 
 };
-static const unsigned short spherical_convex_spur_certified_rule_16_output[] = { 11 };
+static const unsigned short spherical_convex_spur_certified_rule_16_output[] = { 12 };
 
 static const unsigned short spherical_convex_spur_certified_rule_17_input[] = { 23,15 };
 static const mw_wide spherical_convex_spur_certified_rule_17_constant[] = { { 0.0, 0.0, 0.0 } };
@@ -365,12 +372,12 @@ static const mw_certified_rule spherical_convex_spur_certified_rules[] = {
     { 8, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_8_input, spherical_convex_spur_certified_rule_8_constant, spherical_convex_spur_certified_rule_8_operation, spherical_convex_spur_certified_rule_8_output } },
     { 9, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_9_input, spherical_convex_spur_certified_rule_9_constant, spherical_convex_spur_certified_rule_9_operation, spherical_convex_spur_certified_rule_9_output } },
     { 10, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_10_input, spherical_convex_spur_certified_rule_10_constant, spherical_convex_spur_certified_rule_10_operation, spherical_convex_spur_certified_rule_10_output } },
-    { 11, { 13, 4, 5, 17, 17, 1, spherical_convex_spur_certified_rule_11_input, spherical_convex_spur_certified_rule_11_constant, spherical_convex_spur_certified_rule_11_operation, spherical_convex_spur_certified_rule_11_output } },
+    { 11, { 13, 4, 5, 16, 16, 1, spherical_convex_spur_certified_rule_11_input, spherical_convex_spur_certified_rule_11_constant, spherical_convex_spur_certified_rule_11_operation, spherical_convex_spur_certified_rule_11_output } },
     { 12, { 3, 2, 0, 2, 2, 1, spherical_convex_spur_certified_rule_12_input, spherical_convex_spur_certified_rule_12_constant, spherical_convex_spur_certified_rule_12_operation, spherical_convex_spur_certified_rule_12_output } },
     { 14, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_13_input, spherical_convex_spur_certified_rule_13_constant, spherical_convex_spur_certified_rule_13_operation, spherical_convex_spur_certified_rule_13_output } },
     { 15, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_14_input, spherical_convex_spur_certified_rule_14_constant, spherical_convex_spur_certified_rule_14_operation, spherical_convex_spur_certified_rule_14_output } },
     { 16, { 1, 1, 0, 0, 0, 1, spherical_convex_spur_certified_rule_15_input, spherical_convex_spur_certified_rule_15_constant, spherical_convex_spur_certified_rule_15_operation, spherical_convex_spur_certified_rule_15_output } },
-    { 17, { 13, 4, 5, 17, 17, 1, spherical_convex_spur_certified_rule_16_input, spherical_convex_spur_certified_rule_16_constant, spherical_convex_spur_certified_rule_16_operation, spherical_convex_spur_certified_rule_16_output } },
+    { 17, { 13, 4, 5, 16, 16, 1, spherical_convex_spur_certified_rule_16_input, spherical_convex_spur_certified_rule_16_constant, spherical_convex_spur_certified_rule_16_operation, spherical_convex_spur_certified_rule_16_output } },
     { 18, { 3, 2, 0, 2, 2, 1, spherical_convex_spur_certified_rule_17_input, spherical_convex_spur_certified_rule_17_constant, spherical_convex_spur_certified_rule_17_operation, spherical_convex_spur_certified_rule_17_output } },
     { -1, { 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL } }
 };
@@ -381,14 +388,14 @@ static const mw_wide spherical_convex_spur_certified_factors[] = { { 1.0, 0.0, 0
 
 static const mw_certified spherical_convex_spur_certified = {
     100, 95, spherical_convex_spur_certified_factors, spherical_convex_spur_certified_rules, spherical_convex_spur_certified_systems,
-    { 111, 19, 6, 224, 224, 95, spherical_convex_spur_certified_setup_input, spherical_convex_spur_certified_setup_constant, spherical_convex_spur_certified_setup_operation, spherical_convex_spur_certified_setup_output },
+    { 111, 19, 6, 223, 223, 95, spherical_convex_spur_certified_setup_input, spherical_convex_spur_certified_setup_constant, spherical_convex_spur_certified_setup_operation, spherical_convex_spur_certified_setup_output },
     { 13, 8, 0, 7, 7, 5, spherical_convex_spur_certified_instant_input, spherical_convex_spur_certified_instant_constant, spherical_convex_spur_certified_instant_operation, spherical_convex_spur_certified_instant_output },
     { 94, 47, 3, 262, 112, 30, spherical_convex_spur_certified_equations_input, spherical_convex_spur_certified_equations_constant, spherical_convex_spur_certified_equations_operation, spherical_convex_spur_certified_equations_output },
-    { 118, 56, 4, 517, 517, 25, spherical_convex_spur_certified_observed_input, spherical_convex_spur_certified_observed_constant, spherical_convex_spur_certified_observed_operation, spherical_convex_spur_certified_observed_output },
+    { 118, 56, 4, 515, 515, 25, spherical_convex_spur_certified_observed_input, spherical_convex_spur_certified_observed_constant, spherical_convex_spur_certified_observed_operation, spherical_convex_spur_certified_observed_output },
     { 111, 42, 2, 427, 427, 10, spherical_convex_spur_certified_along_input, spherical_convex_spur_certified_along_constant, spherical_convex_spur_certified_along_operation, spherical_convex_spur_certified_along_output },
     {
-        { 53, 26, 2, 132, 132, 14, spherical_convex_spur_certified_flank_0_input, spherical_convex_spur_certified_flank_0_constant, spherical_convex_spur_certified_flank_0_operation, spherical_convex_spur_certified_flank_0_output },
-        { 33, 19, 2, 54, 54, 14, spherical_convex_spur_certified_flank_1_input, spherical_convex_spur_certified_flank_1_constant, spherical_convex_spur_certified_flank_1_operation, spherical_convex_spur_certified_flank_1_output }
+        { 65, 33, 2, 207, 47, 14, spherical_convex_spur_certified_flank_0_input, spherical_convex_spur_certified_flank_0_constant, spherical_convex_spur_certified_flank_0_operation, spherical_convex_spur_certified_flank_0_output },
+        { 33, 19, 2, 53, 19, 14, spherical_convex_spur_certified_flank_1_input, spherical_convex_spur_certified_flank_1_constant, spherical_convex_spur_certified_flank_1_operation, spherical_convex_spur_certified_flank_1_output }
     },
     { 25, 13, 3, 21, 21, 36, spherical_convex_spur_certified_placement_input, spherical_convex_spur_certified_placement_constant, spherical_convex_spur_certified_placement_operation, spherical_convex_spur_certified_placement_output },
     1

@@ -142,6 +142,12 @@ MWI_INLINE mw_ball mwc_sqrt(mw_ball a)
     const double radius = a.radius * (1.0 + 8.0 * MWC_U) / root + MWC_U * root;
     return mwc_where(zero || a.mid - mwc_reach(a) > 0.0, root, zero ? 0.0 : radius);
 }
+MWI_INLINE mw_ball mwc_magnitude(mw_ball a)
+{
+    const double size = mwc_abs(a.mid), half = 0.5 * (size + mwc_reach(a));
+    const int known = size > mwc_reach(a);
+    return mwc_where(half < HUGE_VAL, known ? size : half, known ? a.radius : half * (1.0 + 8.0 * MWC_U));
+}
 typedef struct mwc_turn {
     mw_ball sine, cosine;
 } mwc_turn;
@@ -283,6 +289,12 @@ static inline mw_wide mwc_wide_sqrt(mw_wide a)
     const mw_wide s = mwc_wide_joined(first.hi, mwc_wide_sub(a, mwc_wide_sqr(first)).hi / (2.0 * first.hi), 0.0);
     const double left = mwc_wide_most(mwc_wide_sub(a, mwc_wide_sqr(s))), least = mwc_wide_least(s) * (1.0 - 8.0 * MWC_U);
     return mwc_wide_where(a.hi > 0.0 && mwc_wide_least(a) > 0.0, mwc_wide_joined(s.hi, s.lo, left / least));
+}
+static inline mw_wide mwc_wide_magnitude(mw_wide a)
+{
+    if (mwc_wide_least(a) > 0.0) return a.hi < 0.0 ? mwc_wide_neg(a) : a;
+    const double half = 0.5 * mwc_wide_most(a);
+    return mwc_wide_where(half < HUGE_VAL, mwc_wide(half, 0.0, half * (1.0 + 8.0 * MWC_U)));
 }
 enum { MWC_WIDE_TERMS = 11, MWC_MORE_TERMS = 6 };
 static const mw_wide MWC_OF_SINE[] = {
@@ -1224,25 +1236,24 @@ static inline int spherical_convex_spur_certify_setup(const mw_wide *p, double *
     const mw_wide w232 = mwc_wide_div(w231, w2);
     const mw_wide w233 = mwc_wide_div(w230, w2);
     const mw_wide w234 = mwc_wide_sub(w44, w233);
-    const mw_wide w235 = mwc_wide_sign(w234);
-    const mw_wide w236 = mwc_wide_mul(w234, w235);
-    const mw_wide w237 = mwc_wide_mul(w4, w236);
-    const mw_wide w238 = mwc_wide_add(w49, w237);
-    const mw_wide w239 = mwc_wide_add(w232, w238);
-    const mw_wide w240 = mwc_wide_sub(w37, w40);
-    const mw_wide w241 = mwc_wide_sub(w27, w1);
-    const mw_wide w242 = mwc_wide_mul(w194, w241);
-    const mw_wide w243 = mwc_wide_sub(w240, w242);
-    const mw_wide w244 = mwc_wide_neg(w24);
-    const mw_wide w245 = mwc_wide_mul(w206, w241);
-    const mw_wide w246 = mwc_wide_sub(w9, w245);
-    const mw_wide w247 = mwc_wide_mul(w186, w12);
-    const mw_wide w248 = mwc_wide_div(w36, w6);
-    const mw_wide w249 = mwc_wide_mul(w10, w4);
-    const mw_wide w250 = mwc_wide_mul(w3, w249);
-    const mw_wide w251 = mwc_wide_mul(w36, w250);
-    const mw_wide w252 = mwc_wide_mul(w1, w251);
-    const mw_wide w253 = mwc_wide_mul(w1, w38);
+    const mw_wide w235 = mwc_wide_magnitude(w234);
+    const mw_wide w236 = mwc_wide_mul(w4, w235);
+    const mw_wide w237 = mwc_wide_add(w49, w236);
+    const mw_wide w238 = mwc_wide_add(w232, w237);
+    const mw_wide w239 = mwc_wide_sub(w37, w40);
+    const mw_wide w240 = mwc_wide_sub(w27, w1);
+    const mw_wide w241 = mwc_wide_mul(w194, w240);
+    const mw_wide w242 = mwc_wide_sub(w239, w241);
+    const mw_wide w243 = mwc_wide_neg(w24);
+    const mw_wide w244 = mwc_wide_mul(w206, w240);
+    const mw_wide w245 = mwc_wide_sub(w9, w244);
+    const mw_wide w246 = mwc_wide_mul(w186, w12);
+    const mw_wide w247 = mwc_wide_div(w36, w6);
+    const mw_wide w248 = mwc_wide_mul(w10, w4);
+    const mw_wide w249 = mwc_wide_mul(w3, w248);
+    const mw_wide w250 = mwc_wide_mul(w36, w249);
+    const mw_wide w251 = mwc_wide_mul(w1, w250);
+    const mw_wide w252 = mwc_wide_mul(w1, w38);
     mwc_put(s, 0, mwc_of_wide(w2));
     mwc_put(s, 1, mwc_of_wide(w9));
     mwc_put(s, 2, mwc_of_wide(w11));
@@ -1325,19 +1336,19 @@ static inline int spherical_convex_spur_certify_setup(const mw_wide *p, double *
     mwc_put(s, 79, mwc_of_wide(w225));
     mwc_put(s, 80, mwc_of_wide(w226));
     mwc_put(s, 81, mwc_of_wide(w227));
-    mwc_put(s, 82, mwc_of_wide(w239));
+    mwc_put(s, 82, mwc_of_wide(w238));
     mwc_put(s, 83, mwc_of_wide(w87));
     mwc_put(s, 84, mwc_of_wide(w36));
-    mwc_put(s, 85, mwc_of_wide(w243));
+    mwc_put(s, 85, mwc_of_wide(w242));
     mwc_put(s, 86, mwc_of_wide(w228));
-    mwc_put(s, 87, mwc_of_wide(w244));
+    mwc_put(s, 87, mwc_of_wide(w243));
     mwc_put(s, 88, mwc_of_wide(w143));
     mwc_put(s, 89, mwc_of_wide(w6));
-    mwc_put(s, 90, mwc_of_wide(w246));
-    mwc_put(s, 91, mwc_of_wide(w247));
-    mwc_put(s, 92, mwc_of_wide(w248));
-    mwc_put(s, 93, mwc_of_wide(w252));
-    mwc_put(s, 94, mwc_of_wide(w253));
+    mwc_put(s, 90, mwc_of_wide(w245));
+    mwc_put(s, 91, mwc_of_wide(w246));
+    mwc_put(s, 92, mwc_of_wide(w247));
+    mwc_put(s, 93, mwc_of_wide(w251));
+    mwc_put(s, 94, mwc_of_wide(w252));
     s[200] = mwc_arithmetic() ? 1.0 : 0.0;
     return s[200] > 0.0;
 }

@@ -10,7 +10,6 @@ from .lines import read_file, read_json
 from .refusal import Rejected, require
 from .verdicts import is_proved
 
-
 #: Folders that other commands make from what is sealed: pages, certified results.
 MADE_BESIDE = ("site", "benchmark")
 

@@ -203,7 +203,7 @@ def equated(drive: BoundedDrive, seen: Machine) -> Iterator[Number]:
 
 
 def pinion_flank(drive: BoundedDrive, seen: Machine) -> Iterator[Number]:
-    """Of the pinion's flank the point in the fixed frame, whether it is regular, its margins, and its tangents there."""
+    """The point of the pinion's flank in the fixed frame, whether it is regular, its margins, its tangents there."""
     body = drive.description["bodies"][0]
     keys = [f"point_{body['name']}_f", f"regular_{body['name']}"]
     keys += [f"margin_{body['name']}_{margin['event']}" for margin in body["margins"]]
