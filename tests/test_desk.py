@@ -176,7 +176,7 @@ REFUSED = {
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",
     "new spherical --m 4 --z 20:40 --a 100": "centre distance of this family follows from its teeth",
     "new cylindrical-worm --m 4 --z 2:40 --set design.wheel_tooth=40": "wheel_tooth.*unknown key",
-    "new cylindrical-worm --m 4 --z 2:40 --set hand=left": "hand.*unknown key",
+    "new cylindrical-worm --m 4 --z 2:40 --set hand=left": "hand = 'left'.*unknown key.*design.hand",
     "new cylindrical-worm --m 4 --z 2:40 --set flank=middle": "flank = 'middle'",
     "new cylindrical-worm --m 4 --z 2:40 --a 500": "x_2 = 95: profile shift.* -1 to 1: change one of --m, --z, --a",
     "new cylindrical-worm --m 4 --z 2:40 --a 10": "no design follows from --m --z --a.*throat",

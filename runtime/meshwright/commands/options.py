@@ -56,7 +56,9 @@ def angles(text):
 
 def _spaced(text):
     begin, end, step = _degrees(text, text.split(":"))
-    if step == 0 or (end - begin) / step < 0:
+    if step == 0:
+        raise UsageError(f"--phi-deg {text}: a step of 0 leads nowhere; give another")
+    if (end - begin) / step < 0:
         raise UsageError(f"--phi-deg {text}: the step does not lead from the first angle to the last; change its sign")
     steps = np.floor((end - begin) / step + 1e-9)
     if steps >= MOST_ANGLES:

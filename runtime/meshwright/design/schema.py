@@ -226,8 +226,8 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
     known = form(family, places)
     for table, keys in known.tables.items():
         if isinstance(entries := tables.get(table), dict):
-            _refuse_unknown(entries, keys, f"{table}.")
-    _refuse_unknown(tables, known.loose | known.tables, "")
+            _refuse_unknown(entries, keys, f"{table}.", known)
+    _refuse_unknown(tables, known.loose | known.tables, "", known)
     checked_tables: dict[str, object] = {name: _given(tables, name, name, key) for name, key in known.loose.items()}
     for table, keys in known.tables.items():
         if table not in tables and known.needed(table):
@@ -239,12 +239,13 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
     return checked_tables
 
 
-def _refuse_unknown(entries: dict, known: dict, before: str) -> None:
+def _refuse_unknown(entries: dict, known: dict, before: str, whole: Form) -> None:
     for name, value in entries.items():
         if name not in known:
             import difflib
 
-            near = difflib.get_close_matches(str(name), known, n=1)
+            near = [f"{table}.{name}" for table, keys in whole.tables.items() if name in keys]
+            near = near or difflib.get_close_matches(str(name), known, n=1)
             remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
             raise DesignError(f"{before}{name}", value, "unknown key", remedy)
 

@@ -151,8 +151,10 @@ def check(plan):
         samples.column(drive, v.key)
         if v.key in {other.key for other in plan.variations[:k]}:
             raise DesignError(v.key, None, "varied twice", "give one range for each key")
-        if v.kind == "normal" and v.second < 0 or v.kind == "uniform" and v.second < v.first:
-            raise DesignError(v.key, v.second, "the spread is negative", "give low:high or normal:mean:deviation")
+        if v.kind == "normal" and v.second < 0:
+            raise DesignError(v.key, v.second, "the deviation is negative", "give normal:mean:deviation")
+        if v.kind == "uniform" and v.second < v.first:
+            raise DesignError(v.key, f"{v.first:g}:{v.second:g}", "the larger end stands first", "give low:high")
         if not np.isfinite(v.second - v.first):
             raise DesignError(v.key, v.second, "the range is too wide for the machine", "narrow the range")
     return drive
