@@ -51,12 +51,16 @@ def test_half_spaces_give_hertz_and_bear_the_torque(pair, middle):
 
 
 def test_torques_that_do_the_same_work_press_alike(pair, middle):
-    """T1 dφ1 = T2 dφ2 of rigid teeth: torque on the pinion, or what keeps it in balance on the wheel."""
+    """T1 dφ1 = T2 dφ2 of rigid teeth: torque on the pinion, or what keeps it in balance on the wheel.
+
+    A torque so small that the lever arms of its ellipse are those of the point of contact.
+    """
     drive, gear = pair
     step = 1e-3
     before, after = drive.tca(np.array([middle - step, middle + step])).wheel_angles
     rate = (after - before) / (2.0 * step)
-    found = [loaded_contact(gear, middle, 1, load, None).pairs[0] for load in (LOAD, Load(50e3 * rate, "pinion"))]
+    loads = Load(50.0, "wheel"), Load(50.0 * rate, "pinion")
+    found = [loaded_contact(gear, middle, 1, load, None).pairs[0] for load in loads]
     assert found[1].force == pytest.approx(found[0].force, rel=1e-4)
     assert found[1].peak_pressure == pytest.approx(found[0].peak_pressure, rel=1e-3)
 
