@@ -52,7 +52,7 @@ def compiled(folder, replaced=None):
     text = text.replace('"ball.h"', '"certify/ball.h"')
     cube = (C / "certify" / "cube.h").read_text(encoding="utf-8").replace('#include "sheet.h"', "")
     calls = [(op, f"r[k] = mwc_sheet_{op}(a[k], b[k])") for op in BINARY]
-    calls += [(op, f"r[k] = mwc_sheet_{op}(a[k])") for op in (*UNARY[:3], "sign")]
+    calls += [(op, f"r[k] = mwc_sheet_{op}(a[k])") for op in (*UNARY[:-1], "sign")]
     calls.append(("sincos", "mwc_sheet_sincos(a[k], &r[k], &s[k])"))
     calls += [
         (f"half_{v}_{name}", f"(r[k] = a[k], mwc_cube_half(&r[k], {v}, {end}))")
