@@ -181,7 +181,7 @@ REFUSED = {
     "new cylindrical-worm --m 4 --z 2:40 --a 500": "x_2 = 95: profile shift.* -1 to 1: change one of --m, --z, --a",
     "new cylindrical-worm --m 4 --z 2:40 --a 10": "x_2 = -21.*change one of --m, --z, --a",
     "new cylindrical-worm --m 4 --z 40:2": "no design follows from --m --z --a.*hob_tip_rounding",
-    "new cylindrical-gears --m 3 --z 19:53 --a 120": "x_sum = 5.26.*change one of --m, --z, --a",
+    "new cylindrical-gears --m 3 --z 19:53 --a 120": "y = 4: centre distance modification.* -1 to 2: change one of --m, --z, --a",
 }
 
 
@@ -208,6 +208,29 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     assert main(["tca", "plain-za.toml", "--phi-deg", "0", "--json", "./plain-za.toml"]) == 2
     assert "is the design itself" in capsys.readouterr().err
     assert (tmp_path / "plain-za.toml").read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ("design.worm_threads=3", "design.hob_threads = 2: 3 by"),
+        ("design.axial_module_mm=5", "design.center_distance_mm = 100: 120 by"),
+        ("design.center_distance_mm=120", "x_2 = 5: profile shift coefficient of the wheel"),
+        ("design.hob_pitch_radius_mm=5", "design.hob_pitch_radius_mm = 5: 21 by"),
+    ],
+)
+def test_where_flanks_meet_nowhere_the_sizes_that_do_not_belong_together_are_named(tmp_path, capsys, change, told):
+    place = tmp_path / "pair.toml"
+    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "2:40", "--a", "100", "--out", str(place)]) == 0
+    assert main(["tca", str(place), "--phi-deg", "0", "--set", change]) == 1
+    assert told in capsys.readouterr().err
+
+
+def test_of_cylindrical_gears_too(tmp_path, capsys):
+    place = tmp_path / "pair.toml"
+    assert main(["new", "cylindrical-gears", "--m", "3", "--z", "19:53", "--a", "109", "--out", str(place)]) == 0
+    assert main(["tca", str(place), "--phi-deg", "0", "--set", "design.pinion_teeth=30"]) == 1
+    assert "y = -5.167: centre distance modification coefficient; sound designs have -1 to 2" in capsys.readouterr().err
 
 
 def test_a_helical_pair_is_parallel_and_without_backlash_at_its_centre_distance(tmp_path, monkeypatch, capsys):

@@ -159,9 +159,10 @@ def cylindrical():
     cosine = m * (z_1 + z_2) * sp.cos(transverse) / (2 * sp.cos(beta) * a)
     working = sp.atan2(sp.sqrt(1 - cosine**2), cosine)
     shifts = (z_1 + z_2) * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
-    shift = Suggestion(
-        "", (shifts,), "sum of the profile shift coefficients, by the centre distance", "x_sum", 4, within=(-1, 2)
+    apart = Suggestion(
+        "", ((a - reference.symbol) / m,), "centre distance modification coefficient", "y", 4, within=(-1, 2)
     )
+    shift = Suggestion("", (shifts,), "sum of the profile shift coefficients, by the centre distance", "x_sum", 4)
     half = "half of what meets the centre distance without backlash"
     return Outline(
         {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
@@ -173,7 +174,7 @@ def cylindrical():
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
             helix,
             Suggestion("design.wheel_helix_angle_deg", (-helix.symbol,), "the opposite hand on parallel axes"),
-            reference,
+            reference, apart,
             Suggestion("design.center_distance_mm", (a,), "as asked for; without it: no backlash"),
             shift,
             Suggestion("design.pinion_profile_shift_coefficient", (shift.symbol / 2,), half),

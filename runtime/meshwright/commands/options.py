@@ -2,6 +2,7 @@
 
 import argparse
 import re
+import sys
 import tomllib
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.contact.analysis import largest_angle
 from meshwright.contact.friction import Friction
+from meshwright.design import description, outline
 from meshwright.design import design as designs
 from meshwright.drive import BACKENDS, Drive
 
@@ -38,6 +40,9 @@ def setting(text):
     except (ValueError, RecursionError):  # text without quotes, or what no number or table can be
         return place.strip(), value.strip()
 
+
+#: As many sizes are named at most where flanks do not meet.
+HANDFUL = 5
 
 #: More angles than this are taken for a mistake.
 MOST_ANGLES = 10_000_000
@@ -72,6 +77,16 @@ def _degrees(text, words):
         most = int(np.degrees(largest_angle()))
         raise UsageError(f"--phi-deg {text}: an angle is beyond {most} degrees; give smaller angles")
     return values
+
+
+def say_proportions(drive):
+    """On standard error, for flanks that meet nowhere: a handful of sizes that leave the family's proportions."""
+    solved = drive.design.as_solved()
+    tables = {name: entries for name, entries in solved.items() if isinstance(entries, dict)}
+    given = {f"{table}.{key}": value for table, entries in tables.items() for key, value in entries.items()}
+    told = outline.beside_proportions(description.families()[drive.design.family], given)[:HANDFUL]
+    if told:
+        print("the flanks meet at none of these angles; first to look at:", *told, sep="\n  ", file=sys.stderr)
 
 
 def number(text):

@@ -69,6 +69,8 @@ def run(options):
         for part in found:
             point |= part
     _say_unresolved(first)
+    if set(result.status) == {"no_contact"}:
+        common.say_proportions(drive)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
     if options.all_contacts:

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from meshwright.base.errors import UsageError
 from meshwright.design.expression import value
 
+#: Sizes farther from the family's proportions than this share are told where flanks do not meet.
+ASTRAY = 0.1
+
 #: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
 ALONE = "as given; no other size follows it"
 
@@ -38,7 +41,9 @@ def first_design(family, name, words, given, own):
             continue
         if place in own and isinstance(own[place], int | float):
             number = own[place]
-        _check(suggestion, number, symbols, family.outline["options"])
+        if unsound := _unsound(suggestion, number, symbols):
+            asked = ", ".join(f"--{name}" for name in family.outline["options"])
+            raise UsageError(f"{unsound}: change one of {asked}")
         symbols[suggestion["name"]] = number
         if not place and suggestion["why"] and math.isfinite(number):
             told.append((suggestion["name"], number, suggestion["why"]))
@@ -63,17 +68,46 @@ def first_design(family, name, words, given, own):
     return FirstDesign("\n".join(lines) + "\n", (*told, *assumed))
 
 
-def _check(suggestion, number, symbols, options):
-    """Raise :class:`UsageError` for a number beyond those of a sound design."""
+def beside_proportions(family, given):
+    """Where a design leaves what the family's proportions make of its other sizes, a sentence each, the farthest first.
+
+    ``given``: numbers and words by "table.key". It is no judgement: a sound design may have proportions of its own. But
+    where flanks do not meet, these sizes are the first to look at.
+    """
+    outline = family.outline or {"words": {}, "suggestions": []}
+    words = {key: given.get(f"design.{key}") or word for key, word in outline["words"].items()}
+    symbols: dict[str, float] = {}
+    for suggestion in outline["suggestions"]:  # an option is the size that is suggested to be just that
+        own, names = given.get(suggestion["place"]), suggestion["values"]
+        if own is not None and len(names) == 1 and isinstance(names[0], str) and names[0] in ("m", "z_1", "z_2", "a"):
+            symbols.setdefault(names[0], own)
+    if not {"m", "z_1", "z_2"} <= symbols.keys():
+        return []
+    symbols.setdefault("a", math.nan)
+    found = []
+    for suggestion in outline["suggestions"]:
+        if not _meant(suggestion, words):
+            continue
+        number, own = _number(suggestion, symbols), given.get(suggestion["place"])
+        if suggestion["name"] in symbols and math.isnan(number):
+            continue
+        if unsound := _unsound(suggestion, number, symbols):
+            found.append((math.inf, unsound))
+        if isinstance(own, int | float) and math.isfinite(number):
+            off = abs(own - number) / max(abs(own), abs(number), 1e-300)
+            if off > (0.0 if suggestion["whole"] else ASTRAY):
+                found.append((off, f"{suggestion['place']} = {own:g}: {number:.5g} by the proportions of this family"))
+        symbols[suggestion["name"]] = own if isinstance(own, int | float) else number
+    return [sentence for _, sentence in sorted(found, key=lambda entry: -entry[0])]
+
+
+def _unsound(suggestion, number, symbols):
+    """What is wrong with a number beyond those of a sound design; "" with others."""
     if not suggestion.get("within") or math.isnan(number):
-        return
+        return ""
     least, most = (value(bound, symbols) for bound in suggestion["within"])
-    if not least <= number <= most:
-        asked = ", ".join(f"--{name}" for name in options)
-        raise UsageError(
-            f"{suggestion['name']} = {number:g}: {suggestion['why']}; sound designs have {least:g} to {most:g}: "
-            f"change one of {asked}"
-        )
+    said = f"{suggestion['name']} = {number:.4g}: {suggestion['why']}; sound designs have {least:g} to {most:g}"
+    return "" if least <= number <= most else said
 
 
 def _places(family, words):
