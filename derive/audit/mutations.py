@@ -674,19 +674,19 @@ def measure(drives: list[str], each: int, log: Path | None = None, stages: tuple
             sample: int | None = None, generated: Path = GENERATED) -> Iterator[Outcome]:  # fmt: skip
     """Changes of all functions of some drives, ``each`` a function; of these ``sample`` at random, if it is given."""
     known = _logged(log)
-    attempts.ATTEMPTS = ATTEMPTS
-    for name in drives:
-        drive, rng = Measured(name, generated), random.Random(f"{SEED} {name}")
-        chosen = [m for m in drive.mutants(each, rng) if m.stage in stages]
-        for mutant in chosen if sample is None else rng.sample(chosen, min(sample, len(chosen))):
-            if mutant.key in known:
-                yield Outcome(mutant, *known[mutant.key])
-                continue
-            outcome = drive.judged(mutant)
-            if log:
-                with log.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps([*mutant.key, outcome.by, outcome.reason]) + "\n")
-            yield outcome
+    with attempts.limited(ATTEMPTS):
+        for name in drives:
+            drive, rng = Measured(name, generated), random.Random(f"{SEED} {name}")
+            chosen = [m for m in drive.mutants(each, rng) if m.stage in stages]
+            for mutant in chosen if sample is None else rng.sample(chosen, min(sample, len(chosen))):
+                if mutant.key in known:
+                    yield Outcome(mutant, *known[mutant.key])
+                    continue
+                outcome = drive.judged(mutant)
+                if log:
+                    with log.open("a", encoding="utf-8") as file:
+                        file.write(json.dumps([*mutant.key, outcome.by, outcome.reason]) + "\n")
+                yield outcome
 
 
 def _logged(log: Path | None) -> dict[tuple[str, ...], tuple[str, str]]:

@@ -309,12 +309,12 @@ def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
         (check_description, lambda: check_description.check_drive(description, header)),
         (check_bounded, lambda: check_bounded.check_drive(description, header, made / "casadi")),
     )
-    attempts.ATTEMPTS = 3000
-    for checker, check in checks:
-        try:
-            check()
-        except Rejected as reason:
-            return checker.__name__.rpartition("_")[2], str(reason)[:200]
+    with attempts.limited(3000):
+        for checker, check in checks:
+            try:
+                check()
+            except Rejected as reason:
+                return checker.__name__.rpartition("_")[2], str(reason)[:200]
     different = mutations.different(drive, made, kept)
     return ("survivor", different) if different else ("equal", "")
 

@@ -71,9 +71,15 @@ class Running:
         return found.upper if self.error.envelope == "upper" else found.lower
 
     @property
+    def known(self):
+        """Whether there is a transmission error anywhere over the pitch in the middle: some pair touches there."""
+        return bool(np.isfinite(self.pitch.pairs).any())
+
+    @property
     def constant(self):
-        """Whether the transmission error of a pair is constant to round-off."""
-        return bool(np.nanmax(self.envelopes.pairs) - np.nanmin(self.envelopes.pairs) < ROUND_OFF)
+        """Whether the transmission error of a pair is constant to round-off; it is not where none is known."""
+        known = self.envelopes.pairs[np.isfinite(self.envelopes.pairs)]
+        return bool(known.size) and float(np.ptp(known)) < ROUND_OFF
 
     @property
     def varies(self):

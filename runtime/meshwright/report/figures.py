@@ -44,7 +44,7 @@ def pictures(analysis):
     solved, known = analysis.tca.solved.any(), np.isfinite(analysis.tca.error).any()
     effects = analysis.sensitivities
     drawn = []
-    if analysis.running is not None:
+    if analysis.running is not None and analysis.running.known:
         drawn += [_DRIVE_ERROR, _TEETH]
     elif known:
         drawn.append(_PAIR_ERROR)

@@ -67,6 +67,8 @@ def tiles(analysis):
 
 
 def _error_tile(running):
+    if not running.known:
+        return Tile("Transmission error", "–", "", "no pair touches within its limits")
     if running.constant:
         return Tile("Transmission error", "0", "arcsec", "constant to round-off")
     drive, pair = (
