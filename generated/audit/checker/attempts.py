@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from itertools import repeat
 from random import Random, SystemRandom
 
@@ -12,6 +13,17 @@ from .refusal import Rejected
 #: Inputs that may be drawn until every radicand is a square, and inputs at which a check may fail before it is over.
 ATTEMPTS = 20000
 REFUSALS = 24
+
+
+@contextmanager
+def limited(count: int) -> Iterator[None]:
+    """So many inputs at most, where many checks are to fail; the limit of before afterwards."""
+    global ATTEMPTS
+    before, ATTEMPTS = ATTEMPTS, count
+    try:
+        yield
+    finally:
+        ATTEMPTS = before
 
 
 def attempt(check: Callable[..., None], *arguments: object, sources: Iterable[Random] | None = None) -> None:
