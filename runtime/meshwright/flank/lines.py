@@ -41,8 +41,9 @@ NARROWEST = 1e-6
 #: Limits that come from the surface itself, not from a size of blank or tool.
 SINGULAR = ("undercut", "regression", "spurious_sheet")
 
-#: Corners of the border are looked for between so many lines for each that is known, and halved so often.
-PER_GUIDE, CORNER_BISECTIONS = 4, 30
+#: Corners of the border are looked for between so many lines for each that is known; what holds one is divided into so
+#: many parts at once, so often.
+PER_GUIDE, PARTS, ROUNDS_OF_PARTS = 4, 16, 8
 
 #: Places on a line from which its arc length is known, and rounds of setting them evenly.
 PLACES, ROUNDS = 129, 3
@@ -206,11 +207,14 @@ def changes(values, what, seen=None):
     """
     seen = what(values) if seen is None else seen
     at = np.flatnonzero(seen[1:] != seen[:-1])
-    low, high, first = values[at], values[at + 1], seen[at]
-    for _ in range(CORNER_BISECTIONS if len(at) else 0):
-        middle = 0.5 * (low + high)
-        same = what(middle) == first
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    low, high, first = values[at], values[at + 1], seen[at, None]
+    shares, rows = np.arange(1, PARTS) / PARTS, np.arange(len(at))
+    for _ in range(ROUNDS_OF_PARTS if len(at) else 0):
+        places = low[:, None] + shares * (high - low)[:, None]
+        other = what(places.ravel()).reshape(places.shape) != first
+        ends = np.column_stack([low, places, high])
+        number = np.argmax(np.column_stack([other, np.ones(len(at), dtype=bool)]), axis=1)
+        low, high = ends[rows, number], ends[rows, number + 1]
     return 0.5 * (low + high)
 
 
@@ -288,11 +292,10 @@ def _ended(region, along, profile, near):
         off = np.where(inside[:, :, None], np.abs(values - values[first, np.arange(count)]), 0.0)
         spread = np.nanmax(off, axis=(0, 1))
     across = ~(spread < ROUNDING)
-    ends = [_end(region, across, q, profile, along, number, way) for number, way in ((first, -1), (last, 1))]
+    lower, upper = _both_ends(region, across, q, profile, along, (first, last))
     missed = ~inside.any(axis=0)
-    for end in ends:
-        end[missed] = np.nan
-    return Lines(region, along, *ends), missed | ((first > 0) & (last < samples - 1))
+    lower[missed] = upper[missed] = np.nan
+    return Lines(region, along, lower, upper), missed | ((first > 0) & (last < samples - 1))
 
 
 def _between(known, values, wanted):
@@ -328,16 +331,17 @@ def _longest_runs(inside):
     return first, last
 
 
-def _end(region, across, q, profile, along, index, sign):
-    """Parameters (M, k) where each line leaves the region beyond the sample ``index`` (M,) of the profile (S, M), by
-    the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection where there is no surface.
-    ``across`` are the limits that can end a line.
+def _both_ends(region, across, q, profile, along, within):
+    """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
+    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
+    where there is no surface. ``across`` are the limits that can end a line.
     """
 
     def least(places):
         return region.limits.values(region.flank(places))[:, across].min(axis=1, initial=np.inf)
 
-    columns = np.arange(len(along))
+    columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
+    sign = np.repeat([-1, 1], len(columns) // 2)
     inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
     outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
     inside = least(best)
@@ -363,7 +367,7 @@ def _end(region, across, q, profile, along, index, sign):
         best[left] = np.where(good[:, None], trial, best[left])
         near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
         left = left[~near]
-    return best
+    return best.reshape(2, -1, best.shape[1])
 
 
 def _equations(region, found, profile, along):

@@ -9,7 +9,7 @@ lattice's lines to rounding, with the corners where two limits meet.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -51,13 +51,15 @@ NEWTON_STEPS = 40
 class Uses:
     """Where contact uses the flanks: parameters (P, k) of each by member, and the natural sizes of its parameters by
     member (k,). ``edges`` gives further points (E, 3) of a member's flank in use, body frame. Where nothing ends a
-    surface it goes ``beyond`` what is used by so many natural sizes. Right-hand drive.
+    surface it goes ``beyond`` what is used by so many natural sizes. Right-hand drive. ``known`` are the regions
+    found so far, by member and name.
     """
 
     places: dict[str, np.ndarray]
     sizes: dict[str, np.ndarray]
     edges: Callable[[str], np.ndarray]
     beyond: float
+    known: dict = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
     def of(cls, drive, unknowns, edges=lambda member: np.empty((0, 3)), beyond=BEYOND):
@@ -228,6 +230,11 @@ class Region:
         way = np.abs(np.linalg.svd(equations)[2][-1])
         return 0 if way[0] > UNCHANGED * way.max() else int(np.argmax(way))
 
+    @cached_property
+    def lines(self):
+        """The :class:`~meshwright.flank.lines.Lines` across the region."""
+        return lines(self)
+
     def within(self, name, function):
         """What is left of the region inside another limit, a function as of :class:`Limits`."""
         limits = self.limits.with_(name, function)
@@ -266,6 +273,12 @@ def _open_sizes(design):
 
 def region(drive, member, name, uses):
     """The :class:`Region` ``name`` (flank, fillet, …) of a member; ``uses`` says where contact uses the flanks."""
+    if (member, name) not in uses.known:
+        uses.known[member, name] = _found(drive, member, name, uses)
+    return uses.known[member, name]
+
+
+def _found(drive, member, name, uses):
     flank = drive.flank(member, name)
     places, sizes = uses.on(flank)
     limits = _limits(drive, flank, uses)
@@ -315,7 +328,7 @@ def _limits(drive, flank, uses):
         whole = region(drive, flank.body["name"], "flank", uses)
         if whole.empty:
             raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
-        along = lines(whole).along
+        along = whole.lines.along
         low, high, name = along[0], along[-1], "face"
     return limits.with_(name, lambda at: _beyond(flank, at, 1.0, low)).with_(
         name, lambda at: _beyond(flank, at, -1.0, high)

@@ -117,6 +117,9 @@ def solved(matrix, residual):
     """Solutions (N, c) of N systems of linear equations; NaN for singular ones."""
     step = np.full(residual.shape, np.nan)
     good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
-    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
-    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    try:
+        step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:  # one singular matrix refuses them all
+        good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
+        step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
     return step

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshwright.base.errors import UsageError
-from meshwright.flank.lines import Lines, changes, ended_by, lines
+from meshwright.flank.lines import Lines, changes, ended_by
 from meshwright.flank.region import Region
 from meshwright.flank.sections import Sections
 
@@ -78,11 +78,11 @@ class RegionSide:
             if one is not None and one.empty:
                 raise UsageError(f"{one.why_empty}; change [blank] or [design]")
         sections = Sections.of(flank.flank)
-        found = lines(flank)
+        found = flank.lines
         tip = _tip_is_upper(found)
         if fillet is None:
             return cls(sections, found, None, tip, False)
-        beside, middle = lines(fillet), 0.5 * (found.along[0] + found.along[-1])
+        beside, middle = fillet.lines, 0.5 * (found.along[0] + found.along[-1])
         ends = _ends(beside)
         if not np.linalg.norm(ends[1] - ends[0], axis=1).max() > TOGETHER:  # a sharp tool cuts none
             return cls(sections, found, None, tip, False)

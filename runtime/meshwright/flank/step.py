@@ -11,7 +11,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.border import DEGREE, cornered, loops
-from meshwright.flank.lines import corners, lines
+from meshwright.flank.lines import corners
 from meshwright.flank.mesh import mesh
 
 #: The surface is refined until it departs by no more than this from the exact one, mm, or has as many points as that in
@@ -111,7 +111,7 @@ def step(drive, region, shape):
         made = None
     if made is None or made.deviation > TOLERANCE:
         # the chart's coordinates are no good measure of the surface everywhere: lengths along lines are
-        guides = lines(region)
+        guides = region.lines
         by_lines = between_lines(guides.at, [guides.along[0], *corners(guides), guides.along[-1]], shape, flip, name)
         made = by_lines if made is None or by_lines.deviation < made.deviation else made
     return made

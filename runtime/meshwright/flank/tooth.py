@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import solved
+from meshwright.flank.region import region, solved
 
 #: Cells of the mesh of the far flank from which each place is sought; Newton steps at most, the longest of them as part
 #: of the distance from the axis, and what is left where a place is found, as such a part.
@@ -76,7 +76,8 @@ def tooth(drive, member, near, teeth):
         across = np.full(len(x), inwards * ASSUMED * pitch)
         return Tooth(across, _turned(-near.normals, across), None)
     flank = far.flank(member)
-    parameters = _at_the_same_place(flank, mesh(far.region(member), CELLS), near.points)
+    # as generated: a fillet that cuts the far flank off cuts the near one off at the same places
+    parameters = _at_the_same_place(flank, mesh(region(far, member, "flank", far.uses), CELLS), near.points)
     found = flank(parameters)
     ahead = inwards * (np.arctan2(found.points[:, 1], found.points[:, 0]) - np.arctan2(y, x))
     across = inwards * ((ahead + POINTED * pitch) % pitch - POINTED * pitch)

@@ -9,12 +9,16 @@ from importlib import resources
 import jinja2
 from markupsafe import Markup, escape
 
+from meshwright.base.aside import aside
 from meshwright.report import style, validity
 from meshwright.report.figures import pictures
 from meshwright.report.findings import findings, tiles
 from meshwright.report.numbers import number
 from meshwright.report.scene import scene
 from meshwright.report.tables import groups
+
+#: So many pictures are drawn with the 3-D view, the others meanwhile.
+BESIDE = 4
 
 
 @dataclass(frozen=True)
@@ -26,9 +30,16 @@ class _Drawn:
 
 def page(analysis):
     """The page as text. Every text of the design is escaped."""
+    shown = pictures(analysis)
+    with aside(lambda: [_drawn(picture, analysis) for picture in shown[BESIDE:]]) as others:
+        tables, view = groups(analysis), scene(analysis)
+        drawn = [_drawn(picture, analysis) for picture in shown[:BESIDE]]
+        return _filled(analysis, tables, view, drawn + others())
+
+
+def _filled(analysis, tables, view, drawn):
+    """The page with its tables, the data of its 3-D view, if there is one, and its drawn pictures."""
     design = analysis.drive.design
-    tables = groups(analysis)
-    view = scene(analysis)
     sections = [("summary", "Summary"), *([("teeth", "Teeth")] if view else []), ("figures", "Figures")]
     sections += [(group.id, group.title) for group in tables] + [("validity", "Limits of validity")]
     return _environment().get_template("report.html.jinja").render(
@@ -51,7 +62,7 @@ def page(analysis):
         positions=len(analysis.tca.angles),
         colours=style.MEMBERS,
         separation=number(design.value("separation_mm", "contact")),
-        pictures=[_drawn(picture, analysis) for picture in pictures(analysis)],
+        pictures=drawn,
         tables=tables,
         validity=validity.VALIDITY,
     )
