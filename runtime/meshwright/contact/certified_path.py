@@ -145,8 +145,8 @@ class CertifiedPath:
 
     def _lost(self, piece, polynomial, near, far):
         """An angle from ``near`` to ``far`` where a margin is surely negative, close to the first; None if none is."""
-        for step in (*(2.0 ** np.arange(-BRACKET, 0.0)), 1.0):
-            angle = far if step == 1.0 else near + (far - near) * step
+        for halvings in range(BRACKET, -1, -1):
+            angle = near + (far - near) * 0.5**halvings if halvings else far
             ball = library().mw_piece_at(piece, ffi.addressof(polynomial), angle)
             if ball.mid + ball.radius < 0.0:
                 return angle

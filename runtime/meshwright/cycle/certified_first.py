@@ -117,7 +117,7 @@ def certify_first(drive, contacts, certificates, neighbours=NEIGHBOURS):
     """:class:`FirstCertificates` of a TCA and its :class:`~meshwright.contact.certificate.Certificates`, and of so many
     ``neighbours`` on either side.
     """
-    boxes, radii = _boxes(drive, contacts.solutions, neighbours), _radii(drive, contacts)
+    boxes, radii = ranges(drive, contacts.solutions, neighbours), distances(drive, contacts)
     own = _pair(drive, certificates.records, certificates.angles, boxes, radii)
     told = own.records["outcome"] > 0
     for later in (*range(-neighbours, 0), *range(1, neighbours + 1)):
@@ -148,21 +148,21 @@ def _of_pair(drive, certificates, later):
     sign, back = int(drive.design.mirror.sign), 1 if drive.ratio > 0.0 else -1
     proofs, angles = certificates.records.copy(), []
     for entry, angle in zip(proofs, certificates.angles, strict=True):
-        angles.append(_turned(exact.bounds(angle), -sign * later, drive.teeth("pinion")))
+        angles.append(turned(exact.bounds(angle), -sign * later, drive.teeth("pinion")))
         if np.isfinite(entry["wheel_angle"]["mid"]):
-            ends = _turned(exact.bounds(entry["wheel_angle"]), -sign * back * later, drive.teeth("wheel"))
+            ends = turned(exact.bounds(entry["wheel_angle"]), -sign * back * later, drive.teeth("wheel"))
             high, low, radius = exact.wide(*ends)
             entry["wheel_angle"]["mid"], entry["wheel_angle"]["radius"] = high, np.nextafter(abs(low) + radius, np.inf)
     return proofs, exact.wides(angles)
 
 
-def _turned(ends, count, teeth):
+def turned(ends, count, teeth):
     """Bounds of an angle turned by so many pitches."""
     turns = sorted(2 * count * pi / teeth for pi in exact.PI)
     return ends[0] + turns[0], ends[1] + turns[1]
 
 
-def _boxes(drive, solutions, neighbours):
+def ranges(drive, solutions, neighbours):
     """Ranges of two parameters of each flank by member, a little beyond where the flanks end."""
     pitches = PITCHES + neighbours
     here = drive.trace(np.linspace(-pitches, pitches, ANGLES) * drive.pitch())[0]
@@ -178,7 +178,7 @@ def _boxes(drive, solutions, neighbours):
     return boxes
 
 
-def _radii(drive, contacts):
+def distances(drive, contacts):
     """Distances (N,) of the contacts from the wheel's axis, mm."""
     wheel = drive.design.description["bodies"][1]
     points = drive.flank(wheel["name"])(contacts.solutions[:, wheel["unknowns"]]).points

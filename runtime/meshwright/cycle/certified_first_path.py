@@ -12,7 +12,6 @@ from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact import exact
 from meshwright.contact.certified_path import CertifiedPath, certified_path
 from meshwright.contact.model import DriveModel
-from meshwright.contact.results import ARCSEC
 from meshwright.cycle import certified_first as single
 
 #: First and shortest range of angles looked at at once, in pinion pitches, the former also where flanks overlap; the
@@ -75,31 +74,6 @@ class FirstAlongPath:
         """The spans in which it is not shown."""
         return [span for span in self.spans if span.outcome != "first"]
 
-    def plain(self, sign):
-        """Plain data of ``meshwright.ratio/1``; ``sign``: that of the design's hand."""
-        ends = sorted(sign * math.degrees(angle) for angle in (self.begin, self.end))
-        return {
-            "outcome": self.outcome,
-            "pinion_angle_deg": ends,
-            "pairs": list(self.pairs),
-            "ranges": len(self.spans),
-            "parts": sum(span.parts for span in self.spans),
-            "overlap_below_mm": single.SLACK if self.outcome == "first" else None,
-            "turned_back_arcsec": self.reach / ARCSEC if self.outcome == "first" else None,
-            "failures": [self._failure(span, sign) for span in self.failures[:8]],
-        }
-
-    def _failure(self, span, sign):
-        known = math.isfinite(span.angle)
-        return {
-            "pairs_later": span.later,
-            "outcome": span.outcome,
-            "reason": span.reason or None,
-            "pinion_angle_deg": sorted(sign * math.degrees(angle) for angle in (span.begin, span.end)),
-            "at_pinion_angle_deg": sign * math.degrees(span.angle) if known else None,
-            "overlap_arcsec": span.overlap / ARCSEC if span.outcome == "not_first" else None,
-        }
-
 
 def certify_first_path(drive, begin, end, neighbours=1):
     """:class:`FirstAlongPath` from one pinion angle to another, rad, of the right-hand drive, and of so many
@@ -107,8 +81,8 @@ def certify_first_path(drive, begin, end, neighbours=1):
     """
     pitch = drive.pitch()
     contacts = drive.tca(drive.design.mirror.sign * np.linspace(begin, end, single.ANGLES))
-    boxes = single._boxes(drive, contacts.solutions, neighbours)
-    slack = single.SLACK / float(np.nanmax(single._radii(drive, contacts))) * (1.0 - 1e-3)
+    boxes = single.ranges(drive, contacts.solutions, neighbours)
+    slack = single.SLACK / float(np.nanmax(single.distances(drive, contacts))) * (1.0 - 1e-3)
     path = certified_path(drive, begin - BESIDE * pitch, end + BESIDE * pitch, tube=TUBE * slack)
     search = _Search(drive, boxes, slack, single.REACH * abs(drive.ratio) * pitch)
     pairs = sorted(range(-neighbours, neighbours + 1), key=abs)
@@ -163,7 +137,7 @@ class _Search:
         """How far a member is turned on where a pair so many later is asked for, ``mw_wide``."""
         back = 1 if member == "pinion" or self.drive.ratio > 0.0 else -1
         count = -int(self.drive.design.mirror.sign) * back * later
-        high, low, radius = exact.wide(*single._turned((0, 0), count, self.drive.teeth(member)))
+        high, low, radius = exact.wide(*single.turned((0, 0), count, self.drive.teeth(member)))
         return ffi.new("mw_wide *", {"hi": high, "lo": low, "radius": radius})[0]
 
 
