@@ -149,7 +149,7 @@ def _proofs(drive, most=4):
     good = [good[k] for k in np.unique(np.linspace(0, len(good) - 1, most).round().astype(int))] if good else []
     if not good:
         return []
-    boxes = certified_first._boxes(drive, traced.solutions[good], 0)
+    boxes = certified_first.ranges(drive, traced.solutions[good], 0)
     ends = [end for box in boxes.values() for ends in box.values() for end in ends]
     slacks = certified_first.SLACK / certified_first._radii(drive, traced)
     reach = certified_first.REACH * abs(drive.ratio) * drive.pitch()
