@@ -86,7 +86,7 @@ def first_contact(drive, angle):
     """Seconds of the proof that a pair touches first at a pinion angle, what it says, and parts that it looks at."""
     contacts = drive.tca(np.array([angle]))
     certificates = drive.certify(contacts.angles, contacts)
-    boxes, radii = certified_first._boxes(drive, contacts.solutions, 0), certified_first._radii(drive, contacts)
+    boxes, radii = certified_first.ranges(drive, contacts.solutions, 0), certified_first.distances(drive, contacts)
     begin = time.perf_counter()
     found = certified_first._pair(drive, certificates.records, certificates.angles, boxes, radii)
     return time.perf_counter() - begin, found.reasons[0] or found.outcomes[0], int(found.records["parts"][0])

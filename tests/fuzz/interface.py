@@ -151,7 +151,7 @@ def _proofs(drive, most=4):
         return []
     boxes = certified_first.ranges(drive, traced.solutions[good], 0)
     ends = [end for box in boxes.values() for ends in box.values() for end in ends]
-    slacks = certified_first.SLACK / certified_first._radii(drive, traced)
+    slacks = certified_first.SLACK / certified_first.distances(drive, traced)
     reach = certified_first.REACH * abs(drive.ratio) * drive.pitch()
     each = [(sign * angles[k], slacks[k], reach, *ends, *traced.solutions[k]) for k in good]
     return [np.array(numbers) for numbers in each] if len(ends) == 8 else []
