@@ -21,8 +21,8 @@ SAMPLES, BISECTIONS = 65, 56
 #: Lines along the border count as inside: the limits there are zero to rounding, mm; and how much it varies along one.
 ROUNDING, NOISE = 1e-9, 1e-13
 
-#: A step of this many towards an end is a bisection.
-HALVED = 4
+#: A step of this many towards an end is a bisection; one shorter than this part of the whole way is none.
+HALVED, STILL = 4, 1e-13
 
 #: Lines from which others are found; how far a line's ends are sought beyond its neighbours', in parts of its width,
 #: and how often that is doubled.
@@ -152,6 +152,27 @@ class Lines:
     def onto(self, q):
         """Places (M, k) on the lines with the profile's parameters that nearby ones have."""
         return solve(self.region, q[:, self.region.profile].copy(), self.along, q)
+
+    def nearest(self, points, way, before, after):
+        """Places (M, k) on the lines, between ones ``before`` and ``after`` (M, k), that are as far along ``way``
+        (M, 3) as ``points`` (M, 3); by Newton's method, by bisection where that leads out of what holds them.
+        """
+        of, q = self.region.profile, self.onto(0.5 * (before + after))
+        low, high = before[:, of], after[:, of]
+        for step in range(BISECTIONS):
+            found, change = self.slopes(q)
+            beyond, at = np.sum((found - points) * way, axis=1), q[:, of].copy()
+            low, high = np.where(beyond < 0.0, at, low), np.where(beyond < 0.0, high, at)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                further = at - beyond / np.sum(change * way, axis=1)
+            inside = ((further - low) * (further - high) <= 0.0) & (step % HALVED < HALVED - 1)
+            further = np.where(inside, further, 0.5 * (low + high))
+            if not (np.abs(further - at) > STILL * np.abs(after[:, of] - before[:, of])).any():
+                break
+            start = q.copy()
+            start[:, of] = further
+            q = self.onto(start)
+        return q
 
     def slopes(self, q):
         """Points (N, 3) at parameters (N, k) and their change (N, 3) along the line by the profile's parameter."""
@@ -333,40 +354,47 @@ def _longest_runs(inside):
 
 def _both_ends(region, across, q, profile, along, within):
     """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
-    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
-    where there is no surface. ``across`` are the limits that can end a line.
+    the profile (S, M), by Newton's method on the limit that is least, by bisection where that leads out of what holds
+    the end. ``across`` are the limits that can end a line.
     """
 
     def least(places):
-        return region.limits.values(region.flank(places))[:, across].min(axis=1, initial=np.inf)
+        """The least limit (N,) at places (N, k), the change of the parameters along the line by the profile's parameter
+        (N, k), and that of the limit (N,).
+        """
+        found, rows = region.flank(places), np.arange(len(places))
+        values = np.where(across, region.limits.values(found), np.inf)
+        number = values.argmin(axis=1)
+        matrix, _ = _equations(region, found, 0.0, 0.0)
+        way = solved(matrix, np.eye(1, matrix.shape[1]).repeat(len(places), axis=0))
+        return values[rows, number], way, np.sum(region.limits.slopes(found)[rows, number] * way, axis=1)
 
     columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
     sign = np.repeat([-1, 1], len(columns) // 2)
-    inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
-    outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
-    inside = least(best)
-    floor = np.minimum(inside, 0.0) - NOISE
-    outside = least(q[beyond, columns]) - floor
-    inside = inside - floor
+    inner, outer = profile[index, columns], profile[np.clip(index + sign, 0, len(profile) - 1), columns]
+    best = q[index, columns]
+    at, here = inner.copy(), best.copy()
+    value, way, slope = least(best)
+    floor = np.minimum(value, 0.0) - NOISE
     left = np.flatnonzero(inner != outer)
     for step in range(BISECTIONS):
         if not len(left):
             break
-        a, b, fa, fb = inner[left], outer[left], inside[left], outside[left]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = fa / (fa - fb)
-        # now and then the middle: a limit function may be far from a straight line
-        share = np.where(np.isfinite(fb) & (share > 0.0) & (share < 1.0) & (step % HALVED > 0), share, 0.5)
-        trial = solve(region, a + share * (b - a), along[left], best[left])
-        value = least(trial) - floor[left]
-        good = value >= 0.0
-        inner[left] = np.where(good, a + share * (b - a), a)
-        outer[left] = np.where(good, b, a + share * (b - a))
-        inside[left] = np.where(good, value, 0.5 * fa)
-        outside[left] = np.where(good, 0.5 * fb, value)
-        best[left] = np.where(good[:, None], trial, best[left])
-        near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
-        left = left[~near]
+        a, b = inner[left], outer[left]
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            trial = at[left] + (floor[left] + NOISE - value[left]) / slope[left]
+            # now and then the middle: a limit function may be far from a straight line
+            trial = np.where(((trial - a) * (trial - b) < 0.0) & (step % HALVED < HALVED - 1), trial, 0.5 * (a + b))
+            start = here[left] + way[left] * (trial - at[left])[:, None]
+        start = np.where(np.isfinite(start).all(axis=1)[:, None], start, best[left])
+        found = solve(region, trial, along[left], start)
+        value[left], way[left], slope[left] = least(found)
+        good = value[left] >= floor[left]
+        inner[left], outer[left] = np.where(good, trial, a), np.where(good, b, trial)
+        best[left] = np.where(good[:, None], found, best[left])
+        at[left], here[left] = trial, found
+        near = good & (value[left] < floor[left] + 2.0 * NOISE)
+        left = left[~(near | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left])))]
     return best.reshape(2, -1, best.shape[1])
 
 

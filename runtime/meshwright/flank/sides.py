@@ -26,7 +26,7 @@ TIPS, BOTTOMS = ("tip", "throat"), ("bottom",)
 
 #: Flank and fillet meet where their ends are no further apart, mm; else they are cut where they cross, found between so
 #: many places on each and then by Newton's method.
-TOGETHER, PLACES, NEWTON_STEPS, BISECTIONS, STILL = 1e-6, 129, 30, 60, 1e-13
+TOGETHER, PLACES, NEWTON_STEPS, STILL = 1e-6, 129, 30, 1e-13
 
 #: Sections in which a side is looked at; what a modification of a flank is at most, mm.
 PLACES_ALONG, MODIFIED = 17, 0.1
@@ -190,12 +190,9 @@ class RegionSide:
         q = some.spaced(np.linspace(0.0, 1.0, PLACES))
         near = np.argmin(np.linalg.norm(_points(some, q) - joint, axis=2), axis=0)
         column, points = np.arange(q.shape[1]), _points(some, q)
-        pair = [q[np.clip(near + k, 0, PLACES - 1), column] for k in (-1, 1)]
-        chord = points[np.clip(near + 1, 0, PLACES - 1), column] - points[np.clip(near - 1, 0, PLACES - 1), column]
-        for _ in range(BISECTIONS):
-            q = some.onto(0.5 * (pair[0] + pair[1]))
-            before = (np.sum((some.region.flank(q).points - joint) * chord, axis=1) < 0.0)[:, None]
-            pair = [np.where(before, q, pair[0]), np.where(before, pair[1], q)]
+        ends = np.clip(near - 1, 0, PLACES - 1), np.clip(near + 1, 0, PLACES - 1)
+        chord = points[ends[1], column] - points[ends[0], column]
+        q = some.nearest(joint, chord, q[ends[0], column], q[ends[1], column])
         on = np.linalg.norm(some.region.flank(q).points - joint, axis=1) <= TOGETHER
         chosen = np.flatnonzero(apart)[on]
         return _ending(flank, not self.tip, chosen, q[on])

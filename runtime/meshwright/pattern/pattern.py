@@ -214,7 +214,8 @@ class _Rays:
             if not len(wide):
                 break
             low, high = weight[:, wide]
-            share = low / (low - high)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = low / (low - high)
             share = np.where((share > 0.0) & (share < 1.0), share, 0.5)
             here = inner.only(wide)
             middle = self.only(wide)._at(here.radius + share * width[wide], here, remaining)

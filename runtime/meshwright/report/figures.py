@@ -178,8 +178,11 @@ def _drive_error(analysis):
 
 
 def _zoom(axes, values):
-    """Room for the values and a little more, but never so little that round-off shows."""
-    low, high = np.nanmin(values), np.nanmax(values)
+    """Room for the values and a little more, but never so little that round-off shows; as it is without any."""
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return
+    low, high = known.min(), known.max()
     room = max(0.15 * (high - low), LEAST_ROOM)
     axes.set_ylim(low - room, high + room)
 
