@@ -133,9 +133,8 @@ def check(name):
 
 #: One of each kind of drive and of what touches first; brute force takes minutes for each.
 KINDS = (
-    "tip edge", "ZI", "ZN short", "left hand", "concave", "short face gear",
-    "beyond the window, along a curved tip", "hypoid",
-    "helical, tilted", "helical, two edges", "crossed helical",
+    "tip edge", "ZI", "ZN short", "left hand", "concave", "short face gear", "beyond the window, along a curved tip",
+    "hypoid", "helical, tilted", "helical, two edges", "crossed helical",
 )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from tests.quick import full
 APART = ("derivation", "same", "equal")
 #: How many; 240 with SIZE=full, in about half an hour of a processor.
 LEAST = 0.97
-COUNT = 240 if full() else 24
+COUNT = 240 if full() else 12
 
 
 @pytest.mark.validate
