@@ -35,8 +35,8 @@ STEPS, CLOSEST, FURTHER = 64, 2.0**-30, 2.0**-20
 #: Steps in which a line is followed from end to end; places between them are found from these.
 STEPS_ACROSS = 8
 
-#: A line is no narrower than this part of the one before it.
-NARROWEST = 1e-6
+#: A line is no narrower than this part of the one before it, and than this one of the first of those that follow it.
+NARROWEST, CUSP = 1e-6, 1e-8
 
 #: Limits that come from the surface itself, not from a size of blank or tool.
 SINGULAR = ("undercut", "regression", "spurious_sheet")
@@ -246,7 +246,9 @@ def _followed(found, number, step):
     if _next(found.region, at + FURTHER * step, ends, slopes) is None:
         return result
     size = step
-    while abs(size) > CLOSEST * abs(step):
+    of = found.region.profile
+    narrowest = CUSP * (ends[1, of] - ends[0, of])
+    while abs(size) > CLOSEST * abs(step) and ends[1, of] - ends[0, of] > narrowest:
         further = _next(found.region, at + size, ends, size * slopes)
         if further is None:
             size *= 0.5
