@@ -101,7 +101,7 @@ def _at_the_same_place(flank, start, points):
         left = np.stack([radius, z], axis=-1) - wanted
         slopes = np.stack([(x * found.tangents[..., 0].T + y * found.tangents[..., 1].T).T / radius[:, None],
                            found.tangents[..., 2]], axis=1)  # fmt: skip
-        shorter = np.minimum(1.0, limit / np.maximum(np.abs(left).max(axis=1), 1e-300))[:, None]
+        shorter = (limit / np.maximum(np.abs(left).max(axis=1), limit))[:, None]
         residual = np.concatenate([left * shorter, found.conditions[:, :, 0]], axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
             q -= solved(np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1), residual)
