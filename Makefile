@@ -16,6 +16,9 @@ CHECKERS := check_description check check_code check_bounded check_print
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels
 .PHONY: wheels-run machines precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
+# Compiled modules are kept, whatever the environment says: each of many short processes would compile them anew.
+export PYTHONDONTWRITEBYTECODE :=
+
 # What can be made.
 help:
 	@awk '/^# /{said = said " " substr($$0, 3)} /^[a-z][a-z-]*:/{if (said) print substr($$1, 1, length($$1) - 1) ":" said} \
