@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import lengthwise, solved
 
@@ -31,6 +32,9 @@ GUIDES, BEYOND, WIDER = 25, 0.25, 5
 #: A region is followed beyond its triangles in steps of its length over this, halved at most to the second number,
 #: and only where it goes on by the third one, all in parts of a step.
 STEPS, CLOSEST, FURTHER = 64, 2.0**-30, 2.0**-20
+
+#: So many steps of one length are followed by one twice as long; more lines than this are not followed.
+REGAINED, FARTHEST = 3, 256
 
 #: Steps in which a line is followed from end to end; places between them are found from these.
 STEPS_ACROSS = 8
@@ -245,17 +249,25 @@ def _followed(found, number, step):
     slopes = np.zeros_like(ends)
     if _next(found.region, at + FURTHER * step, ends, slopes) is None:
         return result
-    size = step
     of = found.region.profile
-    narrowest = CUSP * (ends[1, of] - ends[0, of])
+    size, alike, narrowest = step, 0, CUSP * (ends[1, of] - ends[0, of])
     while abs(size) > CLOSEST * abs(step) and ends[1, of] - ends[0, of] > narrowest:
         further = _next(found.region, at + size, ends, size * slopes)
         if further is None:
-            size *= 0.5
+            size, alike = 0.5 * size, 0
             continue
         slopes = (further - ends) / size
         at, ends = at + size, further
         result.append((at, *ends))
+        alike += 1
+        if alike == REGAINED and abs(size) < abs(step):
+            size, alike = 2.0 * size, 0
+        if len(result) > FARTHEST:
+            flank = found.region.flank
+            raise UsageError(
+                f"the {flank.region} of the {flank.body['name']} is too narrow at {at:.6g} mm along its teeth to be "
+                "followed to its end: change [blank] or [design]"
+            )
     return result
 
 
