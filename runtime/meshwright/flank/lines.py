@@ -325,7 +325,7 @@ def _ended(region, along, profile, near):
     # what has one value on a line does not end it
     with np.errstate(invalid="ignore"):
         off = np.where(inside[:, :, None], np.abs(values - values[first, np.arange(count)]), 0.0)
-        spread = np.nanmax(off, axis=(0, 1))
+        spread = np.fmax.reduce(off, axis=(0, 1))
     across = ~(spread < ROUNDING)
     lower, upper = _both_ends(region, across, q, profile, along, (first, last))
     missed = ~inside.any(axis=0)

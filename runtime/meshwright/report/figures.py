@@ -200,7 +200,7 @@ def _teeth(analysis):
     if running.mesh.allowance > 0.0:
         apart.axhline(1000.0 * running.mesh.allowance, color=style.WARN, linestyle="--", label="elastic allowance")
         apart.legend()
-    if np.nanmax(running.separations) * 1000.0 < LEAST_ROOM:
+    if np.fmax.reduce(running.separations, axis=None) * 1000.0 < LEAST_ROOM:
         apart.set_ylim(-LEAST_ROOM, LEAST_ROOM)
     apart.set(xlabel=PINION_ANGLE, ylabel="separation of each pair, µm")
     return figure
