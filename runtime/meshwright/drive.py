@@ -261,6 +261,14 @@ class Drive:
             known[member] = crossing(self, member)
         return known[member]
 
+    def crossings(self):
+        """Those of both members, by name."""
+        return {body["name"]: self.crossing(body["name"]) for body in self.design.description["bodies"]}
+
+    def know(self, crossings):
+        """Take over what :meth:`crossings` of an equal drive found, elsewhere."""
+        self._crossings.update(crossings)
+
     @cached_property
     def _crossings(self):
         return {}

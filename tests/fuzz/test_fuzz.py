@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from meshwright import DesignError, Drive
 from meshwright.design import design
 from tests.audit import forger
-from tests.fuzz import designs, interface, mutate, records
+from tests.fuzz import designs, interface, mutate, pages, records
 
 SMALL = settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
@@ -49,6 +49,16 @@ def test_what_was_once_trouble_is_read_or_refused_and_analysed(path, tmp_path):
     found = designs.loaded(path.read_bytes(), tmp_path)
     if isinstance(found, Drive):
         designs.analysed(found, random.Random(0), deep=False)
+
+
+@pytest.mark.validate
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", [717417, 727362, 727595, 727698, 737491])
+def test_what_was_once_trouble_is_exported_and_reported_or_refused(seed, tmp_path):
+    """A drive no part of which is known to touch first, an absurdly large one, a sliver of 1e-8 mm, lines of which
+    nothing is known, a flank that its fillet leaves nothing of.
+    """
+    assert pages.one(seed, tmp_path)
 
 
 def test_the_c_interface_does_as_it_says_of_random_bytes(tmp_path):

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from meshwright.base.aside import aside
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import loaded, loading
@@ -41,21 +42,22 @@ def add_arguments(parser):
 def run(options):
     if not options.html and not options.figures:
         raise UsageError("report: nothing to write; give --html FILE, --figures FOLDER or both")
-    report = _report()
     drive, friction = common.drive_of(options), common.friction_of(options)
     marking = None if options.marking_um is None else options.marking_um / 1000.0
     sizes = dict(_misalignment(text) for text in options.misalign)
     angles = _loaded_angles(options, drive)
-    with progress(report.steps(drive) + 1 + (loaded.STEPS + len(angles) if len(angles) else 0)) as step:
-        analysis = report.analyse(drive, step, friction, marking, sizes)
-        if len(angles):
-            _, document = loaded.solved(loading.finite_elements(), options, drive, angles, step)
-            analysis = replace(analysis, loaded=document)
-        step("figures")
-        if options.html:
-            write_text(options.html, report.page(analysis))
-        if options.figures:
-            report.write_figures(analysis, options.figures, options.format)
+    with aside(drive.crossings) as crossings:  # while the drawing libraries are imported
+        report = _report()
+        with progress(report.steps(drive) + 1 + (loaded.STEPS + len(angles) if len(angles) else 0)) as step:
+            analysis = report.analyse(drive, step, friction, marking, sizes, crossings)
+            if len(angles):
+                _, document = loaded.solved(loading.finite_elements(), options, drive, angles, step)
+                analysis = replace(analysis, loaded=document)
+            step("figures")
+            if options.html:
+                write_text(options.html, report.page(analysis))
+            if options.figures:
+                report.write_figures(analysis, options.figures, options.format)
     return 0 if analysis.tca.complete else 1
 
 

@@ -89,7 +89,7 @@ def _at_the_same_place(flank, start, points):
     """Parameters (N, k) of a flank at the distance from the axis and the axial position of ``points`` (N, 3)."""
     wanted = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=-1)
     seeds = np.stack([np.hypot(start.points[:, 0], start.points[:, 1]), start.points[:, 2]], axis=-1)
-    if not len(seeds):
+    if not len(seeds) or not len(points):
         return np.full((len(points), len(flank.parameters)), np.nan)
     nearest = [int(np.argmin(((seeds - place) ** 2).sum(axis=1))) for place in wanted]
     q = start.parameters[nearest].copy()

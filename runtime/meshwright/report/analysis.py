@@ -1,10 +1,12 @@
 """Everything that a report shows, computed once: the figures and the page only read it."""
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.contact.contact_line import ContactLine, contact_line
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
@@ -141,11 +143,12 @@ class Analysis:
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
 
-def analyse(drive, step, friction=None, marking=None, sizes=None):
+def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None):
     """The :class:`Analysis` of a drive; ``step(text)`` is called before each part of the work.
 
     ``friction`` is a :class:`~meshwright.contact.friction.Friction` or None; ``marking`` the thickness of the marking
     compound, mm, by default the design's separation; ``sizes`` of misalignments by key, in the unit of the key.
+    ``crossings`` gives what :meth:`~meshwright.drive.Drive.crossings` does, where that has been begun before.
     """
     sizes = checked_sizes(drive.design, sizes or {})
     step("window of contact")
@@ -165,6 +168,9 @@ def analyse(drive, step, friction=None, marking=None, sizes=None):
     matrices = _matrices(drive, tca)
     patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
     step("whole flanks")
+    if crossings is not None:
+        with suppress(UsageError):  # who asks for a region is told so
+            drive.know(crossings())
     whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
     sensitivities = []
     for parameter in misalignments(drive.design):
