@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from meshwright.base.aside import aside
 from meshwright.base.errors import UsageError
 from meshwright.contact.contact_line import ContactLine, contact_line
 from meshwright.contact.flags import not_first
@@ -157,10 +158,11 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
     angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
-    first = drive.first_contact(angles, tca)
+    with aside(lambda: drive.first_contact(angles, tca)) as first_contact:
+        step("all pairs together")
+        running = None if mesh.window.path is None else _running(mesh, angles)
+        first = first_contact()
     tca = not_first(tca, first)
-    step("all pairs together")
-    running = None if mesh.window.path is None else _running(mesh, angles)
     step("contact pattern")
     pattern = _pattern(drive, tca)
     lines = _lines(drive, angles) if along_lines else ()
