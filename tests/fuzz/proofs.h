@@ -392,6 +392,27 @@ static mw_piece *piece_of(reader *r, fuzzed *f, const mw_wide *s, double from, d
     return piece;
 }
 
+/* First contact over a range of angles of a piece of path, or one beyond it, of this pair or with both bodies turned. */
+static void first_along(reader *r, fuzzed *f, const mw_wide *s, const mw_piece *piece, double begin, double end)
+{
+    const mw_model *m = f->m;
+    if (!f->from->nproofs) return;
+    const double *known = f->from->proofs[byte(r) % (unsigned)f->from->nproofs], width = end - begin;
+    const double from = begin + (double)(byte(r) % 8) / 8.0 * width, to = from + (double)(byte(r) % 9) / 8.0 * (end - from);
+    const double slack = known[1] * (byte(r) < 128 ? 1.0 : 1e3), turn = byte(r) < 192 ? 0.0 : number(r, 0.5);
+    const int effort = 1 << byte(r) % 10;
+    double *work = numbers(mw_certify_first_work()), angle;
+    mw_first_certificate *c = room(1, sizeof *c);
+    mw_certificate *shown = room(1, sizeof *shown);
+    memset(shown, 0, sizeof *shown);
+    shown->outcome = piece->outcome;
+    must_be_first(r, f, from, shown, known + 3, slack, known[2], 0, c,
+                  mw_certify_first_along(m, s, piece, from, to, as_wide(turn, 0.0), as_wide(turn, 0.0), known + 3, slack, known[2],
+                                         effort, work, c, &angle));
+    if (c->outcome == MW_FIRST_REFUTED && !(angle >= from && angle <= to)) fail("an overlap at an angle beyond the range");
+    if (c->outcome == MW_FIRST_PROVED && !(from < to)) fail("first contact over no angles of the pinion");
+}
+
 static void path(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
@@ -412,9 +433,13 @@ static void path(reader *r, fuzzed *f)
     const mw_ball there = mw_piece_at(piece, of, at);
     mw_piece_range(piece, of, from, to, (int)(byte(r) % 12) - 2, limits);
     calls += 3;
-    if (piece->outcome != MW_UNIQUE) return;
+    if (piece->outcome != MW_UNIQUE) {
+        if (byte(r) < 16) first_along(r, f, s, piece, from, to);
+        return;
+    }
     if (there.radius < HUGE_VAL && !(there.mid >= limits[0] - there.radius && there.mid <= limits[1] + there.radius))
         fail("bounds of a piece that do not hold its values");
+    if (byte(r) < 64) first_along(r, f, s, piece, from, to);
     if (!f->completed || !all) return;
     mw_info info;
     m->set_phi(f->s, at);
