@@ -368,47 +368,40 @@ def _longest_runs(inside):
 
 def _both_ends(region, across, q, profile, along, within):
     """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
-    the profile (S, M), by Newton's method on the limit that is least, by bisection where that leads out of what holds
-    the end. ``across`` are the limits that can end a line.
+    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
+    where there is no surface. ``across`` are the limits that can end a line.
     """
 
     def least(places):
-        """The least limit (N,) at places (N, k), the change of the parameters along the line by the profile's parameter
-        (N, k), and that of the limit (N,).
-        """
-        found, rows = region.flank(places), np.arange(len(places))
-        values = np.where(across, region.limits.values(found), np.inf)
-        number = values.argmin(axis=1)
-        matrix, _ = _equations(region, found, 0.0, 0.0)
-        way = solved(matrix, np.eye(1, matrix.shape[1]).repeat(len(places), axis=0))
-        return values[rows, number], way, np.sum(region.limits.slopes(found)[rows, number] * way, axis=1)
+        return region.limits.values(region.flank(places))[:, across].min(axis=1, initial=np.inf)
 
     columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
     sign = np.repeat([-1, 1], len(columns) // 2)
-    inner, outer = profile[index, columns], profile[np.clip(index + sign, 0, len(profile) - 1), columns]
-    best = q[index, columns]
-    at, here = inner.copy(), best.copy()
-    value, way, slope = least(best)
-    floor = np.minimum(value, 0.0) - NOISE
+    inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
+    outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
+    inside = least(best)
+    floor = np.minimum(inside, 0.0) - NOISE
+    outside = least(q[beyond, columns]) - floor
+    inside = inside - floor
     left = np.flatnonzero(inner != outer)
     for step in range(BISECTIONS):
         if not len(left):
             break
-        a, b = inner[left], outer[left]
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            trial = at[left] + (floor[left] + NOISE - value[left]) / slope[left]
-            # now and then the middle: a limit function may be far from a straight line
-            trial = np.where(((trial - a) * (trial - b) < 0.0) & (step % HALVED < HALVED - 1), trial, 0.5 * (a + b))
-            start = here[left] + way[left] * (trial - at[left])[:, None]
-        start = np.where(np.isfinite(start).all(axis=1)[:, None], start, best[left])
-        found = solve(region, trial, along[left], start)
-        value[left], way[left], slope[left] = least(found)
-        good = value[left] >= floor[left]
-        inner[left], outer[left] = np.where(good, trial, a), np.where(good, b, trial)
-        best[left] = np.where(good[:, None], found, best[left])
-        at[left], here[left] = trial, found
-        near = good & (value[left] < floor[left] + 2.0 * NOISE)
-        left = left[~(near | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left])))]
+        a, b, fa, fb = inner[left], outer[left], inside[left], outside[left]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = fa / (fa - fb)
+        # now and then the middle: a limit function may be far from a straight line
+        share = np.where(np.isfinite(fb) & (share > 0.0) & (share < 1.0) & (step % HALVED > 0), share, 0.5)
+        trial = solve(region, a + share * (b - a), along[left], best[left])
+        value = least(trial) - floor[left]
+        good = value >= 0.0
+        inner[left] = np.where(good, a + share * (b - a), a)
+        outer[left] = np.where(good, b, a + share * (b - a))
+        inside[left] = np.where(good, value, 0.5 * fa)
+        outside[left] = np.where(good, 0.5 * fb, value)
+        best[left] = np.where(good[:, None], trial, best[left])
+        near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
+        left = left[~near]
     return best.reshape(2, -1, best.shape[1])
 
 
