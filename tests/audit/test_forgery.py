@@ -96,6 +96,12 @@ def enormous_exponent(forger):
     forger.proof(["^", "x", 10**9], ["*", 1, ["^", "x", 10**9]], text=f"x**{10**9} = 1*x**{10**9}")
 
 
+def leading_zero(forger):
+    """One number written in two ways: two records would say one thing."""
+    component = {"numerator": "", "denominators": [["01*0", 1]], "cofactors": []}
+    forger.proof("x", ["*", 1, "x"], generators=["x"], components=[component], text="x = 1*x")
+
+
 def enormous_integer(forger):
     forger.proof(10**4000, 0, text="1 = 0")
 
@@ -320,6 +326,7 @@ FORGED = [
     (fermat, "degree|not 'x = 1'|exponent"),
     (enormous_degree, "degree|is not"),
     (enormous_exponent, "exponent"),
+    (leading_zero, "canonical form"),
     (enormous_integer, "integer|is not|digits"),
     (sign_that_is_an_angle, "two things"),
     (turned_derivative, "trees differ"),

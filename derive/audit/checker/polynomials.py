@@ -13,6 +13,9 @@ from .refusal import require
 LARGEST_DEGREE = 2**24
 LARGEST_BITS = 2**24
 
+#: coefficient * generator^power, the numbers without leading zeros, no power that is 1.
+TERM = re.compile(r"-?[1-9]\d*(\*(0|[1-9]\d*)(\^([2-9]|[1-9]\d+))?)*", re.ASCII)
+
 
 class Size:
     """Bounds on a quotient: degrees of numerator and denominator, log2 of the sums of their absolute coefficients."""
@@ -114,10 +117,10 @@ def read_polynomial(text: str) -> dict:
     """Powers ((generator, power), ...) -> coefficient."""
     terms = {}
     for term in text.split("+") if text else ():
-        require(re.fullmatch(r"-?\d+(\*\d+(\^\d+)?)*", term), "a polynomial is not in canonical order")
+        require(TERM.fullmatch(term), f"{term!r} is no term in canonical form")
         factor, *powers = term.split("*")
         key = tuple((int(index), int(exponent or 1)) for index, _, exponent in (item.partition("^") for item in powers))
-        require(key not in terms and int(factor), "a polynomial repeats a term or has a zero term")
+        require(key not in terms, "a polynomial repeats a term")
         require([i for i, _ in key] == sorted({i for i, _ in key}), "a term is not in canonical order")
         require(all(0 < exponent <= 4096 for _, exponent in key), "an exponent is out of range")
         terms[key] = int(factor)

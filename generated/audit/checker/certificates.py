@@ -29,7 +29,8 @@ def scope_of(certificate: dict, equation: dict, definitions: dict) -> dict:
         entry["symbol"]: entry["symbol"] + (f"/{entry['divisor']}" if entry["divisor"] > 1 else "")
         for entry in certificate["angles"]
     }
-    require(len(angles) == len(certificate["angles"]), "one angle has two names")
+    symbols = [entry["symbol"] for entry in certificate["angles"]]
+    require(symbols == sorted(angles), "one angle has two names, or angles are not in order")
     named = [root for root in certificate["roots"] if "generator" in root]
     roots = {canonical(root["radicand"]): (root["generator"], read_polynomial(root["divisor"])) for root in named}
     require(len(roots) == len(named), "one root has two names")

@@ -88,9 +88,15 @@ def _summit(equations, before, after):
         return -np.inf if x is None else equations.margin(x)
 
     low, high = 0.0, 1.0
+    first, second = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    depths = depth(first), depth(second)
     for _ in range(SECTIONS):
-        first, second = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        low, high = (low, second) if depth(first) > depth(second) else (first, high)
+        if depths[0] > depths[1]:
+            high, second, first = second, first, second - GOLDEN * (second - low)
+            depths = depth(first), depths[0]
+        else:
+            low, first, second = first, second, first + GOLDEN * (high - first)
+            depths = depths[1], depth(second)
     return at(0.5 * (low + high))
 
 

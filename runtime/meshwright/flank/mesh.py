@@ -59,9 +59,10 @@ def mesh(region, cells):
     nodes[lattice.inside] = np.arange(np.count_nonzero(lattice.inside))
     crossings, q, limit = _crossings(region, lattice, np.count_nonzero(lattice.inside))
     cut = _Cut(region, lattice, nodes, crossings, limit, [*lattice.q[lattice.inside], *q])
-    triangles, border = [], []
-    occupied = lattice.inside[:-1, :-1] | lattice.inside[1:, :-1] | lattice.inside[:-1, 1:] | lattice.inside[1:, 1:]
-    for i, j in np.argwhere(occupied):
+    around = np.stack([nodes[a : nodes.shape[0] - 1 + a, b : nodes.shape[1] - 1 + b] for a, b in CORNERS], axis=-1)
+    whole = (around >= 0).all(axis=2)
+    triangles, border = around[whole][:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3).tolist(), []
+    for i, j in np.argwhere((around >= 0).any(axis=2) & ~whole):
         cut.cell(int(i), int(j), triangles, border)
     return _triangulation(region, np.array(cut.vertices), triangles, border)
 

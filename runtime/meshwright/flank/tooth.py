@@ -91,7 +91,7 @@ def _at_the_same_place(flank, start, points):
     seeds = np.stack([np.hypot(start.points[:, 0], start.points[:, 1]), start.points[:, 2]], axis=-1)
     if not len(seeds) or not len(points):
         return np.full((len(points), len(flank.parameters)), np.nan)
-    nearest = [int(np.argmin(((seeds - place) ** 2).sum(axis=1))) for place in wanted]
+    nearest = np.argmin((seeds**2).sum(axis=1) - 2.0 * wanted @ seeds.T, axis=1)
     q = start.parameters[nearest].copy()
     limit = LONGEST * wanted[:, 0].max()
     for _ in range(STEPS):

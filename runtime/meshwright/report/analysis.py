@@ -158,29 +158,30 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
     angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
-    with aside(lambda: drive.first_contact(angles, tca)) as first_contact:
+    with (
+        aside(lambda: drive.first_contact(angles, tca)) as first_contact,
+        aside(lambda: _sensitivities(drive, angles, sizes)) as sensitivities,
+    ):
         step("all pairs together")
         running = None if mesh.window.path is None else _running(mesh, angles)
         first = first_contact()
-    tca = not_first(tca, first)
-    step("contact pattern")
-    pattern = _pattern(drive, tca)
-    lines = _lines(drive, angles) if along_lines else ()
-    step("flanks")
-    matrices = _matrices(drive, tca)
-    patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
-    step("whole flanks")
-    if crossings is not None:
-        with suppress(UsageError):  # who asks for a region is told so
-            drive.know(crossings())
-    whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
-    sensitivities = []
-    for parameter in misalignments(drive.design):
-        step(f"misalignment {parameter['key']}")
-        sensitivities.append(sensitivity(drive, parameter, angles, sizes.get(parameter["key"])))
+        tca = not_first(tca, first)
+        step("contact pattern")
+        pattern = _pattern(drive, tca)
+        lines = _lines(drive, angles) if along_lines else ()
+        step("flanks")
+        matrices = _matrices(drive, tca)
+        patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
+        step("whole flanks")
+        if crossings is not None:
+            with suppress(UsageError):  # who asks for a region is told so
+                drive.know(crossings())
+        whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
+        step("misalignments")
+        misaligned = sensitivities()
     moving = velocities(drive, tca)
     return Analysis(
-        drive, running, tca, per_pitch, pattern, lines, matrices, patches, tuple(sensitivities), breaks(drive, tca),
+        drive, running, tca, per_pitch, pattern, lines, matrices, patches, misaligned, breaks(drive, tca),
         moving, efficiency(drive, tca, friction, moving), first, whole,
         drive.design.value("separation_mm", "contact") if marking is None else marking,
     )  # fmt: skip
@@ -188,7 +189,11 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
 
 def steps(drive):
     """How often :func:`analyse` calls ``step``."""
-    return 6 + len(misalignments(drive.design))
+    return 7
+
+
+def _sensitivities(drive, angles, sizes):
+    return tuple(sensitivity(drive, p, angles, sizes.get(p["key"])) for p in misalignments(drive.design))
 
 
 def _positions(drive, mesh):
