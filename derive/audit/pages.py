@@ -19,7 +19,7 @@ from derive.audit.claims import Document, Figure
 from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
-from derive.audit.mutations import measured
+from derive.audit.mutations.table import measured
 from derive.audit.published import comparisons
 from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference, raised
 from derive.audit.validation import NOT_VERIFIED, VERIFIED

@@ -1,13 +1,16 @@
 """A change of one function in one generated file is refused by the checkers that read it, hashes left out."""
 
+import random
 from collections import Counter
 from types import SimpleNamespace
 
 import pytest
 
-from derive.audit import mutations
 from derive.audit.checker.tables import OPERATIONS
-from derive.audit.mutations import EQUAL, REFUSED, SURVIVED
+from derive.audit.mutations.equality import same_programs, same_reals
+from derive.audit.mutations.measure import Measured, measure
+from derive.audit.mutations.stages import EQUAL, REFUSED, STAGES, SURVIVED
+from derive.audit.mutations.table import measured
 from tests.quick import full
 
 ALL = ("spherical_convex_spur", "cylindrical_worm_zn_zn", "face_worm", "cylindrical_gears", "bevel_formate")
@@ -17,7 +20,7 @@ ALL = ("spherical_convex_spur", "cylindrical_worm_zn_zn", "face_worm", "cylindri
 @pytest.mark.parametrize("drive", ALL)
 def test_a_changed_file_is_refused(drive, capsys):
     """Of all functions once with SIZE=full, in about ten minutes of a processor."""
-    outcomes = list(mutations.measure([drive], 1, sample=None if full() else 24))
+    outcomes = list(measure([drive], 1, sample=None if full() else 24))
     counted = Counter(outcome.by for outcome in outcomes)
     with capsys.disabled():
         print(f"\n{drive}", dict(counted), *(" ".join(o.mutant.key) for o in outcomes if o.by == SURVIVED), sep="\n  ")
@@ -28,12 +31,12 @@ def test_a_changed_file_is_refused(drive, capsys):
 @pytest.mark.validate
 def test_a_change_of_each_stage_is_made_and_refused():
     """One of each kind of file of the smallest drive."""
-    drive, rng = mutations.Measured(ALL[0]), mutations.random.Random(1)
+    drive, rng = Measured(ALL[0]), random.Random(1)
     first = {}
     for mutant in drive.mutants(1, rng):
         if "derive" not in mutant.function:
             first.setdefault(mutant.stage, mutant)
-    assert set(first) == set(mutations.STAGES)
+    assert set(first) == set(STAGES)
     outcomes = {stage: drive.judged(mutant).by for stage, mutant in first.items() if stage != "description"}
     assert set(outcomes.values()) == {REFUSED}
 
@@ -43,9 +46,9 @@ def test_an_exchange_that_changes_no_value_is_told_apart():
     old = {"t0": ("expression", "p[1] * p[2]"), "o[0]": ("expression", "t0 + p[3]")}
     new = {"t0": ("expression", "p[2] * p[1]"), "o[0]": ("expression", "p[3] + t0")}
     wrong = {"t0": ("expression", "p[2] * p[1]"), "o[0]": ("expression", "p[3] - t0")}
-    header = mutations.Measured(ALL[0]).checks.header
-    assert mutations.same_programs([(old, new)], header)
-    assert not mutations.same_programs([(old, wrong)], header)
+    header = Measured(ALL[0]).checks.header
+    assert same_programs([(old, new)], header)
+    assert not same_programs([(old, wrong)], header)
 
 
 def test_a_scale_that_leaves_a_unit_vector_is_told_apart():
@@ -61,13 +64,13 @@ def test_a_scale_that_leaves_a_unit_vector_is_told_apart():
             [(multiply, 2, 0, 1), (multiply, 3, 2, 1)],
         )
     )
-    assert mutations._same_reals(kept, scaled)
-    assert not mutations._same_reals(kept, wrong)
+    assert same_reals(kept, scaled)
+    assert not same_reals(kept, wrong)
 
 
 def test_the_measured_table_adds_up():
-    kept = mutations.measured()
-    assert {row["stage"] for row in kept["rows"]} >= set(mutations.STAGES) - {"description"}
+    kept = measured()
+    assert {row["stage"] for row in kept["rows"]} >= set(STAGES) - {"description"}
     assert kept[SURVIVED] == len(kept["survivors"])
     assert kept[REFUSED] >= 0.97 * (kept[REFUSED] + kept[SURVIVED])
     assert kept[EQUAL] >= 0

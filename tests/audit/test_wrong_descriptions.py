@@ -9,31 +9,31 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import mutations
 from derive.audit.checker import attempts, check_description
 from derive.audit.checker.design import check_unit
 from derive.audit.checker.draws import on_both_flanks
 from derive.audit.checker.drive import Drive
 from derive.audit.checker.refusal import Rejected
+from derive.audit.mutations import of_descriptions
 from tests.quick import quick
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 SPUR = "spherical_convex_spur"
 SEED = 21
-SECTIONS = [section for section in mutations.SECTIONS if section != "design_systems"]
+SECTIONS = [section for section in of_descriptions.SECTIONS if section != "design_systems"]
 
 
 def wrong_descriptions(description, count):
     """Section by section in turn: words, and a description with one change."""
     rng = random.Random(SEED)
-    found = {section: list(mutations.places(description[section])) for section in SECTIONS}
+    found = {section: list(of_descriptions.places(description[section])) for section in SECTIONS}
     queues = {section: rng.sample(paths, len(paths)) for section, paths in found.items() if paths}
     made = 0
     while made < count and any(queues.values()):
         for section, queue in queues.items():
             if queue and made < count:
                 made += 1
-                yield mutations.changed_at(description, (section, *queue.pop()), rng)
+                yield of_descriptions.changed_at(description, (section, *queue.pop()), rng)
 
 
 def is_refused(description, header, tangents):

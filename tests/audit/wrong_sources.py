@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
 
-from derive.audit.mutations import keep
+from derive.audit.mutations.table import keep
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED = 7
@@ -283,10 +283,10 @@ def _of_all(drives: tuple[str, ...], folder: Path, kept: Path) -> tuple[str, str
 
 
 def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
-    from derive.audit import mutations
     from derive.audit.checker import attempts, check_bounded, check_code, check_description, check_print
     from derive.audit.checker.printed import read_printed
     from derive.audit.checker.refusal import Rejected
+    from derive.audit.mutations.equality import different
 
     assert Path(check_print.__file__).is_relative_to(folder)
     made = folder / "generated"
@@ -315,8 +315,8 @@ def _verdict(drive: str, folder: Path, kept: Path) -> tuple[str, str]:
                 check()
             except Rejected as reason:
                 return checker.__name__.rpartition("_")[2], str(reason)[:200]
-    different = mutations.different(drive, made, kept)
-    return ("survivor", different) if different else ("equal", "")
+    place = different(drive, made, kept)
+    return ("survivor", place) if place else ("equal", "")
 
 
 def written(drive: str, folder: Path) -> list[Path]:
