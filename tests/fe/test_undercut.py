@@ -9,6 +9,9 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.fe.generated_side import Wheel
+from meshwright.fe.sizes import solid_sizes
+from meshwright.fe.thread_flanks import span
 from meshwright.flank.lines import lines
 from meshwright.flank.region import region
 
@@ -121,3 +124,20 @@ def test_flank_and_fillet_end_where_involute_and_trochoid_cross(spur):
 def test_a_tooth_that_is_not_undercut_ends_where_its_tool_does(spur):
     wheel = spur.region("wheel")
     assert spur.crossing("wheel") is None and "junction" not in wheel.limits.names
+
+
+def test_undercut_begins_where_the_cusp_of_a_flank_meets_the_end_of_its_fillet():
+    """Sections ever nearer to that where undercut begins: flank and fillet meet, in one point of both."""
+    drive = Drive.load("plain-zc").with_(blank={"hob_tip_rounding_mm": 1.22})
+    sizes = solid_sizes(drive, "wheel")
+    side = Wheel.of(drive, "wheel", span(drive, "wheel"), (sizes["face_first"], sizes["face_last"]))
+    low, high = -2.5, -2.0  # not undercut, undercut
+    tried = []
+    while high - low > 1e-10:
+        middle = 0.5 * (low + high)
+        joint, turn = side.ends(np.array([middle]))
+        tried.append(middle)
+        flank, fillet = side.line(np.array([middle])).at(joint), side.root(np.array([middle])).at(turn)
+        assert np.linalg.norm(flank.points - fillet.points) < 1e-9
+        low, high = (middle, high) if joint[0] == side.joint else (low, middle)
+    assert -2.5 < low and high < -2.0 and len(tried) > 30

@@ -127,7 +127,7 @@ def _point(fe, gear, mirror, angle, pairs, load, compliance):
         return point
     try:
         found = fe.loaded.loaded_contact(gear, angle, pairs, load, compliance)
-    except ArithmeticError as error:
+    except (ArithmeticError, ValueError) as error:  # a section of a tooth that is not whole, too
         return point | {"status": "diverged", "message": str(error)}
     if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}

@@ -162,7 +162,7 @@ class Line:
                 break
         found = self.generated(profile, face).points
         miss = np.hypot(np.hypot(found[:, 0], found[:, 1]) - radius, found[:, 2] - self.sections)
-        return profile, np.where(((radius <= grown[-1]) & (miss < _ON_PLACE))[:, None], found, np.nan)
+        return profile, np.where(((radius < grown[-1] + _ON_PLACE) & (miss < _ON_PLACE))[:, None], found, np.nan)
 
 
 def level(generated: Generated, sections: Floats, profile: Floats, steps: int = 16) -> Floats:

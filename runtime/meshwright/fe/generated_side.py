@@ -38,7 +38,7 @@ def generated_side(drive: Drive, member: str, span: Span, faces: tuple[float, fl
     not leave a whole side.
     """
     values = np.linspace(*faces, _SAMPLES)
-    wheel = _Wheel.of(drive, member, span, faces)
+    wheel = Wheel.of(drive, member, span, faces)
     fillet, known = wheel.root(values), _Known.of(wheel, values)
     return ToothSide(
         SectionCurves(fillet.surface, _axial, constant(0.0), lambda sections: known.ends(sections)[1]),
@@ -57,7 +57,7 @@ def _below_tip(found: FlankPoints) -> Floats:
 
 
 @dataclass(frozen=True)
-class _Wheel:
+class Wheel:
     """What a tool cuts: flank over (t, rack angle), fillet over (turn of the tool's normal from the land, rack angle).
 
     spine: places of the flank from face to face.  joint: t of the edge between the tool's flank and its rounding.
@@ -72,7 +72,7 @@ class _Wheel:
     turn: float
 
     @classmethod
-    def of(cls, drive: Drive, member: str, span: Span, faces: tuple[float, float]) -> _Wheel:
+    def of(cls, drive: Drive, member: str, span: Span, faces: tuple[float, float]) -> Wheel:
         """Raises DesignError where the rounding of the tool's tip finds no place on its flank, ValueError where the
         flank does not go from face to face.
         """
@@ -129,18 +129,21 @@ class _Wheel:
         middle = flank.at(kept)
         outward = np.sign(_azimuthal(middle.points, middle.normals))
 
-        def cut_away(place: Floats) -> tuple[Floats, Bools]:
+        def depth(place: Floats) -> tuple[Floats, Floats]:
+            """Turn of the fillet at the radius of places of the flank, and how far it cuts them away, mm."""
             points = flank.at(place).points
             turn, beside = fillet.at_radius(np.hypot(points[:, 0], points[:, 1]))
-            return turn, outward * _azimuthal(points, points - beside) > 0.0
+            return turn, outward * _azimuthal(points, points - beside)
 
-        if cut_away(kept)[1].any():
-            kept = np.where(cut_away(kept)[1], self.tips(flank.sections), kept)
-        if not cut_away(cut)[1].all():
+        removed = depth(kept)[1] > 0.0
+        if removed.any():
+            kept = np.where(removed, self.tips(flank.sections), kept)
+        if not np.all(depth(cut)[1] > -_ON_PLACE):  # where undercut begins, they meet in the cusp itself
             raise ValueError("the flank ends in a cusp that the fillet does not reach")
         for _ in range(_BISECTIONS):
             here = 0.5 * (kept + cut)
-            turn, removed = cut_away(here)
+            turn, deep = depth(here)
+            removed = deep > 0.0
             kept, cut = np.where(removed, kept, here), np.where(removed, here, cut)
         return here, turn
 
@@ -149,17 +152,17 @@ class _Wheel:
 class _Known:
     """A side in the sections ``values`` (V,), from which its ends in any other section between them are found.
 
-    line: its flank; tip, joint, turn (V,): as of :class:`_Wheel`.
+    line: its flank; tip, joint, turn (V,): as of :class:`Wheel`.
     """
 
-    wheel: _Wheel
+    wheel: Wheel
     line: Line
     tip: Floats
     joint: Floats
     turn: Floats
 
     @classmethod
-    def of(cls, wheel: _Wheel, values: Floats) -> _Known:
+    def of(cls, wheel: Wheel, values: Floats) -> _Known:
         line = wheel.line(values)
         return cls(wheel, line, line.up_to(_below_tip), *wheel.ends(values))
 
