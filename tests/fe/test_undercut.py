@@ -140,4 +140,4 @@ def test_undercut_begins_where_the_cusp_of_a_flank_meets_the_end_of_its_fillet()
         flank, fillet = side.line(np.array([middle])).at(joint), side.root(np.array([middle])).at(turn)
         assert np.linalg.norm(flank.points - fillet.points) < 1e-9
         low, high = (middle, high) if joint[0] == side.joint else (low, middle)
-    assert -2.5 < low and high < -2.0 and len(tried) > 30
+    assert low > -2.5 and high < -2.0 and len(tried) > 30
