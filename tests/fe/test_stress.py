@@ -88,7 +88,7 @@ def test_gate_refuses_a_start_with_a_gap(ccx, concave, compliance, tmp_path):
     }
     gapped = replace(prepared, model=replace(model, **apart))
     gapped.input_file.write_text(write(gapped.model.deck))
-    document = analysis.solve(gapped, ccx, replace(settings, time_limit=15.0))
+    document = analysis.solve(gapped, ccx, replace(settings, time_limit=5.0))
     assert document["pairs"] == [] and not all(check["held"] for check in document["gate"].values())
 
 

@@ -1,6 +1,7 @@
 """Misalignments of chosen size, and what a drawing states of the members."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -43,6 +44,13 @@ def test_a_drawing_states_each_member_and_both(analysed):
     assert not set(stated) & {row[3] for row in pinion.rows}
     assert {row[3]: row[1] for row in both.rows}["module_mm"] == "4"
     assert any(row[0].startswith("backlash") for row in both.rows)
+
+
+def test_a_grinding_wheel_is_no_part_of_the_wheel():
+    """A key belongs to a member whose word begins or ends it: the tool of a ground worm is named after neither."""
+    tables = drawing(SimpleNamespace(drive=Drive.load("zk-zn-45"), teeth={"wheel": 29}, running=None)).tables
+    assert any("wheel_teeth" in {row[3] for row in table.rows} for table in tables)
+    assert not any("grinding" in row[3] for table in tables for row in table.rows)
 
 
 def test_a_report_under_load_shows_what_was_solved_and_says_what_was_not(analysed):

@@ -62,7 +62,7 @@ def groups(analysis):
 def drawing(analysis):
     """What a drawing of each member and of their assembly states: the :class:`Group` of those keys of the design.
 
-    The first word of the key of a member's number of teeth is in its other keys too, or names its table.
+    The first word of the key of a member's number of teeth begins or ends its other keys too, or names its table.
     """
     design, prefixes = analysis.drive.design, _prefixes(analysis)
     rows = [(p["table"], _parameter(design, p)) for p in design.description["parameters"]
@@ -70,9 +70,9 @@ def drawing(analysis):
     rows += [("", (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"]))
              for s in design.description["sizes"]]  # fmt: skip
     rows = [(table, row) for table, row in rows if row[1] != "–"]
-    tables = []
+    tables, words = [], lambda key: title(key).split()
     for member, prefix in prefixes.items():
-        own = [(r[0], r[1], r[2], r[4]) for table, r in rows if table == prefix or prefix in r[4].split("_")]
+        own = [(r[0], r[1], r[2], r[4]) for table, r in rows if prefix in (table, words(r[4])[0], words(r[4])[-1])]
         tables.append(_stated(member.capitalize(), own))
     both = [(r[0], r[1], r[2], r[4]) for table, r in rows if table in _DRAWN and _SHARED.match(r[4])]
     if design.tables["design"].get("hand"):
