@@ -11,6 +11,7 @@ import numpy as np
 
 from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import ToothForm, ToothSide
+from meshwright.flank.sections import Sections
 
 
 @dataclass(frozen=True)
@@ -77,18 +78,18 @@ class SphericalGear:
 
     def side(self):
         flank = SectionCurves(
-            self.flank_surface, lambda p: p[..., 2], lambda z: np.full_like(z, self.junction_x), self._tip
+            self.flank_surface, Sections(0.0), lambda z: np.full_like(z, self.junction_x), self._tip
         )
         fillet = SectionCurves(
             self.fillet_surface,
-            lambda p: p[..., 2],
+            Sections(0.0),
             lambda z: np.full_like(z, np.pi / 2),
             lambda z: np.full_like(z, self.alpha),
         )
         return ToothSide(fillet, flank)
 
     def _tip(self, z):
-        curves = SectionCurves(self.flank_surface, lambda p: p[..., 2], None, None)
+        curves = SectionCurves(self.flank_surface, Sections(0.0), None, None)
 
         def miss(x):
             p = curves.points(z, x[:, None])[:, 0]

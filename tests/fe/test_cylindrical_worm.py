@@ -167,7 +167,7 @@ def test_face_beyond_the_hob_is_refused_with_the_widest_one(capsys, name, width)
     ("tip", "said"),
     [
         (60.0, "blank.wheel_tip_radius_mm = 60.0: the flank of the wheel is empty"),
-        (90.0, "the surface does not reach some section of its face"),
+        (90.0, "the flank of the wheel does not reach its tip"),
     ],
 )
 def test_a_tip_off_the_flank_at_every_width_is_refused(capsys, tip, said):

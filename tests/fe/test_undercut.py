@@ -9,11 +9,9 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
-from meshwright.fe.generated_side import Wheel
-from meshwright.fe.sizes import solid_sizes
-from meshwright.fe.thread_flanks import span
 from meshwright.flank.lines import lines
 from meshwright.flank.region import region
+from meshwright.flank.sides import RegionSide
 
 NAME, MEMBER = "spherical-table-2-3", "pinion"
 
@@ -129,15 +127,15 @@ def test_a_tooth_that_is_not_undercut_ends_where_its_tool_does(spur):
 def test_undercut_begins_where_the_cusp_of_a_flank_meets_the_end_of_its_fillet():
     """Sections ever nearer to that where undercut begins: flank and fillet meet, in one point of both."""
     drive = Drive.load("plain-zc").with_(blank={"hob_tip_rounding_mm": 1.22})
-    sizes = solid_sizes(drive, "wheel")
-    side = Wheel.of(drive, "wheel", span(drive, "wheel"), (sizes["face_first"], sizes["face_last"]))
-    low, high = -2.5, -2.0  # not undercut, undercut
+    side = RegionSide.of(*(region(drive, "wheel", name, drive.uses) for name in ("flank", "fillet")))
+    low, high = -2.5, -1.0  # not undercut, undercut
     tried = []
     while high - low > 1e-10:
         middle = 0.5 * (low + high)
-        joint, turn = side.ends(np.array([middle]))
+        at = np.array([middle])
         tried.append(middle)
-        flank, fillet = side.line(np.array([middle])).at(joint), side.root(np.array([middle])).at(turn)
-        assert np.linalg.norm(flank.points - fillet.points) < 1e-9
-        low, high = (middle, high) if joint[0] == side.joint else (low, middle)
-    assert low > -2.5 and high < -2.0 and len(tried) > 30
+        places = zip(("flank", "fillet"), side.joint(at), strict=True)
+        points = [drive.flank("wheel", name)(q).points for name, q in places]
+        assert np.linalg.norm(points[0] - points[1]) < 1e-6
+        low, high = (low, middle) if side.crossed(at)[0] else (middle, high)
+    assert low > -2.5 and high < -1.0 and len(tried) > 30

@@ -40,7 +40,6 @@ _ACROSS, _FILLET, _RIM, _RIM_GROWTH = 3, 2, 2, 2.25
 # middle. There are then so many rows across and in the rim instead, the former by a part thinner at the flanks, and so
 # many to each patch at an end, by a part longer than on average where they begin and shorter where they end.
 _WEDGE, _WEDGE_ACROSS, _WEDGE_RIM, _CROWDING, _END_ROWS, _END_GROWTH = 60.0, 4, 3, 0.6, 2, 0.3
-_DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +123,7 @@ def _ends_in_wedge(member: Member) -> bool:
     curves, faces = form.side(member.working).flank, np.array(form.faces)
     profile = 0.5 * (curves.first(faces) + curves.last(faces))[:, None]
     points, normals = (of(faces, profile)[:, 0] for of in (curves.points, curves.normals))
-    moved = _DIFFERENCE * np.eye(3)
-    along = [curves.section(points + d) - curves.section(points - d) for d in moved]
-    lean = np.einsum("ik,ki->k", np.array(along), normals) / np.linalg.norm(along, axis=0)
+    lean = np.einsum("ki,ki->k", curves.section.across(points), normals)
     return bool(90.0 - np.degrees(np.arcsin(np.abs(lean).max())) < _WEDGE)
 
 

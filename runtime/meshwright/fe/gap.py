@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
-from meshwright.fe.profile import Rail, SectionCurves
+from meshwright.fe.profile import Rail, SectionCurves, Smooth
 from meshwright.flank.sections import solved
 
 Bools = NDArray[np.bool_]
 
 _NEWTON_STEPS = 20
 _STEP_TOLERANCE = 1e-13
-_DIFFERENCE = 1e-5
 # A flank with an edge near the grid may leave some of the normals unmet.
 _PIERCED = 1e-9
 
@@ -103,11 +102,12 @@ class _Footprint:
         rotation = pose[:3, :3]
         feet_body = (feet - pose[:3, 3]) @ rotation
         plane_body = plane @ rotation
-        rail = curves.rail(np.clip(np.atleast_1d(curves.section(feet_body.mean(axis=0))), *form.faces))
+        rail = curves.rail(np.clip(np.atleast_1d(curves.section.at(feet_body.mean(axis=0))), *form.faces))
         profile, face = _pierce(curves, rail, feet_body, plane_body)
         points = curves.surface(profile, face)[0]
         pierced = np.abs((points - feet_body) @ plane_body[:2].T).max(axis=1) < _PIERCED
-        section = curves.section(points)
+        points = np.where(np.isfinite(points), points, feet_body)
+        section = curves.section.at(points)
         low, high = form.faces
         held = np.clip(section, low, high)
         first, last = curves.first(held), curves.last(held)
@@ -122,7 +122,8 @@ class _Footprint:
             excess, measured = deviations(points, plane_body[2])
             beyond["measured grid"] = pierced & ~measured
         inside = pierced & ~np.any(list(beyond.values()), axis=0)
-        # A cell off the flank has no pressure; its gap only has to be finite.
+        # A cell off the flank has no pressure; its gap and its place only have to be finite.
+        fraction = np.nan_to_num(fraction)
         place = np.stack([_arc_share(rail, fraction), (section - low) / (high - low)], axis=1)
         return _Footprint(points @ rotation.T + pose[:3, 3], inside, beyond, place, excess)
 
@@ -130,18 +131,15 @@ class _Footprint:
 def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> tuple[Floats, Floats]:
     """Surface parameters (N,), (N,) with tangent-plane coordinates equal to those of ``feet`` (N, 3)."""
     profile, face = (np.full(len(feet), value) for value in _nearest(rail, feet.mean(axis=0)))
-    tangents = plane[:2]
+    surface = curves.surface
+    if not isinstance(surface, Smooth):
+        raise TypeError("a flank whose tangents nobody knows is met by no normals")
     going = np.arange(len(feet))
     for _ in range(_NEWTON_STEPS):
         at = profile[going], face[going]
-        miss = (curves.surface(*at)[0] - feet[going]) @ tangents.T
-        steps = [_DIFFERENCE * max(1.0, float(np.abs(value).max())) for value in at]
-        columns = []
-        for d_profile, d_face in ((steps[0], 0.0), (0.0, steps[1])):
-            ahead = curves.surface(at[0] + d_profile, at[1] + d_face)[0]
-            behind = curves.surface(at[0] - d_profile, at[1] - d_face)[0]
-            columns.append((ahead - behind) @ tangents.T / (2.0 * (d_profile + d_face)))
-        change = solved(np.stack(columns, axis=-1), miss)
+        points, tangents = surface.tangents(*at)
+        miss = (points - feet[going]) @ plane[:2].T
+        change = solved(np.swapaxes(tangents @ plane[:2].T, 1, 2), miss)
         found = np.isfinite(change).all(axis=1)
         change[~found] = 0.0
         profile[going], face[going] = at[0] - change[:, 0], at[1] - change[:, 1]

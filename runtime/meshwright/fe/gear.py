@@ -23,6 +23,7 @@ from meshwright.fe.profile import Section, SectionCurves
 from meshwright.fe.rim import bore_radius, bored
 from meshwright.fe.sizes import body_of, flank_pair, solid_sizes
 from meshwright.fe.tooth import Cut, SideName, Teeth, ToothForm, ToothSide
+from meshwright.flank.sections import ANGLES, Sections
 from meshwright.flank.undercut import undercut_side
 
 _TIP_SAMPLES = 33
@@ -125,10 +126,6 @@ def _azimuth(side: ToothSide, sections: Floats, profile: float) -> float:
     return float(np.arctan2(point[1], point[0]))
 
 
-def _axial(points: Floats) -> Floats:
-    return points[..., 2]
-
-
 def _radius(points: Floats) -> Floats:
     return np.hypot(points[..., 0], points[..., 1])
 
@@ -168,5 +165,5 @@ class _Lie:
     back: Callable[..., Cut]
 
 
-_LIES = {"axial": _Lie(_axial, -1, _bore), "radius": _Lie(_radius, 1, _plane_back)}
-_INTERNAL = _Lie(_axial, 1, _outside)
+_LIES = {"axial": _Lie(Sections(0.0), -1, _bore), "radius": _Lie(Sections(ANGLES["radius"]), 1, _plane_back)}
+_INTERNAL = _Lie(Sections(0.0), 1, _outside)

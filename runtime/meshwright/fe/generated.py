@@ -3,27 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import Section, SectionCurves, Surface
+from meshwright.fe.profile import Section, SectionCurves, Smooth, Surface
+from meshwright.flank.surface import Flank
 
 _BISECTIONS = 60
 
 
-def region_surface(drive: Drive, member: str, region: str) -> Surface:
-    """A generated region as a function of two parameter arrays."""
-    generated = drive.flank(member, region)
+def region_surface(drive: Drive, member: str, region: str) -> Smooth:
+    """A generated region of two parameters as a function of two arrays."""
+    return _Generated(drive.flank(member, region))
 
-    def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+
+@dataclass(frozen=True)
+class _Generated:
+    """A region over its own two parameters."""
+
+    flank: Flank
+
+    def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
         profile, face = np.broadcast_arrays(profile, face)
-        found = generated(np.stack([profile.ravel(), face.ravel()], axis=1))
+        found = self.flank(np.stack([profile.ravel(), face.ravel()], axis=1))
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
-    return evaluate
+    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        found = self.flank(np.stack([profile, face], axis=1))
+        return found.points, found.tangents
 
 
 def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, ends: tuple[float, float]) -> Floats:
@@ -39,15 +50,29 @@ def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, e
     return 0.5 * (low + high)
 
 
-def turned(surface: Surface, angle: float) -> Surface:
-    """The surface turned about z."""
-    rotation = about_z(angle)[:3, :3].T
+def turned(surface: Surface, angle: float, shift: float = 0.0) -> Surface:
+    """The surface turned about z by an angle in rad, its face parameter counted from ``shift`` on."""
+    return (_Turned if isinstance(surface, Smooth) else _TurnedRows)(surface, about_z(angle)[:3, :3].T, shift)
 
-    def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        points, normals = surface(profile, face)
-        return points @ rotation, normals @ rotation
 
-    return evaluate
+@dataclass(frozen=True)
+class _TurnedRows:
+    surface: Surface
+    rotation: Floats
+    shift: float
+
+    def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        points, normals = self.surface(profile, face - self.shift)
+        return points @ self.rotation, normals @ self.rotation
+
+
+@dataclass(frozen=True)
+class _Turned(_TurnedRows):
+    surface: Smooth
+
+    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        points, tangents = self.surface.tangents(profile, face - self.shift)
+        return points @ self.rotation, tangents @ self.rotation
 
 
 def constant(value: float) -> Callable[[Floats], Floats]:

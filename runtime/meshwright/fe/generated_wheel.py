@@ -1,7 +1,7 @@
 """The tooth of a wheel that a threaded tool generates, with the fillets cut by the rounding of the tool's tip.
 
-Sections are planes z = constant; the root land is what the tip cylinder of the tool leaves. Sizes come from the drive's
-function ``solid_<member>``, the design keys that messages name from its description.
+Its teeth are those of its regions; what the tool leaves no whole tooth of is refused with the keys of the design that
+the description names, and the widest face that can be had.
 """
 
 from __future__ import annotations
@@ -9,40 +9,26 @@ from __future__ import annotations
 import numpy as np
 
 from meshwright.base.errors import DesignError
-from meshwright.contact.placement import about_z
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.fe.generated_side import generated_side
-from meshwright.fe.rim import bore_radius, bored
-from meshwright.fe.sizes import key_of, other_flank, solid_sizes
-from meshwright.fe.thread import opposite
-from meshwright.fe.thread_flanks import contact, span
-from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide
+from meshwright.fe.region_teeth import region_teeth
+from meshwright.fe.sizes import key_of
+from meshwright.fe.tooth import Teeth
+from meshwright.fe.tooth_patches import NoLand
 
 
 def generated_wheel(drive: Drive, member: str, rim_thickness: float) -> Teeth:
-    """The tooth of a drive with a whole blank; the rim ends at a bore below the root of the middle plane.
+    """The teeth that flank and fillet regions make; rim_thickness in mm from the root to the bore.
 
     Raises DesignError where the tool leaves no whole tooth in the face, with the widest face found whole.
     """
-    sizes = solid_sizes(drive, member)
-    working, sides = _sides(drive, member)
-    bore = bored(bore_radius(sizes["root_radius"], rim_thickness))
-    next_tooth = about_z(-2.0 * np.pi / sizes["teeth"])
-    faces = (sizes["face_first"], sizes["face_last"])
-    form = ToothForm.repeated(sides["left"], sides["right"], faces, next_tooth, bore)
-    _check_land(form, drive)
-    return Teeth(lambda angle: form, working)
-
-
-def _sides(drive: Drive, member: str) -> tuple[SideName, dict[SideName, ToothSide]]:
-    """The working side of the wheel and both sides by name."""
-    point, normal = contact(drive, member)
-    working: SideName = "left" if point[0] * normal[1] > point[1] * normal[0] else "right"
     place = key_of(drive, "wheel_face")
     width = drive.design.value(*reversed(table_and_key(place)))
+    _check_rounding(drive, member)
     try:
-        return working, {working: _side(drive, member), opposite(working): _side(other_flank(drive), member)}
+        return region_teeth(drive, member, rim_thickness)
+    except NoLand as error:
+        raise _named(drive, "tool_rounding" if error.where == "root land" else "wheel_tip", error.reason) from error
     except DesignError:
         raise
     except ValueError as error:
@@ -54,12 +40,6 @@ def _sides(drive: Drive, member: str) -> tuple[SideName, dict[SideName, ToothSid
         raise DesignError(place, width, reason, remedy) from error
 
 
-def _side(drive: Drive, member: str) -> ToothSide:
-    """A side of the wheel between its faces; raises ValueError where the tool leaves no whole one."""
-    sizes = solid_sizes(drive, member)
-    return generated_side(drive, member, span(drive, member), (sizes["face_first"], sizes["face_last"]))
-
-
 def _widest_face(drive: Drive, member: str, width: float) -> tuple[float | None, str]:
     """Largest face width in mm, of three digits and less than a given one, that has whole sides, None if no width has;
     and what the narrowest one without lacks.
@@ -69,8 +49,7 @@ def _widest_face(drive: Drive, member: str, width: float) -> tuple[float | None,
 
     def lacks(steps: int) -> str:
         try:
-            for one in (drive, other_flank(drive)):
-                _side(one.with_(**{table: {key: round(steps * 10.0**-decimals, decimals)}}), member)
+            region_teeth(drive.with_(**{table: {key: round(steps * 10.0**-decimals, decimals)}}), member, None)
         except ValueError as error:
             return str(error)
         return ""
@@ -83,11 +62,14 @@ def _widest_face(drive: Drive, member: str, width: float) -> tuple[float | None,
     return round(narrow * 10.0**-decimals, decimals) if narrow else None, reason
 
 
-def _check_land(form: ToothForm, drive: Drive) -> None:
-    """Refuse a tool without land between its two roundings: then none is left at the root of the wheel either."""
-    middle = np.array([0.5 * sum(form.faces)])
-    right, cut = form.right.root_end(middle)[0], form.right_cut(middle)[0]
-    if right[0] * cut[1] - right[1] * cut[0] >= 0.0:
-        place = key_of(drive, "tool_rounding")
-        rounding = drive.design.value(*reversed(table_and_key(place)))
-        raise DesignError(place, rounding, "the tool's tip has no land between its roundings", "choose less")
+def _check_rounding(drive: Drive, member: str) -> None:
+    """Refuse a rounding of the tool's tip that cuts no fillet."""
+    fillet = drive.region(member, "fillet")
+    if fillet.empty:
+        raise _named(drive, "tool_rounding", fillet.why_empty)
+
+
+def _named(drive: Drive, size: str, reason: str) -> DesignError:
+    """An error of the key of a size that had better be less."""
+    key = key_of(drive, size)
+    return DesignError(key, drive.design.value(*reversed(table_and_key(key))), reason, "choose less")

@@ -103,9 +103,9 @@ def face_divisions(
 def _face_zone(flank: SectionCurves, faces: tuple[float, float], zone: ContactZone, density: MeshDensity) -> FineZone:
     """Extent of the ellipse across the sections: that of its two semi-axes together."""
     semi_axes = [zone.semi_major * zone.major_direction, zone.semi_minor * zone.minor_direction]
-    halves = [0.5 * float(flank.section(zone.centre + d) - flank.section(zone.centre - d)) for d in semi_axes]
+    halves = [0.5 * float(flank.section.at(zone.centre + d) - flank.section.at(zone.centre - d)) for d in semi_axes]
     reach = float(np.hypot(halves[0], halves[1]))
-    centre = float(flank.section(zone.centre)) - faces[0]
+    centre = float(flank.section.at(zone.centre)) - faces[0]
     largest = density.largest_section * (faces[1] - faces[0])
     return FineZone(centre, density.face_reach * reach, reach / density.per_semi_major, largest)
 
@@ -113,7 +113,7 @@ def _face_zone(flank: SectionCurves, faces: tuple[float, float], zone: ContactZo
 def profile_rows(rail: Rail, zone: ContactZone, density: MeshDensity) -> Floats:
     """Fractions (K, J) of the flank's arc length in each section."""
     centres = _diameter(rail, zone)
-    middle = int(np.argmin(np.abs(rail.values - float(rail.curves.section(zone.centre)))))
+    middle = int(np.argmin(np.abs(rail.values - float(rail.curves.section.at(zone.centre)))))
     length, centre = float(rail.total[middle]), float(centres[middle])
     chord = _half_chord(rail.table[middle], zone)
     fine = FineZone(centre * length, density.profile_reach * chord, chord / density.per_semi_minor)

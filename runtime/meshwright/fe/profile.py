@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -12,8 +13,29 @@ from meshwright.fe.hexahedra import Floats
 Surface = Callable[[Floats, Floats], tuple[Floats, Floats]]
 """Two parameter arrays of one shape to points and outward unit normals (..., 3), body frame, mm."""
 
-Section = Callable[[Floats], Floats]
-"""Points (..., 3) to the coordinate (...,) that is constant on a section of the tooth."""
+
+@runtime_checkable
+class Smooth(Protocol):
+    """A :data:`Surface` that knows its tangents, as that of every flank does."""
+
+    def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]: ...
+
+    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        """Points (N, 3) at parameters (N,) and their derivatives (N, 2, 3) by the two."""
+        ...
+
+
+class Section(Protocol):
+    """The surfaces of revolution that are the sections of a tooth: points (..., 3), body frame, mm."""
+
+    def at(self, points: Floats) -> Floats:
+        """The coordinate (...,) that is constant on a section."""
+        ...
+
+    def across(self, points: Floats) -> Floats:
+        """Unit normals (..., 3) of the sections."""
+        ...
+
 
 _SECANT_STEPS = 30
 _SECTION_TOLERANCE = 1e-12
@@ -37,9 +59,9 @@ class SectionCurves:
         """Face parameter, shape of ``profile`` (K, J), where the section coordinate is ``values`` (K,)."""
         wanted = np.broadcast_to(values[:, None], profile.shape)
         older, newer = np.zeros_like(profile), np.full_like(profile, 1e-3)
-        miss_older = self.section(self.surface(profile, older)[0]) - wanted
+        miss_older = self.section.at(self.surface(profile, older)[0]) - wanted
         for _ in range(_SECANT_STEPS):
-            miss = self.section(self.surface(profile, newer)[0]) - wanted
+            miss = self.section.at(self.surface(profile, newer)[0]) - wanted
             if np.all(np.abs(miss) < _SECTION_TOLERANCE):
                 return newer
             change = miss - miss_older

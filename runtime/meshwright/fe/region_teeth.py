@@ -19,8 +19,9 @@ from meshwright.fe.profile import SectionCurves
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide
 from meshwright.fe.tooth_patches import Tooth
 from meshwright.flank.known_side import KnownSide
-from meshwright.flank.lines import solve
+from meshwright.flank.lines import solve, tangents
 from meshwright.flank.sides import RegionSide, Side
+from meshwright.flank.surface import FlankPoints
 
 # Sections in which the turn of a tooth about the axis is followed.
 _SECTIONS = 65
@@ -94,7 +95,7 @@ class _Curves:
     def curves(self, low: float, high: float) -> SectionCurves:
         """Their part between two shares of the way up."""
         first, last = (lambda values, share=share: self._ends(values, share) for share in (low, high))
-        return _OfSections(self.surface, self.known.side.sections.at, first, last)
+        return _OfSections(self, self.known.side.sections, first, last)
 
     def _ends(self, values: Floats, share: float) -> Floats:
         """Profile parameters (K,) at a share of the way from the root end to the tip end."""
@@ -103,14 +104,21 @@ class _Curves:
         low, high = ends if self.upward else ends[::-1]
         return low + share * (high - low)
 
-    def surface(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
+    def __call__(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
         """Points and normals (..., 3) at profile parameters in sections; not a number where the surface is not."""
         profile, section = np.broadcast_arrays(profile, section)
-        flat, values = profile.ravel().astype(float), section.ravel().astype(float)
-        region = self.known.lines(self.region).region
-        found = region.flank(solve(region, flat, values, self._near(flat, values)))
+        found = self._at(profile.ravel().astype(float), section.ravel().astype(float))
         points, normals = ((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
         return points, normals
+
+    def tangents(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
+        """Points (N, 3) and their derivatives (N, 2, 3) by profile parameter and section."""
+        found = self._at(profile, section)
+        return found.points @ self.motion, tangents(self.known.lines(self.region).region, found) @ self.motion
+
+    def _at(self, profile: Floats, section: Floats) -> FlankPoints:
+        region = self.known.lines(self.region).region
+        return region.flank(solve(region, profile, section, self._near(profile, section)))
 
     def _near(self, profile: Floats, values: Floats) -> Floats:
         """Parameters (N, k) near places, between those of known sections."""

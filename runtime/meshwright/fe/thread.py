@@ -16,7 +16,7 @@ import numpy as np
 
 from meshwright.contact.placement import about_z
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import Section, Surface
+from meshwright.fe.profile import Surface
 from meshwright.fe.rounding import Outline, Span, rounded_side
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide, middle_of_land, moved
 
@@ -80,7 +80,7 @@ def thread_teeth(
 
     @cache
     def side(angle: float, name: SideName) -> ToothSide:
-        section = _along_circle(radius, azimuth - angle)
+        section = HalfPlanes(radius, azimuth - angle)
         return rounded_side(flanks[name].at(angle), section, flanks[name].span, faces, outline)
 
     def cut(angle: float, values: Floats) -> Floats:
@@ -113,14 +113,21 @@ def opposite(name: SideName) -> SideName:
     return "left" if name == "right" else "right"
 
 
-def _along_circle(radius: float, azimuth: float) -> Section:
-    c, s = np.cos(azimuth), np.sin(azimuth)
+@dataclass(frozen=True)
+class HalfPlanes:
+    """Half planes through the axis as sections: the length in mm along a circle about it, from an azimuth in rad."""
 
-    def section(points: Floats) -> Floats:
-        x, y = points[..., 0], points[..., 1]
-        return radius * np.arctan2(c * y - s * x, c * x + s * y)
+    radius: float
+    azimuth: float
 
-    return section
+    def at(self, points: Floats) -> Floats:
+        """The length (...,) at points (..., 3)."""
+        c, s, x, y = np.cos(self.azimuth), np.sin(self.azimuth), points[..., 0], points[..., 1]
+        return self.radius * np.arctan2(c * y - s * x, c * x + s * y)
+
+    def across(self, points: Floats) -> Floats:
+        """Unit vectors (..., 3) around the axis."""
+        return _azimuthal(points)
 
 
 def _radial(points: Floats) -> Floats:

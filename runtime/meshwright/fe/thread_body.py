@@ -51,7 +51,7 @@ class ThreadSide:
         """The side between two values of z in mm; raises ValueError where it has no whole flank."""
         surface, span, outline = thread.at(0.0), thread.span, blank.outline()
         room = _BEYOND * (ends[1] - ends[0])
-        whole = SectionCurves(surface, _axial, constant(span.root), constant(span.tip))
+        whole = SectionCurves(surface, cls.sections, constant(span.root), constant(span.tip))
         profile = np.tile([span.root, span.middle, span.tip], (2, 1))
         reach = whole.solve(np.array([ends[0] - room, ends[1] + room]), profile)
         count = max(_FEWEST_SAMPLES, int(_SAMPLES_PER_RADIAN * np.ptp(reach)))
@@ -74,12 +74,9 @@ class ThreadSide:
 
         first, last = (_by_height(surface, profile, face) for profile in (joint, tip))
         return cls(
-            SectionCurves(arcs, _axial, constant(0.0), constant(1.0)), SectionCurves(surface, _axial, first, last)
+            SectionCurves(arcs, cls.sections, constant(0.0), constant(1.0)),
+            SectionCurves(surface, cls.sections, first, last),
         )
-
-
-def _axial(points: Floats) -> Floats:
-    return points[..., 2]
 
 
 def _by_height(surface: Surface, profile: Floats, face: Floats) -> CubicSpline:

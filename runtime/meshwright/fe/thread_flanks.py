@@ -17,12 +17,13 @@ from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
 from meshwright.fe.generated import constant, region_surface, turned
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import Section, SectionCurves, Surface
+from meshwright.fe.profile import SectionCurves, Surface
 from meshwright.fe.rim import bore_radius
 from meshwright.fe.rounding import Span
 from meshwright.fe.sizes import other_flank, solid_sizes
-from meshwright.fe.thread import ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
+from meshwright.fe.thread import HalfPlanes, ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
 from meshwright.fe.tooth import SideName, Teeth
+from meshwright.flank.surface import Flank, FlankPoints
 
 # A flank is followed so far beyond its tip, and stops so far before its deepest end, in parts of its half.
 _BEYOND_TIP, _BEFORE_ROOT = 0.05, 0.02
@@ -123,7 +124,7 @@ def _facing(surface: Surface, of: Span, turn: float) -> Callable[[float], Surfac
     sense = _sense(surface, of)
 
     def at(angle: float) -> Surface:
-        return turned(lambda profile, face: surface(profile, face - sense * (angle + turn)), turn)
+        return turned(surface, turn, sense * (angle + turn))
 
     return at
 
@@ -148,18 +149,13 @@ def _turn_to_thickness(
     turn = 0.0
     for _ in range(_FIXED_POINT_STEPS):
         flank = _facing(surfaces[1], spans[1], turn)(0.0)
-        curves = SectionCurves(flank, _azimuth_from(azimuth), constant(middle), constant(middle))
+        curves = SectionCurves(flank, HalfPlanes(1.0, azimuth), constant(middle), constant(middle))
         found = float(curves.points(np.zeros(1), np.full((1, 1), middle))[0, 0, 2])
         # A right-hand thread turned forwards stands back by its screw parameter.
         turn += (found - wanted) / screw_parameter
         if abs(found - wanted) < _THICKNESS_TOLERANCE:
             return turn
     raise ValueError(f"the second flank of the thread finds no place ({found - wanted:.3g} mm off)")
-
-
-def _azimuth_from(azimuth: float) -> Section:
-    c, s = np.cos(azimuth), np.sin(azimuth)
-    return lambda points: np.arctan2(c * points[..., 1] - s * points[..., 0], c * points[..., 0] + s * points[..., 1])
 
 
 def _surface(drive: Drive, member: str) -> Surface:
@@ -169,18 +165,33 @@ def _surface(drive: Drive, member: str) -> Surface:
     generated = drive.flank(member)
     if len(generated.parameters) == 2:
         return region_surface(drive, member, "flank")
+    return _Enveloped(generated)
 
-    def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+
+@dataclass(frozen=True)
+class _Enveloped:
+    """A flank over the first and the last of its three parameters: :class:`~meshwright.fe.profile.Smooth`."""
+
+    generated: Flank
+
+    def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
         profile, face = np.broadcast_arrays(profile, face)
-        places = np.zeros((profile.size, 3))
-        places[:, 0], places[:, 2] = profile.ravel(), face.ravel()
+        found = self._at(profile.ravel(), face.ravel())
+        return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
+
+    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
+        found = self._at(profile, face)
+        _, by_profile, by_between, by_face = found.conditions[:, 0].T
+        along = [found.tangents[:, k] - found.tangents[:, 1] * (slope / by_between)[:, None]
+                 for k, slope in ((0, by_profile), (2, by_face))]  # fmt: skip
+        return found.points, np.stack(along, axis=1)
+
+    def _at(self, profile: Floats, face: Floats) -> FlankPoints:
+        places = np.stack([profile, np.zeros_like(profile), face], axis=1)
         for _ in range(_NEWTON_STEPS):
-            found = generated(places)
+            found = self.generated(places)
             step = found.conditions[:, 0, 0] / found.conditions[:, 0, 2]
             places[:, 1] -= step
             if np.abs(step).max() < 1e-14:
                 break
-        found = generated(places)
-        return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
-
-    return evaluate
+        return self.generated(places)

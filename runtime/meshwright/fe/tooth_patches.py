@@ -23,6 +23,15 @@ _TURN = 2.0 * np.pi
 _HALF, _MIDDLE = 8, 16
 
 
+class NoLand(DesignError):
+    """A tooth that is pointed, or that meets the next one at its root: ``where`` says which, "tip" or "root land"."""
+
+    def __init__(self, where: str, reason: str, remedy: str) -> None:
+        super().__init__("blank", None, reason, remedy)
+        self.where = where
+
+
+
 @dataclass(frozen=True)
 class Rows:
     """Steps of the patches: between sections, over fillet and flank, around the axis over tip, root land and bore."""
@@ -232,7 +241,7 @@ def between(
 ) -> Tooth:
     """The tooth from one side to the other, which is turned by ``turn`` and as many pitches as put it after the first.
 
-    Raises DesignError where tip or root land have no width.
+    Raises NoLand where tip or root land have no width.
     """
     tooth = Tooth(name, (low, high), (0.0, turn), pitch, faces, bore, outward)
     values = np.linspace(*faces, 9)
@@ -244,7 +253,7 @@ def between(
         if not (left > 0.0).all():
             value = values[int(np.argmin(left))]
             reason = f"the teeth of the {name} have no {what} in the section at {value:.6g} mm along them"
-            raise DesignError("blank", None, reason, remedies[what])
+            raise NoLand(what, reason, remedies[what])
     return replace(tooth, turns=(0.0, turn - pitch * np.floor(middle / pitch)))
 
 

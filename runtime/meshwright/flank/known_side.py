@@ -1,7 +1,8 @@
 """A side of a tooth in any of its sections, from those in which it is known: fast where sections are few or many.
 
-Between two known sections whose lines end for the same reasons, a limit or a crossing of flank and fillet, the ends are
-found by Newton's method from those beside them; elsewhere the side itself finds them.
+Between two known sections whose lines end for the same reasons, a limit, a crossing of flank and fillet or the end of
+the fillet on the flank, the ends are found by Newton's method from those beside them; elsewhere the side itself finds
+them.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ NEWTON_STEPS = 12
 #: A step of this, in sizes of the parameters, is none.
 STILL = 1e-14
 #: Why a line ends: the number of a limit, or one of these.
-CROSSED, ELSEWHERE = -2, -1
+JOINED, CROSSED, ELSEWHERE = -3, -2, -1
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,8 @@ class KnownSide:
         joints = ("flank", not side.tip), ("fillet", not side.land)
         if fillet is not None:
             both = np.array([ends[joint] == CROSSED for joint in joints])
-            for joint in joints:  # where but one of them is moved, it ends at the other
-                ends[joint][both.any(axis=0) & ~both.all(axis=0)] = ELSEWHERE
+            ends[joints[0]][both[0] & ~both[1]] = JOINED  # the flank goes on beyond the end of the fillet on it
+            ends[joints[1]][both[1] & ~both[0]] = ELSEWHERE
         return cls(side, values, flank, fillet, ends)
 
     def lines(self, name: str, values: Floats | None = None) -> Lines:
@@ -78,7 +79,7 @@ class KnownSide:
         flank = self._near(self.flank, "flank", values, sure)
         fillet = self.fillet and self._near(self.fillet, "fillet", values, sure)
         if fillet is not None:
-            flank, fillet = self._crossing(flank, fillet, sure)
+            flank, fillet = self._crossing(self._joined(flank, fillet, sure), fillet, sure)
         if sure.all():
             return flank, fillet
         exact, beside = self.side.at(values[~sure])
@@ -110,6 +111,27 @@ class KnownSide:
             sure[limited] &= held
             ends.append(places)
         return Lines(known.region, values, *ends)
+
+    def _joined(self, flank: Lines, fillet: Lines, sure: Bools) -> Lines:
+        """The lines of the flank up to the ends of the fillet's, where those beside them end there."""
+        upper = not self.side.tip
+        before, _ = self.beside(flank.along)
+        joined = sure & (self.ends["flank", upper][before] == JOINED)
+        if not joined.any():
+            return flank
+        some, end = _some(flank, joined), _end(fillet, not self.side.land)[joined]
+        joint = fillet.region.flank(end).points
+        q, of, size = _end(some, upper).copy(), some.region.profile, some.region.chart.sizes[some.region.profile]
+        for _ in range(NEWTON_STEPS):
+            q = some.onto(q)
+            points, way = some.slopes(q)
+            step = np.sum((points - joint) * way, axis=1) / np.sum(way * way, axis=1)
+            q[:, of] -= step
+            if not (np.abs(step) > STILL * size).any():
+                break
+        q = some.onto(q)
+        sure[joined] &= np.linalg.norm(some.region.flank(q).points - joint, axis=1) < ROUNDING
+        return _moved(flank, upper, joined, q)
 
     def _crossing(self, flank: Lines, fillet: Lines, sure: Bools) -> tuple[Lines, Lines]:
         """The lines up to where they cross, where those beside them do."""

@@ -181,9 +181,7 @@ class Lines:
     def slopes(self, q):
         """Points (N, 3) at parameters (N, k) and their change (N, 3) along the line by the profile's parameter."""
         found = self.region.flank(q)
-        matrix, _ = _equations(self.region, found, found.parameters[:, self.region.profile], self.along)
-        way = solved(matrix, np.eye(1, matrix.shape[1])[np.zeros(len(q), dtype=int)])
-        return found.points, np.einsum("nk,nkj->nj", way, found.tangents)
+        return found.points, tangents(self.region, found)[:, 0]
 
 
 def lines(region, triangles=None, count=GUIDES):
@@ -413,6 +411,14 @@ def _equations(region, found, profile, along):
     matrix = np.zeros((len(q), q.shape[1], q.shape[1]))
     matrix[:, 0, of], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
     return matrix, residual
+
+
+def tangents(region, found):
+    """Change (N, 2, 3) of flank points by the profile's parameter and by the coordinate along the tooth."""
+    matrix, _ = _equations(region, found, found.parameters[:, region.profile], 0.0)
+    size, k = matrix.shape[:2]
+    ways = [solved(matrix, np.broadcast_to(np.eye(k)[row], (size, k))) for row in (0, 1)]
+    return np.einsum("rnk,nkj->nrj", np.array(ways), found.tangents)
 
 
 def solve(region, profile, along, start):

@@ -62,6 +62,12 @@ class Sections:
         sine, cosine = self.sides
         return cosine * points[..., 2] + (sine * np.hypot(points[..., 0], points[..., 1]) if sine else 0.0)
 
+    def across(self, points):
+        """Unit normals (..., 3) of the sections at points (..., 3)."""
+        sine, cosine = self.sides
+        azimuth = np.arctan2(points[..., 1], points[..., 0])
+        return np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.full_like(azimuth, cosine)], axis=-1)
+
     def height(self, points):
         """Height (...,) of points (..., 3) within their sections."""
         sine, cosine = self.sides

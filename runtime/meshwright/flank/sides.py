@@ -306,6 +306,8 @@ def _tip_is_upper(found: Lines) -> bool:
     lower, upper = (_ended(found, end, TIPS) for end in (False, True))
     if lower == upper:
         name = found.region.flank.body["name"]
+        if set(TIPS) & set(found.region.limits.names):
+            raise UsageError(f"the flank of the {name} does not reach its tip: change [blank]")
         raise UsageError(
             f"--solid: no limit ends the flank of the {name} at its tip, which a closed body needs: the drive's "
             f'description has to give its body "{name}" a margin with the event "tip"'
