@@ -7,10 +7,10 @@ cells that touch.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import block_diag
+from scipy.linalg import block_diag, lu_factor, lu_solve
 from scipy.ndimage import binary_dilation
 
 from meshwright.fe.compliance import ToothCompliance, without_negative
@@ -342,6 +342,10 @@ class _Cells:
         return float(np.abs(own).max())
 
 
+#: Share of the cells above which those that are let go are taken out of a factorisation.
+_KEPT = 0.75
+
+
 def _summed(parts: list[Floats]) -> Floats | None:
     return np.sum(parts, axis=0) if parts else None
 
@@ -363,6 +367,61 @@ def _smooth(
     return weights, without_negative(whole - block_diag(*(nothing if k is None else k for k in known)))
 
 
+@dataclass(frozen=True)
+class _Touching:
+    """Equilibrium of the cells ``used`` (U,), factorised, and of all of them but the rows ``dropped`` (R,).
+
+    whole (U + 1,): pressures of all and the rotation. inverse (U + 1, R): the columns of the inverse for what is
+    dropped: W. W. Hager, Updating the inverse of a matrix (1989).
+    """
+
+    used: Ints
+    factor: tuple[Floats, Ints]
+    whole: Floats
+    dropped: Ints
+    inverse: Floats
+
+    @classmethod
+    def of(
+        cls, cells: _Cells, used: Ints, gap: Floats, arms: Floats, areas: Floats, torque: float
+    ) -> _Touching:
+        size = len(used)
+        system = np.zeros((size + 1, size + 1), order="F")
+        system[:size, :size] = cells.between(used, used)
+        system[:size, size] = -arms[used]
+        system[size, :size] = areas[used] * arms[used]
+        factor = lu_factor(system, overwrite_a=True, check_finite=False)
+        whole = lu_solve(factor, np.append(-gap[used], torque), check_finite=False)
+        return cls(used, factor, whole, np.empty(0, dtype=np.int64), np.empty((size + 1, 0)))
+
+    def most(self, active: Bools) -> bool:
+        """Whether so many of the cells are still ``active`` (N,) that it is less work not to factorise them anew."""
+        return bool(active[self.used].mean() > _KEPT)
+
+    def without(self, pulled: Bools) -> _Touching:
+        """The same without further cells, given among all (N,)."""
+        rows = np.setdiff1d(np.flatnonzero(pulled[self.used]), self.dropped)
+        units = np.zeros((len(self.whole), len(rows)), order="F")
+        units[rows, np.arange(len(rows))] = 1.0
+        columns = lu_solve(self.factor, units, overwrite_b=True, check_finite=False)
+        return replace(
+            self, dropped=np.concatenate([self.dropped, rows]), inverse=np.hstack([self.inverse, columns])
+        )
+
+    def pressure(self, count: int) -> tuple[Floats, float]:
+        """Pressures (count,) of all cells, and the rotation. Raises ArithmeticError where they are not determined."""
+        solution = self.whole
+        if len(self.dropped):
+            open_again = np.linalg.solve(self.inverse[self.dropped], solution[self.dropped])
+            solution = solution - self.inverse @ open_again
+            solution[self.dropped] = 0.0
+        if not np.isfinite(solution).all():
+            raise ArithmeticError("the pressures of the cells in contact are not determined")
+        found = np.zeros(count)
+        found[self.used] = solution[:-1]
+        return found, float(solution[-1])
+
+
 def active_set(
     cells: _Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
 ) -> tuple[Floats, float]:
@@ -377,29 +436,19 @@ def active_set(
     if not active.any():
         active = inside & (gap <= gap[inside].min())
     scale = cells.largest
-    used, moved = np.empty(0, dtype=np.int64), np.empty((0, 0))
+    touching: _Touching | None = None
     for _ in range(_ACTIVE_SET_STEPS):
-        pressure = np.zeros(len(gap))
-        if len(used) == 0:
-            used = np.flatnonzero(active)
-            moved = cells.between(used, used)
-        size = len(used)
-        system = np.zeros((size + 1, size + 1))
-        system[:size, :size] = moved
-        system[:size, size] = -arms[used]
-        system[size, :size] = areas[used] * arms[used]
-        solution = np.linalg.solve(system, np.append(-gap[used], torque))
-        pressure[used], rotation = solution[:size], solution[size]
+        touching = touching or _Touching.of(cells, np.flatnonzero(active), gap, arms, areas, torque)
+        pressure, rotation = touching.pressure(len(gap))
         pulled = pressure < 0.0
         if pulled.any():
             active &= ~pulled
-            kept = ~pulled[used]
-            used, moved = used[kept], moved[np.ix_(kept, kept)]
+            touching = touching.without(pulled) if touching.most(active) else None
             continue
         opening = gap + cells.under(pressure) - rotation * arms
         overlapping = inside & ~active & (opening < -1e-9 * scale * max(1.0, float(pressure.max())))
         if not overlapping.any():
             return pressure, float(rotation)
         active |= overlapping
-        used = used[:0]
+        touching = None
     raise ArithmeticError(f"the loaded contact did not settle in {_ACTIVE_SET_STEPS} steps")
