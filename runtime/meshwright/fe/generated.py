@@ -52,7 +52,10 @@ def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, e
 
 def turned(surface: Surface, angle: float, shift: float = 0.0) -> Surface:
     """The surface turned about z by an angle in rad, its face parameter counted from ``shift`` on."""
-    return (_Turned if isinstance(surface, Smooth) else _TurnedRows)(surface, about_z(angle)[:3, :3].T, shift)
+    rotation = about_z(angle)[:3, :3].T
+    if isinstance(surface, Smooth):
+        return _Turned(surface, rotation, shift)
+    return _TurnedRows(surface, rotation, shift)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from meshwright.fe.region_teeth import region_teeth
 from meshwright.fe.sizes import key_of
 from meshwright.fe.tooth import Teeth
 from meshwright.fe.tooth_patches import NoLand
+from meshwright.flank.region import region
 
 
 def generated_wheel(drive: Drive, member: str, rim_thickness: float) -> Teeth:
@@ -64,7 +65,7 @@ def _widest_face(drive: Drive, member: str, width: float) -> tuple[float | None,
 
 def _check_rounding(drive: Drive, member: str) -> None:
     """Refuse a rounding of the tool's tip that cuts no fillet."""
-    fillet = drive.region(member, "fillet")
+    fillet = region(drive, member, "fillet", drive.uses)
     if fillet.empty:
         raise _named(drive, "tool_rounding", fillet.why_empty)
 

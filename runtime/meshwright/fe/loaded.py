@@ -298,7 +298,7 @@ class _Cells:
             ),
             np.concatenate([np.full(len(g.gap), g.area) for g in grids]),
             np.repeat(np.arange(len(grids)), [len(g.gap) for g in grids]),
-            np.concatenate([np.stack(np.divmod(np.arange(n * n), n), axis=1) for n in sides]),
+            np.concatenate([np.stack(np.divmod(np.arange(n * n, dtype=np.int32), n), axis=1) for n in sides]),
         )
 
     def between(self, seen: Ints, pressed: Ints) -> Floats:
@@ -306,8 +306,7 @@ class _Cells:
         found = np.zeros((len(seen), len(pressed)))
         for k, table in enumerate(self.half_space):
             rows, columns = np.flatnonzero(self.pair[seen] == k), np.flatnonzero(self.pair[pressed] == k)
-            apart = np.abs(self.place[seen[rows], None] - self.place[None, pressed[columns]])
-            found[np.ix_(rows, columns)] = table[apart[..., 0], apart[..., 1]]
+            found[np.ix_(rows, columns)] = self._of_table(table, seen[rows], pressed[columns])
             if (free := self.free[k]) is not None:
                 begin = np.searchsorted(self.pair, k)
                 found[np.ix_(rows, columns)] += free[np.ix_(seen[rows] - begin, pressed[columns] - begin)]
@@ -315,14 +314,18 @@ class _Cells:
             found += weights[seen] @ (block @ (weights[pressed].T * self.areas[pressed]))
         return found
 
+    def _of_table(self, table: Floats, seen: Ints, pressed: Ints) -> Floats:
+        """Entries (S, P) of a table (n, n) at the distances of cells of one pair along and across."""
+        along, across = (np.abs(self.place[seen, None, k] - self.place[None, pressed, k]) for k in (0, 1))
+        return table.ravel().take(along * len(table) + across)
+
     def under(self, pressure: Floats) -> Floats:
         """Displacements (N,) of all cells under pressures (N,)."""
         used = np.flatnonzero(pressure)
         found = np.zeros(len(pressure))
         for k, table in enumerate(self.half_space):
             rows, columns = np.flatnonzero(self.pair == k), used[self.pair[used] == k]
-            apart = np.abs(self.place[rows, None] - self.place[None, columns])
-            found[rows] = table[apart[..., 0], apart[..., 1]] @ pressure[columns]
+            found[rows] = self._of_table(table, rows, columns) @ pressure[columns]
             if (free := self.free[k]) is not None:
                 found[rows] += free[:, columns - rows[0]] @ pressure[columns]
         for weights, block in self.smooth:

@@ -26,14 +26,11 @@ class Material:
         return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
 
     @property
-    def stiffness(self) -> NDArray[np.floating[Any]]:
-        """6 x 6 stiffness in MPa, order xx yy zz xy yz zx, engineering shear strains."""
+    def lame(self) -> tuple[float, float]:
+        """Lamé's constants λ and μ in MPa."""
         nu = self.poisson_ratio
-        matrix = np.zeros((6, 6))
-        matrix[:3, :3] = nu
-        np.fill_diagonal(matrix[:3, :3], 1.0 - nu)
-        matrix[3:, 3:] = np.eye(3) * (0.5 - nu)
-        return matrix * self.youngs_modulus / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        shear = 0.5 * self.youngs_modulus / (1.0 + nu)
+        return 2.0 * shear * nu / (1.0 - 2.0 * nu), shear
 
 
 def contact_modulus(first: Material, second: Material) -> float:
