@@ -146,8 +146,8 @@ coverage: setup build
 # The bits of all results from every compiler, level of optimisation, instruction set and machine that can be had here, a
 # line for each.
 compilers: setup build sanitizers emulators
-	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_compilers.py
-	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs tests/embedding/test_headers.py -k same_bits
+	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs --numprocesses auto tests/embedding/test_compilers.py
+	MESHWRIGHT_SIZE=full $(PY) -m pytest -vv -rs --numprocesses auto tests/embedding/test_headers.py -k same_bits
 
 # The longer finite-element validation.
 test-fe: setup build solver

@@ -15,7 +15,7 @@ from derive.audit.checker.draws import on_both_flanks
 from derive.audit.checker.drive import Drive
 from derive.audit.checker.refusal import Rejected
 from derive.audit.mutations import of_descriptions
-from tests.quick import quick
+from tests.quick import full, quick
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 SPUR = "spherical_convex_spur"
@@ -48,7 +48,7 @@ def is_refused(description, header, tangents):
     return False
 
 
-@pytest.mark.parametrize(("count", "least"), quick([(200, 0.97), (12, 0.9)], (12, 0.9)))
+@pytest.mark.parametrize(("count", "least"), quick([(200 if full() else 60, 0.95), (12, 0.9)], (12, 0.9)))
 def test_a_wrong_description_is_refused(count, least, capsys, monkeypatch):
     monkeypatch.setattr(attempts, "ATTEMPTS", 2000)
     monkeypatch.setattr(attempts, "REFUSALS", 8)

@@ -11,7 +11,7 @@ from tests.quick import full
 APART = ("derivation", "same", "equal")
 #: How many; 240 with SIZE=full, in about half an hour of a processor.
 LEAST = 0.97
-COUNT = 240 if full() else 12
+COUNT = 240 if full() else 6
 
 
 @pytest.mark.validate
