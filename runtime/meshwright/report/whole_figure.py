@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 
 from meshwright.flank.region import OPEN
@@ -145,6 +146,10 @@ def _fill(axes, sheet, distance, thickness, colour, alpha):
         axes.tricontourf(sheet.triangles, shown, levels=levels, colors=[colour], alpha=alpha)
 
 
+#: No line is drawn so little above the least value, in parts of their distance: it would be the edge of noise.
+LEAST_ABOVE = 0.1
+
+
 def ease_off(analysis, member):
     """The ease-off over the whole flank of a member: contour lines, µm."""
     whole = analysis.whole[member]
@@ -160,14 +165,27 @@ def ease_off(analysis, member):
         elif len(levels) > 1:
             shown = np.where(np.isfinite(values), values, 0.0)
             axes.tricontourf(triangles, shown, levels=levels, cmap="viridis_r", alpha=0.55, extend="both")
-            drawn = axes.tricontour(triangles, shown, levels=levels, colors=style.INK, linewidths=0.6)
-            axes.clabel(drawn, fmt=lambda v: number(v, 3), fontsize=7.5)
+            lines = levels[levels > np.nanmin(values) + LEAST_ABOVE * (levels[1] - levels[0])]
+            drawn = axes.tricontour(triangles, shown, levels=lines, colors=style.INK, linewidths=0.6)
+            _spread(axes.clabel(drawn, fmt=lambda v: number(v, 3), fontsize=7.5, inline=False))
         else:
             said = f"within {number(LEVELS * LEAST_STEP)} µm everywhere"
             axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", va="center")
         sheet.border(axes, style.MEMBERS[member])
         sheet.path(axes, analysis, member)
     return figure
+
+
+def _spread(labels):
+    """Take away labels that lie on one before them; those that stay are written on a light edge, across their lines."""
+    kept = []
+    for label in labels:
+        box = label.get_window_extent()
+        if any(box.overlaps(other) for other in kept):
+            label.remove()
+        else:
+            label.set_path_effects([withStroke(linewidth=2.0, foreground="white", alpha=0.7)])
+            kept.append(box)
 
 
 def _levels(values):
