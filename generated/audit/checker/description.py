@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from .machine import Machine
@@ -27,27 +27,31 @@ class Reader:
         return Reader({name: value for name, value in self.named.items() if name not in values}, own | values, self.run)
 
     def __call__(self, e: object) -> Number:
-        match e:
-            case str():
-                return self.values[e] if e in self.values else self._defined(e)
-            case int():
-                return Number(e % PRIME, (), {})
-            case ["/", p, q]:
-                return literal(Fraction(p, q))
-            case ["pi"]:
-                return Number(PI, (), {"pi": Fraction(1)})
-            case ["+", *terms]:
-                total = self(terms[0])
-                for term in terms[1:]:
-                    total = add(total, self(term))
-                return total
-            case ["*", *factors]:
-                return self._product(factors)
-            case ["^", base, exponent]:
-                return self._power(self(base), exponent)
-            case [name, *operands] if name in FUNCTIONS:
-                return FUNCTIONS[name](self.run, *map(self, operands))
+        if isinstance(e, str):
+            return self.values[e] if e in self.values else self._defined(e)
+        if isinstance(e, int):
+            return Number(e % PRIME, (), {})
+        if isinstance(e, list) and e and isinstance(e[0], str):
+            return self._made(*e)
         raise Rejected(f"{str(e)[:40]} has no meaning in a description")
+
+    def _made(self, operation: str, *operands: object) -> Number:
+        if operation == "*":
+            return self._product(operands)
+        if operation == "+" and operands:
+            total = self(operands[0])
+            for term in operands[1:]:
+                total = add(total, self(term))
+            return total
+        match operation, *operands:
+            case "^", base, exponent:
+                return self._power(self(base), exponent)
+            case "/", p, q:
+                return literal(Fraction(p, q))
+            case ("pi",):
+                return Number(PI, (), {"pi": 1})
+        require(operation in FUNCTIONS, f"{operation[:40]} has no meaning in a description")
+        return FUNCTIONS[operation](self.run, *map(self, operands))
 
     def _defined(self, name: str) -> Number:
         """A definition's value; one that rests on a missing root is not looked for twice."""
@@ -61,17 +65,18 @@ class Reader:
             raise
         return self.values[name]
 
-    def _product(self, factors: list) -> Number:
+    def _product(self, factors: Sequence) -> Number:
         """Exact numbers last: a multiple of an angle stays one."""
-        exact, value = Fraction(1), None
+        over, under, value = 1, 1, None
         for factor in factors:
             if isinstance(factor, int):
-                exact *= factor
+                over *= factor
             elif isinstance(factor, list) and factor[0] == "/":
-                exact *= Fraction(factor[1], factor[2])
+                over, under = over * factor[1], under * factor[2]
             else:
                 number = self(factor)
                 value = number if value is None else multiply(value, number)
+        exact = over if under == 1 else Fraction(over, under)
         if value is None or exact == 1:
             return value or literal(exact)
         form = Number(value.value, value.rates, value.form)
@@ -118,8 +123,9 @@ class Reader:
         return turned
 
 
-def literal(exact: Fraction) -> Number:
-    return Number(exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), {})
+def literal(exact: Fraction | int) -> Number:
+    inverse = 1 if exact.denominator == 1 else pow(exact.denominator, -1, PRIME)
+    return Number(exact.numerator * inverse % PRIME, (), {})
 
 
 def inner(a: list[Number], b: list[Number]) -> Number:

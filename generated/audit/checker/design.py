@@ -38,8 +38,9 @@ def check_unit(drive: Drive, number: int) -> None:
     """What a parameter is multiplied by when it is read: a fraction, times the circle's number or not."""
     entry = drive.description["keys"][number]
     name, factor = entry["symbol"]["name"], entry["factor"]
-    table = re.search(r"_parameter_names\[\] = {\n(.*?)\n};", drive.text, re.DOTALL)[1]
-    found = re.search(rf'^\s*{{ "{re.escape(name)}", .*", ([\d.e-]+), \S+, \S+ }}', table, re.M)
+    found = re.search(
+        rf'^\s*{{ "{re.escape(name)}", .*", ([\d.e-]+), \S+, \S+ }}', drive.table("parameter_names"), re.M
+    )
     require(found, f"the header has no parameter {name}")
     exact = Fraction(1)
     for part in factor[1:] if isinstance(factor, list) and factor[0] == "*" else [factor]:
@@ -138,8 +139,7 @@ def check_guard(drive: Drive, number: int, rng: Random) -> None:
 
 def guard_texts(drive: Drive) -> list[str]:
     """Messages of the guards; those of the description stand first."""
-    table = re.search(r"_guard_texts\[\] = {\n(.*?)\n};", drive.text, re.DOTALL)[1]
-    texts = [json.loads(line.strip().rstrip(",")) for line in table.splitlines()]
+    texts = [json.loads(line.strip().rstrip(",")) for line in drive.table("guard_texts").splitlines()]
     for text, guard in zip(texts, drive.description["guards"], strict=False):
         require(text.startswith(guard["message"]), f"setup: the message {text[:30]} stands for another guard")
     return texts

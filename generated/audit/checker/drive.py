@@ -20,6 +20,7 @@ class Drive:
     def __init__(self, description: dict, text: str, tangents: str = ""):
         self.description, self.text, self.tangents = description, text, tangents
         self.functions: dict[str, Function] = {}
+        self.tables: dict[str, str] = {}
         self.header = read_header(text)
         self.prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
         self.named = {entry["name"]: entry["value"] for entry in description["definitions"]}
@@ -27,8 +28,13 @@ class Drive:
         self.unknowns = self._names("unknown")
 
     def _names(self, kind: str) -> list[str]:
-        table = re.search(rf"_{kind}_names\[\] = {{\n(.*?)\n}};", self.text, re.DOTALL)[1]
-        return re.findall(r'^\s*{ "([^"]*)"', table, re.M)
+        return re.findall(r'^\s*{ "([^"]*)"', self.table(f"{kind}_names"), re.M)
+
+    def table(self, name: str) -> str:
+        """The lines of a table of the header by the end of its name."""
+        if name not in self.tables:
+            self.tables[name] = re.search(rf"_{name}\[\] = {{\n(.*?)\n}};", self.text, re.DOTALL)[1]
+        return self.tables[name]
 
     def function(self, name: str) -> Function:
         """A function of the header by its name without the prefix; what it returns is o[0]."""
@@ -37,17 +43,16 @@ class Drive:
         return self.functions[name]
 
     def _read(self, name: str) -> Function:
-        found = re.search(
-            rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}",
-            self.text,
-            re.DOTALL,
-        )
+        signature = rf"static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}"
+        found = re.search(signature, self.text, re.DOTALL)
         require(found, f"the header has no function {name}")
+        before = self.text[self.text.rfind("\n}\n", 0, found.start()) + 1 : found.start()]
+        comments = re.search(r"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)\Z", before)[1]
         table = {
             key: (int(at), int(size or 1))
-            for at, key, size in re.findall(r"^ \* +(\d+) (\w+)(?:\[(\d+)\])?", found[1], re.M)
+            for at, key, size in re.findall(r"^ \* +(\d+) (\w+)(?:\[(\d+)\])?", comments, re.M)
         }
-        body = re.sub(r"if \(q\[(\d+)\] != q\[\1\]\) (?=q\[\1\] = )", "", found[2])
+        body = re.sub(r"if \(q\[(\d+)\] != q\[\1\]\) (?=q\[\1\] = )", "", found[1])
         return Function(name, read_body(re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)), table)
 
     def base(self, rng: Random) -> Machine:

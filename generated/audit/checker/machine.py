@@ -108,9 +108,20 @@ class Machine:
         return Number(hash(name) % PRIME, rates, {name: Fraction(1)})
 
     def turned(self, argument: Number) -> tuple[Number, Number]:
-        """Cosine and sine of an angle, by complex multiplication over the independent angles."""
+        """Cosine and sine of an angle."""
+        form = argument.form
+        key = frozenset(form.items())
+        if key not in self.circle.turns:
+            self.circle.turns[key] = self._turned(form)
+        cosine, sine = self.circle.turns[key]
+        return Number(cosine, combined(argument.rates, -sine, (), 0)), Number(
+            sine, combined(argument.rates, cosine, (), 0)
+        )
+
+    def _turned(self, form: dict) -> tuple[int, int]:
+        """The same of a sum of multiples, by complex multiplication over the independent angles."""
         cosine, sine = 1, 0
-        for name, factor in self.circle.split(argument.form).items():
+        for name, factor in self.circle.split(form).items():
             if name == "pi":
                 times = 2 * factor
                 c, s = 0, 1
@@ -121,9 +132,7 @@ class Machine:
             s = s if times > 0 else -s
             for _ in range(abs(times.numerator)):
                 cosine, sine = (cosine * c - sine * s) % PRIME, (sine * c + cosine * s) % PRIME
-        return Number(cosine, combined(argument.rates, -sine, (), 0)), Number(
-            sine, combined(argument.rates, cosine, (), 0)
-        )
+        return cosine, sine
 
 
 class Circle:
@@ -134,7 +143,7 @@ class Circle:
     """
 
     def __init__(self, rng: Random, arcs: bool):
-        self.rng, self.arcs, self.points, self.fine, self.sums = rng, arcs, {}, {}, {}
+        self.rng, self.arcs, self.points, self.fine, self.sums, self.turns = rng, arcs, {}, {}, {}, {}
 
     def split(self, form: dict) -> dict:
         """A sum of numbers as it was first met: of (a + b) c and a c + b c both are the same angle."""

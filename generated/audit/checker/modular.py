@@ -37,11 +37,13 @@ class Number:
     def form(self) -> dict:
         if self.angle is not None:
             return self.angle
-        return {self.value: Fraction(1)} if self.value else {}
+        return {self.value: 1} if self.value else {}
 
 
 def combined(a: tuple[int, ...], x: int, b: tuple[int, ...], y: int) -> tuple[int, ...]:
     """x*a + y*b for rates of equal length or none."""
+    if not a and not b:
+        return ()
     if not b:
         return tuple(p * x % PRIME for p in a)
     if not a:
@@ -50,10 +52,11 @@ def combined(a: tuple[int, ...], x: int, b: tuple[int, ...], y: int) -> tuple[in
 
 
 def add(a: Number, b: Number, sign: int = 1) -> Number:
-    total = dict(a.form)
+    angle = dict(a.form)
     for name, factor in b.form.items():
-        total[name] = total.get(name, 0) + sign * factor
-    angle = {name: factor for name, factor in total.items() if factor}
+        angle[name] = angle.get(name, 0) + (factor if sign == 1 else -factor)
+        if not angle[name]:
+            del angle[name]
     return Number((a.value + sign * b.value) % PRIME, combined(a.rates, 1, b.rates, sign), angle)
 
 
@@ -119,7 +122,7 @@ def real_signs() -> Iterator[None]:
         globals()["SALT"] = kept
 
 
-def scaled(a: Number, literal: Fraction, product: Number) -> Number:
+def scaled(a: Number, literal: Fraction | int, product: Number) -> Number:
     """A product with a literal keeps its linear form if there is one."""
     angle = None if a.angle is None else {name: factor * literal for name, factor in a.angle.items() if literal}
     return Number(product.value, product.rates, angle)
