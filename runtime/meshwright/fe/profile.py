@@ -26,7 +26,7 @@ class Smooth(Protocol):
 
 
 class Section(Protocol):
-    """The surfaces of revolution that are the sections of a tooth: points (..., 3), body frame, mm."""
+    """The surfaces that cut a tooth across, of revolution or half planes: points (..., 3), body frame, mm."""
 
     def at(self, points: Floats) -> Floats:
         """The coordinate (...,) that is constant on a section."""
