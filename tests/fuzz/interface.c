@@ -219,6 +219,24 @@ static double *changes(reader *r, int n)
 }
 
 /* The functions of the table themselves; each counts as a call of the interface. */
+/* Places on lines through and near q[3*count]: no number means none, and each one found is on its line. */
+static void across(reader *r, fuzzed *f, mw_surface flank, int count, int outputs, const double *q)
+{
+    double *sizes = numbers((size_t)count), *at = numbers(6), *found = numbers((size_t)count * 3), *o = numbers((size_t)outputs);
+    const int profile = byte(r) % (count + 1);
+    for (int i = 0; i < count; i++) sizes[i] = number(r, 1.0);
+    for (int i = 0; i < 6; i++) at[i] = number(r, q[i % count]);
+    const mw_section_lines lines = { flank, count, outputs, profile, number(r, 0.0), number(r, 0.0), sizes };
+    memcpy(found, q, sizeof *q * (size_t)count * 3);
+    const int status = mw_on_lines(&lines, f->s, at, 3, o, found);
+    if (profile == count && status != MW_BAD_INPUT) fail("a line along no parameter");
+    for (int i = 0; status == MW_CONVERGED && i < 3; i++) {
+        const double off = fabs(found[i * count + profile] - at[2 * i]);
+        if (off > 1e-6 * (1.0 + fabs(at[2 * i]))) fail("a place beside its line");
+    }
+    note_numbers(r, found, (size_t)count * 3);
+}
+
 static void table(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
@@ -264,7 +282,8 @@ static void table(reader *r, fuzzed *f)
         for (int i = 0; i < 3 * count; i++)
             q[i] = number(r, b < 2 ? f->from->x[m->bodies[b].unknowns[i % count]] : f->from->x[i % (int)nx]);
         mw_flank(flank, count, outputs, f->s, q, 3, of);
-        calls++;
+        across(r, f, flank, count, outputs, q);
+        calls += 2;
         if (curvature) curvature(f->s, q, numbers(16)), calls++;
     }
     for (int k = 0; k < m->nfunctions; k++) {

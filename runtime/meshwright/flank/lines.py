@@ -11,10 +11,10 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.mesh import mesh
-from meshwright.flank.sections import lengthwise, solved
+from meshwright.flank.sections import Sections, lengthwise, solved
 
-#: Cells of the mesh that shows where a region is, at least; Newton steps to a place on a line.
-CELLS, NEWTON_STEPS = 24, 40
+#: Cells of the mesh that shows where a region is, at least.
+CELLS = 24
 
 #: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
 SAMPLES, BISECTIONS = 65, 56
@@ -403,36 +403,19 @@ def _both_ends(region, across, q, profile, along, within):
     return best.reshape(2, -1, best.shape[1])
 
 
-def _equations(region, found, profile, along):
-    """Matrices (N, k, k) and residuals (N, k) of the profile's parameter, coordinate along the tooth and conditions."""
-    reached, slopes = lengthwise(region.flank, found)
-    q, of = found.parameters, region.profile
-    residual = np.concatenate([(q[:, of] - profile)[:, None], (reached - along)[:, None], found.conditions[:, :, 0]], 1)
-    matrix = np.zeros((len(q), q.shape[1], q.shape[1]))
-    matrix[:, 0, of], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
-    return matrix, residual
-
-
 def tangents(region, found):
     """Change (N, 2, 3) of flank points by the profile's parameter and by the coordinate along the tooth."""
-    matrix, _ = _equations(region, found, found.parameters[:, region.profile], 0.0)
-    size, k = matrix.shape[:2]
+    _, slopes = lengthwise(region.flank, found)
+    size, k = slopes.shape
+    matrix = np.zeros((size, k, k))
+    matrix[:, 0, region.profile], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
     ways = [solved(matrix, np.broadcast_to(np.eye(k)[row], (size, k))) for row in (0, 1)]
     return np.einsum("rnk,nkj->nrj", np.array(ways), found.tangents)
 
 
 def solve(region, profile, along, start):
     """Parameters (N, k) at profile parameters and lengthwise coordinates (N,), from nearby ones; NaN for none."""
-    flank, q, sizes = region.flank, start.copy(), region.chart.sizes
-    good, left = np.zeros(len(q), dtype=bool), np.arange(len(q))
-    for _ in range(NEWTON_STEPS):
-        matrix, residual = _equations(region, flank(q[left]), profile[left], along[left])
-        step = solved(matrix, residual)
-        largest = np.abs(step / sizes).max(axis=1)
-        q[left] -= step * np.minimum(1.0, 0.5 / np.maximum(largest, 1e-300))[:, None]
-        good[left] = largest < 1e-9
-        left = left[largest > 1e-12]
-        if not len(left):
-            break
-    q[~good] = np.nan
-    return q
+    flank = region.flank
+    sections = Sections.of(flank)
+    places = np.stack([profile, along], axis=1)
+    return flank.on_lines(region.profile, sections and sections.sides, region.chart.sizes, places, start)

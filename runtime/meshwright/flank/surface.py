@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.library import library, pointer
+from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.model import DriveModel
 
 
@@ -121,6 +121,18 @@ class Flank:
         full = np.empty((*pairs.shape[:2], k, k))
         full[:, :, rows, columns] = full[:, :, columns, rows] = pairs
         return full[:, :3], full[:, 3 + limits :]
+
+    def on_lines(self, profile, sides, sizes, places, start):
+        """Parameters (N, k), from nearby ones (N, k), at values (N, 2) of the parameter number ``profile`` and of the
+        coordinate along the tooth: that of sections with ``sides``, sine and cosine of their angle, or with None the
+        last parameter. ``sizes`` (k,) are natural sizes. NaN where Newton's method finds none.
+        """
+        evaluate, state, k, outputs, _, _ = self._evaluated
+        q, places, o = start.copy(), np.ascontiguousarray(places), np.empty(outputs)
+        across = ffi.new("mw_section_lines *", (evaluate, k, outputs, profile, *(sides or (0.0, 0.0)), pointer(sizes)))
+        if library().mw_on_lines(across, state, pointer(places), len(q), pointer(o), pointer(q)) < 0:
+            raise UsageError(f"the {self.region} of the {self.body['name']} is no surface of two free parameters")
+        return q
 
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
