@@ -218,12 +218,22 @@ def formula_of_another_text(forger):
     figure(forger)[2]["lhs"] = ["+", figure(forger)[2]["lhs"], 0]
 
 
+def no_arcs_as_an_object(forger):
+    forger.certificate("recess-action/eq-16/as printed/1")["arcs"] = {}
+
+
 # ---- bindings --------------------------------------------------------------------------------------------------------
 
 
 def rests_on_x_is_x(forger):
     """A verdict on Eq (12) whose certificate proves x = x, its reading rewritten to say so."""
     forger.proof("x", "x", text="x = x", point={"symbols": {"x": "1"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])
+
+
+def rests_on_operands_exchanged(forger):
+    """The same with x + y = y + x."""
+    at = {"symbols": {"x": "1", "y": "2"}, "half_tangents": {}}
+    forger.proof(["+", "x", "y"], ["+", "y", "x"], text="x + y = y + x", point=at, lhs=["3"], rhs=["3"])
 
 
 def proof_of_something_true(forger):
@@ -342,7 +352,9 @@ FORGED = [
     (number_that_is_not_printed, "does not stand in the print"),
     (value_of_another_formula, "recorded value"),
     (formula_of_another_text, "not that of the source"),
+    (no_arcs_as_an_object, "no list"),
     (rests_on_x_is_x, "same expression"),
+    (rests_on_operands_exchanged, "same expression"),
     (proof_of_something_true, "is not"),
     (equation_of_another_verdict, "another verdict|missing or added"),
     (verdict_on_another_source, "another source"),

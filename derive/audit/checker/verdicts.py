@@ -23,6 +23,21 @@ def check_certificate(certificate: dict, objects: dict[str, dict]) -> dict:
         raise Rejected(f"{equation['id']}: {error}") from error
 
 
+def arranged(tree):
+    """The tree with nested sums and products made one and their operands in one order."""
+    if type(tree) is not list or not tree:
+        return tree
+    head, operands = tree[0], [arranged(part) for part in tree[1:]]
+    if head not in ("+", "*"):
+        return [head, *operands]
+    flat = [
+        part
+        for operand in operands
+        for part in (operand[1:] if type(operand) is list and operand[:1] == [head] else [operand])
+    ]
+    return [head, *sorted(flat, key=repr)]
+
+
 def status_of(readings: list[str], corrected: list[str], contradiction: list[str], damaged: bool) -> str:
     """The status that outcomes imply. Several readings stand for several ways in which a text can be read."""
     if contradiction:
@@ -119,7 +134,7 @@ def check_content(equation: dict, text, source: dict, printed: list[dict]) -> No
         )
     else:
         require(sides == read_equation(text, equation["jets"]), f"the equation is not {text!r}")
-    require(sides[0] != sides[1], "both sides of the statement are the same expression")
+    require(arranged(sides[0]) != arranged(sides[1]), "both sides of the statement are the same expression")
     require(not corrected or sides not in [[p["lhs"], p["rhs"]] for p in printed], "nothing is corrected")
 
 

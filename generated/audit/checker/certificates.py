@@ -23,6 +23,8 @@ ROUNDED = Fraction(1, 10**20)
 
 def scope_of(certificate: dict, equation: dict, definitions: dict) -> dict:
     """What an evaluation needs, after checking that angles, roots, signs and definitions are named once and apart."""
+    for key in ("angles", "arcs", "components", "generators", "relations", "roots"):
+        require(type(certificate.get(key, [])) is list, f"{key} of a certificate is no list")
     for entry in certificate["angles"]:
         require(type(entry["divisor"]) is int and 1 <= entry["divisor"] <= LARGEST_EXPONENT, "an angle has no divisor")
     angles = {
