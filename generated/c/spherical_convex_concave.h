@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 249, set_phi 7, R 145, R and J 376, step 447, observe 695.
- * Equations (hash 66c401ea830d4eb95df1398c9927bbf9b2d994ef3e1fb6e93bb8bfee5068191d):
+ * Equations (hash 498a5e76ff98cc889b67f9bebca48c999bc83473381b63d0d2382ff7bc54a7c2):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact

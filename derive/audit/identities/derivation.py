@@ -115,8 +115,8 @@ solved = c0 + c1*root
     jets={"c0": ("u",), "c1": ("u",)},
 )
 
-#: The largest Newton step of a packaged drive has six unknowns; further variables are eliminated first.
-UNKNOWNS = 6
+#: The linear system of the Newton step has at most so many unknowns in a packaged drive.
+UNKNOWNS = 9
 
 
 def _stage(n: int) -> tuple[str, str]:
@@ -343,8 +343,8 @@ CLAIMS = (
         "Newton step: pivots",
         "Elimination in a fixed order of pivots down to two equations, Cramer's rule for these, then substitution "
         "backwards solves the linear system: with the pivot's unknown from its own row, any other row holds exactly "
-        "where the reduced row does. Shown with every entry free for 6, 5, 4 and 3 unknowns, the sizes that the "
-        "packaged drives pass through, and for the last two.",
+        f"where the reduced row does. Shown with every entry free for {UNKNOWNS} unknowns down to 3, the sizes that "
+        "the packaged drives pass through, and for the last two.",
         [
             *(text for n in range(UNKNOWNS, 2, -1) for text in _stage(n)),
             "a11*y1 + a12*y2 = b1",
