@@ -304,14 +304,23 @@ class _Cells:
     def between(self, seen: Ints, pressed: Ints) -> Floats:
         """Displacements (S, P) of cells (S,) by unit pressures on others (P,)."""
         found = np.zeros((len(seen), len(pressed)))
-        for k, table in enumerate(self.half_space):
-            rows, columns = np.flatnonzero(self.pair[seen] == k), np.flatnonzero(self.pair[pressed] == k)
-            found[np.ix_(rows, columns)] = self._of_table(table, seen[rows], pressed[columns])
-            if (free := self.free[k]) is not None:
+        count = len(self.half_space)
+        rows, columns = ([np.flatnonzero(self.pair[cells] == k) for k in range(count)] for cells in (seen, pressed))
+        for k, (table, free) in enumerate(zip(self.half_space, self.free, strict=True)):
+            of_pair = np.ix_(rows[k], columns[k])
+            found[of_pair] = self._of_table(table, seen[rows[k]], pressed[columns[k]])
+            if free is not None:
                 begin = np.searchsorted(self.pair, k)
-                found[np.ix_(rows, columns)] += free[np.ix_(seen[rows] - begin, pressed[columns] - begin)]
+                found[of_pair] += free[np.ix_(seen[rows[k]] - begin, pressed[columns[k]] - begin)]
         for weights, block in self.smooth:
-            found += weights[seen] @ (block @ (weights[pressed].T * self.areas[pressed]))
+            # the cells of a pair are on the patches of its own tooth alone
+            own = [slice(k * weights.shape[1] // count, (k + 1) * weights.shape[1] // count) for k in range(count)]
+            moved = np.empty((weights.shape[1], len(pressed)))
+            for patches, some in zip(own, columns, strict=True):
+                forces = weights[pressed[some], patches].T * self.areas[pressed[some]]
+                moved[:, some] = block[:, patches] @ forces
+            for patches, some in zip(own, rows, strict=True):
+                found[some] += weights[seen[some], patches] @ moved[patches]
         return found
 
     def _of_table(self, table: Floats, seen: Ints, pressed: Ints) -> Floats:
