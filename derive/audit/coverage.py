@@ -33,6 +33,8 @@ CONCLUSION = re.compile(
     re.IGNORECASE,
 )
 NUMBERED = re.compile(r"(?m)\((\d{1,2}(?:\.\d{1,2})?)\)[ ,.;]*$")
+#: What a row of a table gives: a number, or a hand.
+VALUE = re.compile(r"\d|\b[LR]H\b")
 CAPTION = re.compile(r"(?m)^(?:Table (\d)[: ]+[A-Z].*|表 (\d)\. (\d) .*)$")
 MARK = re.compile(r"<\|[^|]*\|>")
 #: Where the second document of a file begins, and where the first ends.
@@ -137,7 +139,7 @@ def _tables(text: str) -> Iterator[Statement]:
                 break
             if _is_sentence(words) and k:
                 break
-            if re.search(r"\d", words) and not _is_sentence(words) and not re.match(r"― |NASA", words):
+            if VALUE.search(words) and not _is_sentence(words) and not re.match(r"― |NASA", words):
                 k += 1
                 yield Statement("table", f"{name}, row {k}", line, words)
 

@@ -3,12 +3,15 @@
 Edges of tools, motions of machine and assembly, rules and sizes are read from the description that the program is made
 from (:mod:`derive.language.description`) and written as trees of the closed grammar, with the document's letters for
 those of the drive. Nothing of them is typed a second time: an edit of a drive's page changes what is proved here.
+
+A tree that was read knows where: :class:`Origin`, by which the record's checker reads it again.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
@@ -16,14 +19,66 @@ import sympy as sp
 from sympy.parsing.sympy_parser import parse_expr
 
 from derive import drives
+from derive.audit.plain_text import text
 from derive.language import description
-from derive.prove.tree import Tree
+from derive.prove.tree import Tree, parse_formula
 
-Factors = Sequence[Sequence]
+
+@dataclass(frozen=True)
+class Origin:
+    """What a tree was read from: a drive, the document's letters for the drive's, and a part of its description.
+
+    A part is a list of words; a vector that is carried is a part itself or ``["given", tree]``.
+    """
+
+    drive: str
+    letters: tuple[tuple[str, str], ...]
+    part: list
+
+    def as_json(self) -> dict:
+        return {"drive": self.drive, "letters": [list(pair) for pair in self.letters], "part": self.part}
+
+
+class Read(tuple):
+    """A tree that was read from a description."""
+
+    origin: Origin
+
+
+class ReadName(str):
+    """The same, of a single letter."""
+
+    origin: Origin
+
+
+def origin_of(tree: Tree) -> Origin | None:
+    """Where a tree was read; None for one that is typed."""
+    return getattr(tree, "origin", None)
+
+
+class Factors(list):
+    """A motion's factors, and where they stand: kind, place, first and last."""
+
+    def __init__(self, factors: Sequence, where: tuple[str, str], first: int = 0):
+        super().__init__(factors)
+        self.where, self.first = where, first
+
+    def __getitem__(self, index: Any) -> Any:
+        if not isinstance(index, slice):
+            return super().__getitem__(index)
+        return Factors(super().__getitem__(index), self.where, self.first + index.indices(len(self))[0])
+
+    @property
+    def part(self) -> list:
+        return [*self.where, self.first, self.first + len(self)]
+
 
 _KNOWN = {name: getattr(sp, name) for name in ("sin", "cos", "tan", "sqrt", "atan2", "asin", "acos", "pi")}
+ARCS = ("asin", "acos", "atan", "atan2")
 #: What a mirror image of a drive's letters stands for: a half turn about x.
 HALF_TURN: Tree = ("mat", (1, 0, 0), (0, -1, 0), (0, 0, -1))
+#: The same about y.
+HALF_TURN_Y: Tree = ("mat", (-1, 0, 0), (0, 1, 0), (0, 0, -1))
 
 
 @cache
@@ -72,31 +127,52 @@ class Described:
                 return _OPERATIONS[operation](*map(self._read, operands))
         raise TypeError(f"{data!r} is no expression of a description")
 
+    def _of(self, part: list, tree: Tree) -> Tree:
+        """The tree, with where it was read."""
+        if isinstance(tree, int):
+            return tree
+        read = ReadName(tree) if isinstance(tree, str) else Read(tree)
+        read.origin = Origin(self.drive, tuple(self.letters.items()), part)
+        return read
+
     # -- what the description holds
 
     def rule(self, target: str, place: int = 1) -> Tree:
         """The rule for a parameter, by its place among those for it."""
-        return self.tree([value for name, value in self.data["rules"] if name == target][place - 1])
+        return self._of(["rule", target, place], self.tree(self._rule(target, place)))
 
     def size(self, key: str) -> Tree:
-        return self.tree(self._size(key))
+        return self._of(["size", key], self.tree(self._size(key)))
 
-    def operands(self, key: str) -> list[Tree]:
+    def arc_of_rule(self, target: str, place: int = 1) -> list[Tree]:
+        """Of a rule for an angle, what its arc function is taken of."""
+        return self._arc(["rule", target, place], self._rule(target, place))
+
+    def arc_of_size(self, key: str) -> list[Tree]:
         """Of a size that is an angle, what its arc function is taken of."""
-        return [self.tree(part) for part in self._size(key)[1:]]
+        return self._arc(["size", key], self._size(key))
+
+    def _arc(self, part: list, value: Any) -> list[Tree]:
+        if value[0] not in ARCS:
+            raise TypeError(f"{value!r} is no angle that an arc function gives")
+        return [self._of(["arc", k, part], self.tree(operand)) for k, operand in enumerate(value[1:], 1)]
+
+    def _rule(self, target: str, place: int) -> Any:
+        return [value for name, value in self.data["rules"] if name == target][place - 1]
 
     def _size(self, key: str) -> Any:
         return next(entry["value"] for entry in self.data["sizes"] if entry["key"] == key)
 
     def name(self, name: str) -> Tree:
         """A definition, or a name as the document writes it."""
-        return self.tree(name)
+        return self._of(["name", name], self.tree(name))
 
     def contact(self, name: str) -> Tree:
-        return self.tree(self.data["contact"][name])
+        return self._of(["contact", name], self.tree(self.data["contact"][name]))
 
     def margin(self, place: str, event: str) -> Tree:
-        return self.tree(next(m["positive"] for m in self._place(place)["margins"] if m["event"] == event))
+        positive = next(m["positive"] for m in self._place(place)["margins"] if m["event"] == event)
+        return self._of(["margin", place, event], self.tree(positive))
 
     def _place(self, place: str) -> dict:
         entries = {body["name"]: body for body in self.data["bodies"]}
@@ -109,35 +185,39 @@ class Described:
     def edge(self, place: str) -> Tree:
         """The tool's edge, or its given point."""
         first = self._steps(place)[0]
-        return self.vector(first.get("curve") or first["point"])
+        return self._of(["edge", place], self.vector(first.get("curve") or first["point"]))
 
     def edge_normal(self, place: str) -> Tree:
-        return self.vector(self._steps(place)[0]["normal"])
+        return self._of(["edge_normal", place], self.vector(self._steps(place)[0]["normal"]))
 
     def normal(self, place: str) -> Tree:
         """The outward normal in the frame of the edge."""
-        return self.vector(self._place(place)["surface"]["normal"])
+        return self._of(["normal", place], self.vector(self._place(place)["surface"]["normal"]))
 
     def sweep(self, place: str) -> Factors:
-        return self._steps(place)[0]["motion"]
+        return Factors(self._steps(place)[0]["motion"], ("sweep", place))
 
     def moved(self, place: str) -> Factors:
-        return next(step["motion"] for step in self._steps(place) if step["step"] == "moved")
+        step = next(step for step in self._steps(place) if step["step"] == "moved")
+        return Factors(step["motion"], ("moved", place))
 
     def generation(self, place: str) -> Factors:
         """The motion of the tool against the blank."""
-        return next(step["motion"] for step in reversed(self._steps(place)) if step["step"] == "envelope")
+        step = next(step for step in reversed(self._steps(place)) if step["step"] == "envelope")
+        return Factors(step["motion"], ("generation", place))
 
     def condition(self, place: str, number: int = 1) -> Tree:
-        return self.tree(self._place(place)["surface"]["conditions"][number - 1])
+        condition = self._place(place)["surface"]["conditions"][number - 1]
+        return self._of(["condition", place, number], self.tree(condition))
 
     def solved(self, place: str) -> Tree:
         """What the equation of meshing was solved by."""
-        return self.tree(next(step["value"] for step in self._steps(place) if step["step"] == "solved"))
+        value = next(step["value"] for step in self._steps(place) if step["step"] == "solved")
+        return self._of(["solved", place], self.tree(value))
 
     def motion(self, place: str) -> Factors:
         """The motion of a body into the fixed frame."""
-        return self._place(place)["motion"]
+        return Factors(self._place(place)["motion"], ("motion", place))
 
     # -- trees
 
@@ -146,6 +226,7 @@ class Described:
 
     def carried(self, motion: Factors, point: Tree) -> Tree:
         """A point, carried by a motion."""
+        part = ["carried", motion.part, self._vector_part(point)]
         for kind, *data in reversed(motion):
             match kind:
                 case "translation" | "station":
@@ -156,14 +237,21 @@ class Described:
                     point = _plus(("@", self._rotation(axis, angle), arm), self.vector(centre))
                 case _:
                     point = ("@", self._rotation(*data), point)
-        return point
+        return self._of(part, point)
 
     def turned(self, motion: Factors, direction: Tree) -> Tree:
         """A direction, turned by a motion."""
+        part = ["turned", motion.part, self._vector_part(direction)]
         for kind, *data in reversed(motion):
             if kind not in ("translation", "station"):
                 direction = ("@", self._rotation(*data[:2]), direction)
-        return direction
+        return self._of(part, direction)
+
+    def _vector_part(self, vector: Tree) -> list:
+        origin = origin_of(vector)
+        if origin and (origin.drive, dict(origin.letters)) == (self.drive, dict(self.letters)):
+            return origin.part
+        return ["given", vector]
 
     def matrix(self, motion: Factors) -> Tree:
         """The rotation of a motion."""
@@ -171,7 +259,7 @@ class Described:
         product = parts[-1]
         for part in reversed(parts[:-1]):
             product = ("@", part, product)
-        return product
+        return self._of(["matrix", motion.part], product)
 
     def _rotation(self, axis: Any, angle: Any = None) -> Tree:
         if isinstance(axis, str):
@@ -184,6 +272,17 @@ _OPERATIONS = {
     "+": sp.Add, "*": sp.Mul, "^": sp.Pow, "sqrt": sp.sqrt, "cos": sp.cos, "sin": sp.sin, "tan": sp.tan,
     "atan2": sp.atan2, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan, "abs": sp.Abs, "min": sp.Min, "max": sp.Max,
 }  # fmt: skip
+
+
+def written(tree: Tree, numbers: Mapping[str, str]) -> str:
+    """A formula of a description as text, with numbers put in for its letters."""
+
+    def put(part: Tree) -> Tree:
+        if isinstance(part, tuple):
+            return (part[0], *map(put, part[1:]))
+        return parse_formula(numbers[part]) if part in numbers else part
+
+    return text(put(tree)).replace("^", "**")
 
 
 @cache

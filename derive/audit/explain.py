@@ -7,10 +7,8 @@ import json
 import re
 from pathlib import Path
 
+from derive.audit.plain_text import text, words_of
 from derive.passes.guards import GUARDS
-from derive.prove.tree import Tree
-
-PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "@": 2, "^": 3}
 
 
 class Unknown(Exception):
@@ -136,6 +134,8 @@ def _part(objects: dict[str, dict], part: dict) -> list[str]:
     for name, key in equation["where"].items():
         step = objects[key]
         lines.append(f"    {name} := {text(step['tree'])}    [{step['op']} {key[:12]}]")
+        if step["read"]:
+            lines.append(f"      read: {step['read']['drive']}, {words_of(step['read']['part'])}")
     shown, stated = certificate["sha256"][:12], equation["sha256"][:12]
     lines.append(f"    {certificate['outcome']} by {certificate['kind']} {shown}, equation {stated}")
     if certificate["outcome"] == "refuted" and "point" in certificate:
@@ -146,47 +146,3 @@ def _part(objects: dict[str, dict], part: dict) -> list[str]:
         lines.append("    at " + ", ".join(f"{name} = {value}" for name, value in values.items()))
         lines.append(f"    left {', '.join(certificate['lhs'])}; right {', '.join(certificate['rhs'])}")
     return lines
-
-
-def text(tree: Tree | list) -> str:
-    """One line, in the notation of the document modules."""
-    return re.sub(r"\+ -", "- ", _text(tree)[0])
-
-
-def _text(tree: Tree | list) -> tuple[str, int]:
-    if not isinstance(tree, (list, tuple)):
-        return str(tree), 9
-    operation, *arguments = tree
-    if operation in ("+", "*", "/", "@"):
-        level = PRECEDENCE[operation]
-        joiner = {"+": " + ", "*": "*", "/": "/", "@": " @ "}[operation]
-        return joiner.join(
-            _within(argument, level + (k > 0 and operation in "/@")) for k, argument in enumerate(arguments)
-        ), level
-    if operation == "-":
-        return "-" + _within(arguments[0], 2), 1
-    if operation == "^":
-        return f"{_within(arguments[0], 4)}^{arguments[1]}", 3
-    if operation == "jet":
-        return arguments[0] + (
-            "'" * arguments[1]
-            if len(arguments) == 2
-            else f"[{', '.join(map(str, arguments[1:]))}]"
-            if any(arguments[1:])
-            else ""
-        ), 9
-    if operation == "at":
-        return f"{_within(arguments[0], 9)}.{'xyz'[arguments[1]]}", 9
-    if operation == "entry":
-        return f"{_within(arguments[0], 9)}[{arguments[1] + 1},{arguments[2] + 1}]", 9
-    if operation == "mat":
-        return "mat(" + "; ".join(", ".join(_text(entry)[0] for entry in row) for row in arguments) + ")", 9
-    if operation == "d":
-        along = ", ".join(symbol if rate == 1 else f"{symbol} at {_text(rate)[0]}" for symbol, rate in arguments[1:])
-        return f"d({_text(arguments[0])[0]}; {along})", 9
-    return f"{operation}({', '.join(_text(argument)[0] for argument in arguments)})", 9
-
-
-def _within(tree, level: int) -> str:
-    shown, own = _text(tree)
-    return f"({shown})" if own < level else shown

@@ -14,6 +14,7 @@ from derive.audit.checker.record import root_of
 from derive.audit.checker.verdicts import status_of
 from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, Scope, as_list
 from derive.audit.coverage import offset
+from derive.audit.described import origin_of
 from derive.prove import Decision, Outcome, Statement, certificate, decide
 from derive.prove.edits import correction
 from derive.prove.tree import parse_formula, symbols
@@ -201,8 +202,16 @@ def _enter_steps(ledger: Ledger, scope: str, statement: Statement) -> dict[str, 
     for name, tree in statement.used.items():
         operation = OPERATIONS.get(tree[0], "define") if isinstance(tree, tuple) else "define"
         inputs = sorted(entered[other] for other in symbols(tree) if other in entered)
+        origin = origin_of(tree)
         entered[name] = ledger.add(
-            {"object": "step", "id": f"{scope}.{name}", "op": operation, "tree": tree, "inputs": inputs}
+            {
+                "object": "step",
+                "id": f"{scope}.{name}",
+                "op": operation,
+                "tree": tree,
+                "inputs": inputs,
+                "read": origin and origin.as_json(),
+            }
         )
     return entered
 
@@ -293,6 +302,16 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
     return Judged(outcome, equation, shown, figure)
 
 
+def drives_read(verdict: Verdict) -> list[str]:
+    """The drives from whose descriptions the verdict's equations read; none where it is of mathematics in general."""
+    found = set()
+    for reading in filter(None, (*verdict.readings, verdict.corrected, verdict.contradiction)):
+        for part in reading.parts:
+            if not isinstance(part.of, Figure):
+                found |= {origin.drive for tree in part.statement.used.values() if (origin := origin_of(tree))}
+    return sorted(found)
+
+
 def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
     return {
         "object": "verdict",
@@ -307,6 +326,7 @@ def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:
         "missing": getattr(verdict.claim, "missing", ""),
         "damage": getattr(verdict.claim, "damage", ""),
         "drops": getattr(verdict.claim, "drops", ""),
+        "described": drives_read(verdict),
     }
 
 

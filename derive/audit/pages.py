@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -16,10 +16,12 @@ from derive.audit import coverage
 from derive.audit.certified import OPEN, OUTCOMES, STEPS, TRUSTED
 from derive.audit.checker.lines import sha256_of
 from derive.audit.claims import Document, Figure
+from derive.audit.described import origin_of
 from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
-from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict
+from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict, drives_read
 from derive.audit.mutations.table import measured
+from derive.audit.plain_text import words_of
 from derive.audit.published import comparisons
 from derive.audit.render import LATEX_GREEK, LaTeX, MathML, difference, raised
 from derive.audit.validation import NOT_VERIFIED, VERIFIED
@@ -86,6 +88,15 @@ class Entry:
     change: str
     offset: int | None
     """Where the verbatim text stands in the source; None for a transliteration."""
+    drives: list[str]
+    """Whose descriptions its equations read."""
+
+    @property
+    def is_general(self) -> bool:
+        """Whether equations were judged that read no drive's description: they are of mathematics in general."""
+        readings = (*self.verdict.readings, self.verdict.contradiction)
+        parts = [part for reading in readings if reading for part in reading.parts]
+        return not self.drives and any(not isinstance(part.of, Figure) for part in parts)
 
 
 def pages(
@@ -166,6 +177,7 @@ def pages(
             symbols=_symbols(document),
             counts=counts[document.key],
             definitions=_definitions(document, ledger.verdicts[document.key]),
+            letters=_letters(ledger.verdicts[document.key]),
             used=used,
         )
     return texts
@@ -212,7 +224,7 @@ def _entry(document: Document, verdict: Verdict) -> Entry:
         conditions + ((f"step: divided by {mathml.plain(drops)} ≠ 0",) if drops else ()), _evidence_of(verdict),
         getattr(verdict.claim, "damage", ""), getattr(verdict.claim, "missing", ""),
         re.sub(r"\w+", lambda word: names.get(word[0], word[0]), verdict.change),
-        coverage.offset(verdict.id, verdict.claim.verbatim),
+        coverage.offset(verdict.id, verdict.claim.verbatim), drives_read(verdict),
     )  # fmt: skip
 
 
@@ -221,18 +233,32 @@ def anchor(name: str, tree: Tree) -> str:
     return f"def-{name}-{sha256_of({'tree': tree})[:8]}"
 
 
-def _definitions(document: Document, verdicts: Sequence[Verdict]) -> list[tuple[str, Markup]]:
-    """Anchor and formula of every definition that a chapter's statements use, in the order of first use."""
+def _definitions(document: Document, verdicts: Sequence[Verdict]) -> list[tuple[str, Markup, str, str]]:
+    """Of every definition that a chapter's statements use, in the order of first use: anchor, formula, and the drive
+    and the part of its description that it was read from.
+    """
     mathml = MathML({name: shown for name, (shown, _, _) in document.symbols.items()})
-    found: dict[str, Markup] = {}
+    found: dict[str, tuple[Markup, str, str]] = {}
+    for name, tree in _used_definitions(verdicts):
+        origin = origin_of(tree)
+        read = (origin.drive, words_of(origin.part)) if origin else ("", "")
+        found.setdefault(anchor(name, tree), (Markup(mathml.equation(name, tree)), *read))
+    return [(key, *shown) for key, shown in found.items()]
+
+
+def _letters(verdicts: Sequence[Verdict]) -> list[tuple[str, str]]:
+    """The drives that a chapter reads, each with what its letters stand for there."""
+    origins = [origin for _, tree in _used_definitions(verdicts) if (origin := origin_of(tree))]
+    found = dict.fromkeys((origin.drive, origin.letters) for origin in origins)
+    return [(drive, ", ".join(f"{old} → {new}" for old, new in letters) or "its own") for drive, letters in found]
+
+
+def _used_definitions(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Tree]]:
     for verdict in verdicts:
         for reading in (*verdict.readings, verdict.corrected, verdict.contradiction):
             for part in reading.parts if reading else ():
-                for name, tree in () if isinstance(part.of, Figure) else part.statement.used.items():
-                    key = anchor(name, tree)
-                    if key not in found:
-                        found[key] = Markup(mathml.equation(name, tree))
-    return [*found.items()]
+                if not isinstance(part.of, Figure):
+                    yield from part.statement.used.items()
 
 
 def _evidence_of(verdict: Verdict) -> str:

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 255, set_phi 4, R 424, R and J 1087, step 1193, observe 1257.
- * Equations (hash 498a5e76ff98cc889b67f9bebca48c999bc83473381b63d0d2382ff7bc54a7c2):
+ * Equations (hash 006cafb6bb9f4277e3d0bb973168d40e178a370cd9257ad42a4aeb78ef8b2cd8):
  *   bevel/linear
  *   bevel/meshing
  *   bevel/pole

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 554, set_phi 2, R 302, R and J 766, step 855, observe 1021.
- * Equations (hash 498a5e76ff98cc889b67f9bebca48c999bc83473381b63d0d2382ff7bc54a7c2):
+ * Equations (hash 006cafb6bb9f4277e3d0bb973168d40e178a370cd9257ad42a4aeb78ef8b2cd8):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 229, set_phi 7, R 116, R and J 270, step 304, observe 547.
- * Equations (hash 498a5e76ff98cc889b67f9bebca48c999bc83473381b63d0d2382ff7bc54a7c2):
+ * Equations (hash 006cafb6bb9f4277e3d0bb973168d40e178a370cd9257ad42a4aeb78ef8b2cd8):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact

@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 from derive.audit import store
 from derive.audit.checker.lines import canonical, sha256_of
@@ -11,6 +12,7 @@ from derive.audit.documents import rack_and_pinion, recess_action
 from derive.audit.ledger import Chapter, build
 from derive.files import replace_text
 
+DESCRIPTIONS = Path(__file__).parents[2] / "generated" / "descriptions"
 KINDS = ("source", "step", "equation", "certificate", "verdict")
 
 
@@ -36,6 +38,8 @@ def written(small_ledger, folder):
     texts = store.record_files(small_ledger) | {"index.html": "<p>proved</p>\n", "audit.tex": "proved\n"}
     files = {"c/drive.h": HEADER.format(root=small_ledger.root)}
     files |= {f"audit/{name}": text for name, text in texts.items()}
+    for name in sorted({step["read"]["drive"] for step in small_ledger.objects.values() if step.get("read")}):
+        files[f"descriptions/{name}.json"] = (DESCRIPTIONS / f"{name}.json").read_text(encoding="utf-8")
     files["audit/artifacts.json"] = store.seal(small_ledger, files)
     for name, text in files.items():
         replace_text(folder / name, text)

@@ -12,6 +12,8 @@ What is checked:
   bindings      a verdict judges the source of its own name; its equations are what the source's reading says, read
                 anew from the text; a printed number stands in the print; a corrected equation differs from the printed
                 one; a statement does not rest on two identical sides
+  readings      a definition that was read from a drive's description has its values, computed here from the description
+                with the document's letters, at values drawn at random modulo a random prime
   names         symbols, cosines, roots, arcs and jets are different things; equal names of roots are equal roots
   relations     only sin^2 + cos^2 = 1, root^2 = radicand and sign^2 = 1, each angle and root once
   certificates  numerator = sum of cofactor * relation, in exact integers
@@ -35,6 +37,7 @@ import sys
 from pathlib import Path
 
 from .certificates import POINTS
+from .origins import check_origins
 from .record import check_step, check_use, read_record, root_of
 from .refusal import Rejected
 from .seal import check_files
@@ -65,6 +68,7 @@ def verified(folder: Path) -> dict[str, int | str]:
     return {
         **{kind: kinds.count(kind) for kind in sorted(set(kinds))},
         "file": check_files(folder, root, objects),
+        "read": check_origins(folder.parent / "descriptions", objects),
         "expanded": sum(each_decided.get("expanded", 0) for each_decided in decided),
         "sampled": sum(not each_decided["expanded"] for each_decided in decided if each_decided),
         "bits of certainty": certainty(decided),
@@ -95,5 +99,6 @@ def main(arguments: list[str]) -> int:
         f"proofs expanded in exact integers: {report['expanded']}; checked at {POINTS} random points instead: "
         f"{report['sampled']}" + (f", failure below 2^-{report['bits of certainty']}" if report["sampled"] else "")
     )
+    print(f"definitions read from descriptions, read again: {report['read']}")
     print("root", report["root"])
     return 0

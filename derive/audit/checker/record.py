@@ -12,10 +12,10 @@ _POINT = {"angles", "arcs", "point", "lhs", "rhs", "rounded"}
 KEYS = {
     "source": {"id", "document", "document_sha256", "locator", "verbatim", "ocr_doubt", "reading", "figures"}
     | {"offset"},
-    "step": {"id", "op", "tree", "inputs"},
+    "step": {"id", "op", "tree", "inputs", "read"},
     "equation": {"id", "kind", "lhs", "rhs", "where", "jets", "signs", "side_conditions", "unit", "sources"},
     "verdict": {"id", "source", "status", "plain", "readings", "corrected", "contradiction", "change", "missing"}
-    | {"damage", "drops"},
+    | {"damage", "drops", "described"},
     "ring_nf": {"kind", "outcome", "equation", "generators", "roots", "relations", "components", "degree"} | _POINT,
     "exact_point": {"kind", "outcome", "equation", "roots", "differs"} | _POINT,
     "undecided": {"kind", "outcome", "equation", "angles", "arcs"},
@@ -48,6 +48,11 @@ def read_record(folder: Path) -> dict[str, dict]:
     return objects
 
 
+def formed_step(step: dict) -> bool:
+    """Whether a definition is typed, or says where it was read."""
+    return step["read"] is None or (type(step["read"]) is dict and set(step["read"]) == {"drive", "letters", "part"})
+
+
 def formed_equation(equation: dict) -> bool:
     """Whether what an equation says of itself beside its two sides has the form that it must have."""
     jets, conditions = equation["jets"], equation["side_conditions"]
@@ -63,6 +68,8 @@ def formed_equation(equation: dict) -> bool:
 
 def formed_verdict(verdict: dict) -> bool:
     """Whether its readings are lists of texts, each part with an equation and its certificate."""
+    if not distinct_texts(verdict["described"]):
+        return False
     readings = [verdict[role] for role in ("readings", "corrected", "contradiction")]
     return all(
         type(reading) is dict
@@ -93,6 +100,7 @@ def formed_source(source: dict) -> bool:
 
 FORMS = {
     "source": formed_source,
+    "step": formed_step,
     "equation": formed_equation,
     "verdict": formed_verdict,
     "certificate": formed_certificate,

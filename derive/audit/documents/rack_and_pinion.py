@@ -56,6 +56,20 @@ DRIVE = Described(
     },
 )  # fmt: skip
 
+#: The same drive, of any shaft angle.
+CROSSED = Described(DRIVE.drive, dict(DRIVE.letters) | {"Sigma": "shaft"})
+
+
+def _mounted(drive: Described) -> dict:
+    """The wheel's placement, and a point of it that turns with it."""
+    wheel = drive.motion("wheel")
+    return {
+        "mounted": drive.matrix(wheel),
+        "seat": drive.carried(wheel, ("vec", 0, 0, 0)),
+        "spun": drive.carried(wheel, ("vec", "wx", "wy", "wz")),
+    }
+
+
 WORM = scope(
     "rack-and-pinion",
     """
@@ -93,8 +107,7 @@ R2_phi1 = d(R2, (phi1, 1), (phi2, I))
         "P": ("vec", ("jet", "xi", 0), ("jet", "eta", 0), ("jet", "zeta", 0)),
         "R1": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
         "r1": DRIVE.carried(DRIVE.motion("pinion"), "R1"),
-        "mounted": DRIVE.matrix(DRIVE.motion("wheel")),
-        "seat": DRIVE.carried(DRIVE.motion("wheel"), ("vec", 0, 0, 0)),
+        **_mounted(DRIVE),
     },
 )
 
@@ -119,6 +132,16 @@ T_lam = D_lam - phi_lam*w
     extends=WORM,
 )
 
+#: Along the surface of contact the worm turns by what keeps f = 0.
+CONTACT_SURFACE = scope(
+    "rack-and-pinion.contact-surface",
+    """
+keep_u = -(d(f, u)/d(f, phi1))
+keep_lam = -(d(f, lam)/d(f, phi1))
+""",
+    extends=LIMIT,
+)
+
 SECTION = scope(
     "rack-and-pinion.section",
     """
@@ -133,15 +156,12 @@ sweep = cross(omega2, arm)
 AXES = scope(
     "rack-and-pinion.axes",
     """
-i1 = vec(1, 0, 0)
-j1 = vec(0, 1, 0)
-k1 = vec(0, 0, 1)
 p = A*I*tan(alpha)/(I + tan(alpha))
-R1j = A - p/I
 R2f = 0
 omega_a = (-A*I/R1j)*j1
 omega_b = 1/cos(alpha)*(-cos(alpha)*k1 + sin(alpha)*j1)
 """,
+    extends=WORM,
 )
 
 #: The meshing function of one revolution before.
@@ -158,52 +178,72 @@ before = psi - 2*pi
 PITCH_HELIX = scope(
     "rack-and-pinion.pitch-helix",
     """
-at_pitch = d(Rz(lam)@(R1j*i1) + p*lam*k1, lam)
-at_reference = d(Rz(lam)@(r_ref*i1) + p*lam*k1, lam)
+at_pitch = d(on_pitch, lam)
+at_reference = d(on_reference, lam)
 inclined = Rz(lam)@vec(0, cos(alpha), sin(alpha))
 """,
     extends=AXES,
+    described={
+        "on_pitch": DRIVE.carried(DRIVE.sweep("pinion"), ("vec", "R1j", 0, 0)),
+        "on_reference": DRIVE.carried(DRIVE.sweep("pinion"), ("vec", "r_ref", 0, 0)),
+    },
 )
 
 SECOND_AXIS = scope(
     "rack-and-pinion.second-axis",
     """
-p = A*I*tan(alpha)/(I + tan(alpha))
 along = -cos(alpha)*k1 + sin(alpha)*j1
 r_2f = R2f*i1 + v*along
-R2f = 0
-r1 = Rz(phi1)@(Rz(lam)@P + p*lam*k1)
-r2 = r1 - A*i1
-n = cross(d(r1, u), d(r1, lam))
-f = dot(cross(omega2, r2) - cross(omega1, r1), n)
 """,
     extends=WORM,
 )
 
+#: The relative motion and tau times the worm's screw motion: a twist D at the origin, with the velocity W there.
 ANY_SHAFT_ANGLE = scope(
     "rack-and-pinion.any-shaft-angle",
     """
-k2 = vec(0, sin(shaft), cos(shaft))
-f_any = dot(cross(-I*k2, r1 - A*i1) - cross(k1, r1), n)
-D = -I*k2 - k1 + tau*k1
-W = cross(-I*k2, -A*i1) + tau*p*k1
-middle = p + p*I*cos(shaft) + A*I*sin(shaft)
-quadratic = p*tau**2 - middle*tau + A*I*sin(shaft)
-discriminant = middle**2 - 4*p*A*I*sin(shaft)
+omega2 = -I*vec(0, sin(shaft), cos(shaft))
+seen = T(mounted)@(r1 - seat)
+f = -triple(d(seen, u), d(seen, lam), d(seen, (phi1, 1), (phi2, I)))
+D = omega2 - omega1 + tau*k1
+W = cross(omega2, -seat) + tau*p*k1
 """,
     extends=WORM,
+    described=_mounted(CROSSED),
 )
 
 RIGHT_ANGLE = scope("rack-and-pinion.right-angle", "shaft = pi/2", extends=ANY_SHAFT_ANGLE)
+
+#: Crossed helical gears with helix angles of 45 degrees, the gear of twice as many teeth.
+HELICAL = scope("rack-and-pinion.crossed-helical", "p = 1\nI = 1/2\nA = 3", extends=RIGHT_ANGLE)
+
+#: Sizes of 1, at any shaft angle.
+ONES = scope(
+    "rack-and-pinion.ones",
+    """
+p = 1
+I = 1
+A = 1
+middle = 1 + cos(shaft) + sin(shaft)
+""",
+    extends=ANY_SHAFT_ANGLE,
+)
 
 CLAIMS = (
     Claim(
         "frames",
         "§1",
         "I set i_2 = -i_1, j_2 = -k_1, k_2 = -j_1.",
-        "The wheel frame is right-handed, and k2 is perpendicular to k1.",
+        "The wheel frame is right-handed, its axis perpendicular to the worm's. Worm and wheel of the drive turn about "
+        "k1 and k2 with the angular velocities 1 and I, the wheel's centre at A i1.",
         WORM,
-        ["cross(i2, j2) = k2", "dot(k1, k2) = 0"],
+        [
+            "cross(i2, j2) = k2",
+            "dot(k1, k2) = 0",
+            "cross(omega1, r1) = d(r1, phi1)",
+            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
+            "seat = -A*i2",
+        ],
     ),
     Claim(
         "ratio-sign",
@@ -379,18 +419,27 @@ CLAIMS = (
         "§2",
         "The intersection of the cutting plane with the instantaneous axis is the pitch point; with the worm gear "
         "axis, the gear center",
-        "Pitch point and centre of the section y = C lie p/I apart.",
+        "In the section y = C wheel and sliding worm have one velocity at R1j i1 + C j1, and the wheel stands still "
+        "p/I from there along i1.",
         WORM,
-        ["dot(R1j*i1 + C*j1, j1) = C", "dot(A*i1 - C*k2, j1) = C", "A - R1j = R2j"],
+        [
+            "cross(omega2, R1j*i1 + C*j1 - seat) = -p*omega1",
+            "cross(omega2, (R1j + p/I)*i1 + C*j1 - seat) = vec(0, 0, 0)",
+        ],
     ),
     Claim(
         "meshing-surface",
         "§3",
         "n_p = ∂r(2)/∂u × ∂r(2)/∂λ",
-        "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ, and "
-        "keep f = 0.",
-        LIMIT,
-        ["dot(n_p, D_u) = 0", "dot(n_p, D_lam) = 0"],
+        "The normal of the surface of contact: the derivatives are total ones, along which φ1 follows u and λ and "
+        "keeps f = 0: a step (a, b, c) of u, λ and φ1 does so where c = a φ_u + b φ_λ, φ_u = -f_u/f_φ1 and φ_λ = "
+        "-f_λ/f_φ1, and such a step of the contact point is at right angles to n_p.",
+        CONTACT_SURFACE,
+        [
+            "d(f, (u, a), (lam, b), (phi1, c)) = (c - a*keep_u - b*keep_lam)*d(f, phi1)",
+            "dot(n_p, d(r2, (u, a), (lam, b), (phi1, c))) = "
+            "(c - a*phi_u - b*phi_lam)*triple(D_u, D_lam, d(r2, phi1))",
+        ],
         conditions=["∂f/∂φ1 ≠ 0"],
     ),
     Claim(
@@ -428,9 +477,8 @@ CLAIMS = (
         "ruled-surface",
         "§4",
         "r_h(λ,u,φ_1,s) = r(1) + s n",
-        "Its normal along s is square to the surface normal, so that it touches a line where that line is.",
-        WORM,
-        ["d(r1 + sigma*n, sigma) = n", "dot(cross(d(r1 + sigma*n, phi1), n), n) = 0"],
+        "Definition of the surface of the contact normals.",
+        kind="definition",
     ),
     Claim(
         "eq-5",
@@ -472,10 +520,11 @@ CLAIMS = (
         "second-line",
         "§5",
         "r_2f = R_2f i_1 + v(-cos α k_1 + sin α j_1)",
-        "With R2f = 0 and tan α = p/R1j every contact normal meets this line, whatever v: its moment about it is sin "
-        "α f/I.",
+        "The moment of a contact normal about this line, whatever v, is sin α f/I and two terms more, which vanish for "
+        "every normal where R2f = 0 and tan α = p/R1j.",
         SECOND_AXIS,
-        "dot(cross(r1 - r_2f, along), n) = sin(alpha)*f/I",
+        "dot(cross(r1 - r_2f, along), n) = sin(alpha)*f/I + (R1j*sin(alpha) - p*cos(alpha))*dot(n, k1)"
+        " - R2f*dot(cross(i1, along), n)",
         conditions=["R1j ≠ 0"],
     ),
     Claim(
@@ -485,8 +534,8 @@ CLAIMS = (
         "With R2f = 0 and tan α = p/R1j both equations hold.",
         AXES,
         [
-            "omega_a + omega_b = -I*j1 - k1",
-            "R1j*cross(i1, omega_a) + R2f*cross(i1, omega_b) - A*cross(i1, -I*j1) = vec(0, 0, 0)",
+            "omega_a + omega_b = omega2 - omega1",
+            "R1j*cross(i1, omega_a) + R2f*cross(i1, omega_b) - cross(seat, omega2) = vec(0, 0, 0)",
             "tan(alpha) = p/R1j",
         ],
         conditions=["R1j ≠ 0"],
@@ -528,14 +577,14 @@ CLAIMS = (
         "It is known that in crossed-axis gear drives where one member has a helical surface (as in worm gear "
         "pairs), meshing axes exist.",
         "A line that every contact normal of every helicoid meets belongs to a twist -(relative motion) + τ times "
-        "the screw motion, which is a rotation where p τ² - (p + pI cos Σ + AI sin Σ) τ + AI sin Σ = 0. 4p times "
-        "this is (2pτ - …)² less the discriminant, which is -44/25 for p = I = A = 1 and cos Σ = -3/5: no real τ, no "
+        "the screw motion, which is a rotation only where its axis is square to its velocity, D·W = 0. For p = I = A = "
+        "1, 4 D·W is a square and 4 sin Σ - 2 (1 + cos Σ)(1 + sin Σ), which is 2√2 - 1 at Σ = 135°: no real τ, no "
         "meshing axis.",
-        ANY_SHAFT_ANGLE,
+        ONES,
         contradiction=[
-            "dot(n, cross(D, r1) + W) = f_any",
-            "4*p*dot(D, W) = (2*p*tau - middle)**2 - discriminant",
-            "(1 + (-3/5) + 4/5)**2 - 4*(4/5) = -44/25",
+            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
+            "dot(n, cross(D, r1) + W) = f",
+            "4*dot(D, W) = (2*tau - middle)**2 + 4*sin(shaft) - 2*(1 + cos(shaft))*(1 + sin(shaft))",
         ],
     ),
     Claim(
@@ -552,14 +601,13 @@ CLAIMS = (
         "§5",
         "This property is unique to cylindrical worm gear drives",
         "What is needed is one helicoid, of any profile, not a worm: the pinion of crossed helical gears is one as "
-        "well. Helix angles of 45° on both, twice as many teeth on the gear (Σ = 90°, p = 1, I = 1/2, A = 3) give "
-        "two distinct meshing axes, at τ = 1 and τ = 3/2.",
-        RIGHT_ANGLE,
+        "well (cylindrical gears, involute helicoid: screw). Helix angles of 45° on both, twice as many teeth on the "
+        "gear (Σ = 90°, p = 1, I = 1/2, A = 3) give two distinct meshing axes, at τ = 1 and τ = 3/2.",
+        HELICAL,
         contradiction=[
-            "dot(n, cross(D, r1) + W) = f_any",
-            "dot(D, W) = p*tau**2 - (p + A*I)*tau + A*I",
-            "1*1**2 - (1 + 3*(1/2))*1 + 3*(1/2) = 0",
-            "1*(3/2)**2 - (1 + 3*(1/2))*(3/2) + 3*(1/2) = 0",
+            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
+            "dot(n, cross(D, r1) + W) = f",
+            "dot(D, W) = (tau - 1)*(tau - 3/2)",
         ],
     ),
     Claim(

@@ -5,7 +5,7 @@ plus-or-minus; where it matters both readings are judged.
 """
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
-from derive.audit.described import HALF_TURN, Described
+from derive.audit.described import HALF_TURN, Described, written
 from derive.audit.ledger import Chapter
 
 DOCUMENT = Document(
@@ -71,6 +71,14 @@ CUTTING_LETTERS = {
     "r_hob": "r1",
 }  # fmt: skip
 CUTTING = Described(DRIVE, CUTTING_LETTERS)
+#: The worm in the letters of the hob.
+WORM = Described(
+    DRIVE,
+    {
+        "tan(lambda_worm)": "p1/r_worm", "t_worm": "l1", "psi_worm": "-th1", "r_t_worm": "rt", "alpha": "a1",
+        "lambda_worm": "lam1", "r_worm": "r1",
+    },
+)  # fmt: skip
 #: Letters of the mesh: errors in the sense of gamma.
 MESHING = Described(
     DRIVE,
@@ -86,6 +94,12 @@ DIMENSIONS = Described(
         "T_hob": "T1", "T_1": "T3", "T_2": "T2", "m_n": "mn", "Sigma": "pi - gamma3", "A": "C3",
     },
 )  # fmt: skip
+#: The sizes of Table 1, of axes at 90 degrees, and its numbers.
+SIZES_OF_TABLE = Described(DRIVE, {"r_worm": "r3", "lambda_worm": "lam3"})
+EXAMPLE = {
+    "m_n": "2", "T_1": "1", "T_2": "277", "lam3": "radians(3)", "Sigma": "radians(90)", "dx": "0", "alpha": "radians(10)",
+    "r3": "2*1/(2*sin(radians(3)))",
+}  # fmt: skip
 #: The groove's width as its own letter.
 GROOVE = Described(
     DRIVE, {"dx": "(pi*m_n/2 - bx)/(2*tan(alpha))", "alpha_hob": "a1", "alpha": "a1", "lambda_hob": "lam1",
@@ -99,9 +113,10 @@ BLADE = scope(
     """
 R1_l = d(R1, l1)
 R1_th = d(R1, th1)
+N1 = cross(R1_l, R1_th)
 """,
     signs=["s"],
-    described={"R1": HOB_SURFACE},
+    described={"R1": HOB_SURFACE, "worm": WORM.carried(WORM.sweep("pinion"), WORM.edge("pinion"))},
 )
 
 WIDTH = scope(
@@ -170,6 +185,7 @@ b32 = cos(gamma3 + dgh)*sin(dgv)*sin(phi2p) + sin(gamma3 + dgh)*cos(phi2p)
 n_w3 = L_w3@vec(nx3, ny3, nz3)
 n_w2 = L_w2@vec(nx2, ny2, nz2)
 e = vec(ex, ey, ez)
+errors = vec(error_1, -error_2, -error_3)
 """,
     described={
         "turn": HALF_TURN,
@@ -178,7 +194,7 @@ e = vec(ex, ey, ez)
         "ours": MESHING.matrix(MESHING.motion("wheel")),
         "R_w3": MESHING.carried(MESHING.motion("pinion"), ("vec", "X3", "Y3", "Z3")),
         "R_w2": MESHING.carried(MESHING.motion("wheel"), "point"),
-        "errors": ("vec", *(MESHING.tree(name if name == "dA" else ["*", -1, name]) for name in ERRORS)),
+        **{f"error_{k}": MESHING.name(name) for k, name in enumerate(ERRORS, 1)},
     },
 )
 
@@ -199,6 +215,7 @@ pitch_3 = 2*pi*p_worm*cos(lam3)/T3
         "Sigma_gen": DIMENSIONS.rule("Sigma_gen"),
         "p_hob": DIMENSIONS.size("screw_parameter_hob_mm_per_rad"),
         "p_worm": DIMENSIONS.size("screw_parameter_worm_mm_per_rad"),
+        "sin_hob": DIMENSIONS.arc_of_rule("lambda_hob")[0],
     },
 )
 
@@ -256,6 +273,21 @@ V_somewhere = cross(w1*vec(0, 0, 1) - omega2, hob) + cross(T(machine)@seen, omeg
     extends=MESH,
 )
 
+TABLE_2 = (
+    "Std �800.0 6.3120 �797.4533 �2.8880 6.3148 �803.5230 0.3102 6.91\n"
+    "�400.0 7.5492 �398.8153 �1.4440 7.5498 �401.4447 0.0701\n\n"
+    "0 8.7733 0 0 8.7732 �0.0002 0\n400.0 9.9884 398.9577 1.4441 9.9888 401.0173 0.0589\n"
+    "800.0 11.1973 798.0322 2.8881 11.1988 801.7385 0.2181\n\n"
+    "Semi 0 6.8036 0 0 6.8036 �0.0001 0 7.39\n400.0 8.0187 398.9608 1.4441 8.0191 401.0128 0.0587\n"
+    "800.0 9.2277 798.0377 2.8882 9.2291 801.7315 0.2173\n\n"
+    "1200.0 10.4324 1197.2115 4.3324 10.4353 1202.2409 0.4552\n"
+    "1600.0 11.6341 1596.4673 5.7766 11.6387 1602.5987 0.7569\n\n"
+    "Full 400.0 6.0490 398.9639 1.4441 6.0494 400.0083 0.0585 7.58\n"
+    "800.0 7.2580 798.0433 2.8882 7.2595 801.7246 0.2165\n\n"
+    "1200.0 8.4628 1197.2190 4.3323 8.4657 1202.2329 0.4537\n"
+    "1600.0 9.6646 1596.4762 5.7764 9.6691 1602.5904 0.7545\n"
+    "2000.0 10.8644 1995.8032 7.2205 10.8706 2002.8372 1.1073"
+)
 ANGLES = (("phi2p", "phi3p"), ("dgh", "dgv"))
 DAMAGE = "the sign of this term is the glyph '\ufffd', which stands for minus and for minus-or-plus"
 
@@ -547,6 +579,16 @@ CLAIMS = (
         kind="definition",
     ),
     Claim(
+        "worm-normal",
+        "text at Eq (27)",
+        "the unit normal vector of RA worm expressed\n\nin coordinate system S3, which is identical to the unit normal "
+        "vector\nn1 of oversize ZN worm-type hob cutter as expressed in Eq. (4).",
+        "Identical in form: the worm of the drive has the hob's surface and normal with sizes of its own in the place "
+        "of r1, λ1, p1 and rt.",
+        BLADE,
+        ["worm = R1", "cross(d(worm, l1), d(worm, th1)) = N1"],
+    ),
+    Claim(
         "eq-28",
         "Eq (28)",
         "n_w(3) = [cos φ3′nx3 � sin φ3′ny3; sin φ3′nx3 + cos φ3′ny3; nz3]",
@@ -575,15 +617,15 @@ CLAIMS = (
         "Since |n_w(3)| = 1 and |n_w(2)| = 1, Eqs. (16)–(18) yield a system of six independent nonlinear equations "
         "with seven independent parameters",
         "One of the three equations (18) follows from the other two: the difference of two unit vectors is "
-        "perpendicular to their sum. No other one does: a small turn w moves a normal by w × n, which can be any "
-        "change e - n(n·e) at right angles to it, and a shift moves the three coordinates of (17) as it likes while "
-        "the normals stay. Nor does (16): (17) and (18) hold wherever a worm is laid against the locus of the hob, "
-        "and there f/ω1 may be m21 sin γ1 Z1 (φ1 = 0, N1 along X1, Y1 = 0).",
+        "perpendicular to their sum. None of the others follows from the rest whatever the two surfaces are: a small "
+        "turn w moves a normal by w × n, which can be any change e - n(n·e) at right angles to it, a shift moves the "
+        "three coordinates of (17) and leaves the normals, and f/ω1 need not be 0 on the locus of the hob: it is "
+        "m21 sin γ1 Z1 where φ1 = 0, N1 lies along X1 and Y1 = 0. That the six are independent at a contact of given "
+        "surfaces is not to be had in letters; each certified contact proves it there, its Jacobian being regular.",
         COUNT,
         [
             "dot(n_w3 - n_w2, n_w3 + n_w2) = dot(n_w3, n_w3) - dot(n_w2, n_w2)",
             "cross(cross(n_w3, e), n_w3) = dot(n_w3, n_w3)*e - dot(n_w3, e)*n_w3",
-            "d(R_w2 + t*e, t) = e",
             "dot(vec(1, 0, 0), V_somewhere) = w1*m21*sin(gamma1)*Z1",
         ],
         conditions=["near parallel normals (n_w3 + n_w2 ≠ 0)"],
@@ -657,11 +699,17 @@ CLAIMS = (
         "Eq (36)",
         "λ1 = sin⁻¹( mn cos λ3 / (2 r1) )",
         "Hob and worm cut and fill the same wheel, so their normal pitches, lead times cosine over threads, are equal. "
-        "Their difference is 2π r1/T1 times sin λ1 - mn T1/(2 r1): equal pitch is this equation and no other. The "
-        "printed form holds for one thread if mn were the worm's axial module.",
+        "Their difference is 2π r1/T1 times sin λ1 - mn T1/(2 r1): equal pitch is this equation and no other, and "
+        "it is the drive's own rule for λ1. The printed form holds for one thread if mn were the worm's axial module.",
         SIZES,
-        "sin(lam1) - mn*cos(lam3)/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
-        corrected="sin(lam1) - mn*T1/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
+        [
+            "sin(lam1) - mn*cos(lam3)/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
+            "sin_hob = mn*cos(lam3)/(2*r1)",
+        ],
+        corrected=[
+            "sin(lam1) - mn*T1/(2*r1) = T1/(2*pi*r1)*(pitch_1 - pitch_3)",
+            "sin_hob = mn*T1/(2*r1)",
+        ],
         conditions=["r1 ≠ 0"],
     ),
     Claim(
@@ -696,9 +744,12 @@ CLAIMS = (
         "pitch radius 19.11, 277.38 mm; meshing center distance 296.49 mm",
         "The sizes of worm and wheel follow from mn = 2 mm, 1 and 277 teeth and λ3 = 3 deg.",
         [
-            Figure("2*1/(2*sin(radians(3)))", "19.11", "mm"),
-            Figure("2*277/(2*cos(radians(3)))", "277.38", "mm"),
-            Figure("2*1/(2*sin(radians(3))) + 2*277/(2*cos(radians(3)))", "296.49", "mm"),
+            Figure(written(value, EXAMPLE), printed, "mm")
+            for value, printed in (
+                (SIZES_OF_TABLE.rule("r_worm"), "19.11"),
+                (SIZES_OF_TABLE.size("wheel_pitch_radius_mm"), "277.38"),
+                (SIZES_OF_TABLE.rule("A"), "296.49"),
+            )
         ],
     ),
     Claim(
@@ -723,11 +774,10 @@ CLAIMS = (
         "§3",
         "tooth thicknesses ... become 1.22 and 0.86 mn ... tooth thickness of the generated worm gear at its normal "
         "pitch circle is 1.51 mn",
-        "π/2 - 2 (dx/mn) tan 10° with dx/mn = 1, 2, 0. The standard value must be 1.57; 0.86 is cut, not rounded.",
+        "The drive's own width for dx/mn = 1, 2, 0 and mn = 1: π/2 - 2 (dx/mn) tan 10°. The standard value must be 1.57; 0.86 is cut, not rounded.",
         [
-            Figure("pi/2 - 2*1*tan(radians(10))", "1.22"),
-            Figure("pi/2 - 2*2*tan(radians(10))", "0.86"),
-            Figure("pi/2", "1.51"),
+            Figure(written(SIZES_OF_TABLE.size("groove_width_mm"), EXAMPLE | {"m_n": "1", "dx": dx}), printed)
+            for dx, printed in (("1", "1.22"), ("2", "0.86"), ("0", "1.51"))
         ],
     ),
     Claim(
@@ -760,7 +810,7 @@ CLAIMS = (
     FigureClaim(
         "table-2-hob-angle",
         "Table 2, column 7",
-        "Full 400.0 6.0490 398.9639 1.4441 6.0494 400.0083 0.0585 7.58",
+        TABLE_2,
         "Standard, semi and full differ by equal steps of dx, and θ1 with them: 401.0173, 401.0128, 401.0083 deg at "
         "400 deg as 801.7385, 801.7315, 801.7246 deg at 800 deg. One digit is wrong.",
         [Figure("2*401.0128 - 401.0173", "400.0083", "deg")],
@@ -768,19 +818,7 @@ CLAIMS = (
     FigureClaim(
         "table-2-wheel-angle",
         "Table 2, column 5",
-        "Std �800.0 6.3120 �797.4533 �2.8880 6.3148 �803.5230 0.3102 6.91\n"
-        "�400.0 7.5492 �398.8153 �1.4440 7.5498 �401.4447 0.0701\n\n"
-        "0 8.7733 0 0 8.7732 �0.0002 0\n400.0 9.9884 398.9577 1.4441 9.9888 401.0173 0.0589\n"
-        "800.0 11.1973 798.0322 2.8881 11.1988 801.7385 0.2181\n\n"
-        "Semi 0 6.8036 0 0 6.8036 �0.0001 0 7.39\n400.0 8.0187 398.9608 1.4441 8.0191 401.0128 0.0587\n"
-        "800.0 9.2277 798.0377 2.8882 9.2291 801.7315 0.2173\n\n"
-        "1200.0 10.4324 1197.2115 4.3324 10.4353 1202.2409 0.4552\n"
-        "1600.0 11.6341 1596.4673 5.7766 11.6387 1602.5987 0.7569\n\n"
-        "Full 400.0 6.0490 398.9639 1.4441 6.0494 400.0083 0.0585 7.58\n"
-        "800.0 7.2580 798.0433 2.8882 7.2595 801.7246 0.2165\n\n"
-        "1200.0 8.4628 1197.2190 4.3323 8.4657 1202.2329 0.4537\n"
-        "1600.0 9.6646 1596.4762 5.7764 9.6691 1602.5904 0.7545\n"
-        "2000.0 10.8644 1995.8032 7.2205 10.8706 2002.8372 1.1073",
+        TABLE_2,
         "φ2′ = φ3′/277 + KE/3600. Four entries differ: semi 800, 1200 and 1600 deg, full 800 deg.",
         [
             Figure(f"{angle}/277 + {error}/3600", printed, "deg")

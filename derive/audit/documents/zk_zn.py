@@ -7,8 +7,9 @@ way to put the signs back is true, and which index or number cannot be right wha
 from itertools import product
 
 from derive.audit.claims import Claim, Document, Figure, FigureClaim, scope
-from derive.audit.described import HALF_TURN, Described
+from derive.audit.described import HALF_TURN, HALF_TURN_Y, Described, written
 from derive.audit.ledger import Chapter
+from derive.prove.tree import Tree
 
 DOCUMENT = Document(
     key="zk-zn",
@@ -55,6 +56,8 @@ HOB = Described(
         "phi_hob": "phih", "r_hob": "rh",
     },
 )  # fmt: skip
+#: The hob, where the crossing angle is the shaft angle itself.
+HOB_ACROSS = Described(DRIVE, {**HOB.letters, "Sigma_gen": "gamma"})
 GROOVE = Described(
     DRIVE,
     {"dx": "(pi*m_n/2 - Sn)/(2*tan(alpha))", "alpha_hob": "alpha2", "alpha": "alpha2", "lambda_hob": "lam",
@@ -68,6 +71,16 @@ SIZE = Described(
         "Sigma": "pi - gamma", "T_2": "T2", "alpha": "alpha1", "u_worm": "0",
     },
 )  # fmt: skip
+#: Sizes of the tables, by their own letters.
+TABLE = Described(DRIVE, {"Sigma": "gamma", "lambda_worm": "lam"})
+
+
+def _table(value: Tree, crossing: int) -> str:
+    """A size of Table 1 at a crossing angle in degrees."""
+    numbers = {"m_n": "4", "T_1": "3", "T_2": "29", "lam": "radians(30)", "gamma": f"radians({crossing})"}
+    return written(value, numbers)
+
+
 DISC = WORM.sweep("pinion")
 SCREW = WORM.generation("pinion")
 
@@ -105,12 +118,33 @@ a21 = cos(phi2)*cos(gamma)*sin(phih) - sin(phi2)*cos(phih)
 a22 = cos(phi2)*cos(gamma)*cos(phih) + sin(phi2)*sin(phih)
 R2 = turn@locus
 L2h = turn@machine
+b11 = sin(phi2)*cos(gamma)*sin(phih) - cos(phi2)*cos(phih)
+b12 = sin(phi2)*cos(gamma)*cos(phih) + cos(phi2)*sin(phih)
+b21 = cos(phi2)*cos(gamma)*sin(phih) + sin(phi2)*cos(phih)
+b22 = cos(phi2)*cos(gamma)*cos(phih) - sin(phi2)*sin(phih)
+R2_across = turn_y@locus_across
+L2h_across = turn_y@machine_across
 """,
     described={
         "turn": HALF_TURN,
         "locus": HOB.carried(HOB.generation("wheel"), ("vec", "Xh", "Yh", "Zh")),
         "machine": HOB.matrix(HOB.generation("wheel")),
+        "turn_y": HALF_TURN_Y,
+        "locus_across": HOB_ACROSS.carried(HOB_ACROSS.generation("wheel"), ("vec", "Xh", "Yh", "Zh")),
+        "machine_across": HOB_ACROSS.matrix(HOB_ACROSS.generation("wheel")),
     },
+)
+
+#: Hob and wheel at the beginning of the cut, the lost signs of a coefficient printed with the index 11 left open.
+BEGINNING = scope(
+    "zk-zn.beginning",
+    """
+phi2 = 0
+phih = 0
+printed_11 = s1*sin(phi2)*cos(gamma)*sin(phih) + s2*cos(phi2)*cos(phih)
+""",
+    signs=["s1", "s2"],
+    extends=HOBBING,
 )
 
 HOB_SURFACE = scope(
@@ -134,16 +168,29 @@ MESH = Described(
     {"transmission_error": "phi2p - T_1/T_2*phi_worm", "Sigma": "pi - gamma", "dh": "-dgh", "dv": "0", "da": "0"},
 )
 
-#: The wheel's axis in the fixed frame; and any two normals.
+#: The wheel's axis in the fixed frame.
 ASSEMBLY = scope(
     "zk-zn.assembly",
-    """
-axis = mounted@(turn@vec(0, 0, 1))
-n1 = vec(ax, ay, az)
-n2 = vec(bx, by, bz)
-e = vec(ex, ey, ez)
-""",
+    "axis = mounted@(turn@vec(0, 0, 1))",
     described={"turn": HALF_TURN, "mounted": MESH.matrix(MESH.motion("wheel"))},
+)
+
+SPUR = scope(
+    "zk-zn.spur", "gamma = pi/3\nlam = pi/6", described={"helix": TABLE.size("wheel_helix_angle_deg")}
+)
+
+#: Any two normals; the equation of meshing of disc and worm; the velocity of a hob point seen from the wheel.
+COUNT = scope(
+    "zk-zn.count",
+    """
+na = vec(ax, ay, az)
+nb = vec(bx, by, bz)
+e = vec(ex, ey, ez)
+f_disc = dot(n1, d(R1, phi1))
+V_hob = T(machine)@d(locus, (phih, 1), (phi2, m2h))
+""",
+    extends=GRINDING,
+    described={name: HOBBING.definitions[name] for name in ("locus", "machine")},
 )
 
 LOST = "the signs are lost in the extraction"
@@ -254,11 +301,13 @@ CLAIMS = (
         "eq-5-row-1",
         "Eq (5), row 1",
         "a11 Xh � a12 Yh � sin γ sin φ2 Zh � A2 cos φ2",
-        "True with + + + -, as in Eq (7) of the recess-action paper.",
+        "True with + + + -, as in Eq (7) of the recess-action paper, whose γ is 180° less the shaft angle; and true "
+        "with + + - + where γ is the shaft angle itself, as Table 1 has it.",
         HOBBING,
         {
             "every lost sign +": "R2.x = a11*Xh + a12*Yh + sin(gamma)*sin(phi2)*Zh + A2*cos(phi2)",
-            "+ + -": "R2.x = a11*Xh + a12*Yh + sin(gamma)*sin(phi2)*Zh - A2*cos(phi2)",
+            "+ + -, γ = 180° - Σ": "R2.x = a11*Xh + a12*Yh + sin(gamma)*sin(phi2)*Zh - A2*cos(phi2)",
+            "+ - +, γ = Σ": "R2_across.x = b11*Xh + b12*Yh - sin(gamma)*sin(phi2)*Zh + A2*cos(phi2)",
         },
         damage=LOST,
     ),
@@ -267,7 +316,7 @@ CLAIMS = (
         "Eq (5), row 2",
         "a21 Xh � a11 Yh � sin γ cos φ2 Zh � A2 sin φ2",
         "The index of the second coefficient is printed 11; it must be 22, which the paper defines and uses nowhere "
-        "else. With 11 all 16 choices of the four signs are refuted.",
+        "else. With 11 all 16 choices of the four signs of this row are refuted, the other signs being those of row 1.",
         HOBBING,
         {
             "signs " + " ".join(signs): f"R2.y = {signs[0].strip('+')}a21*Xh {signs[1]} a11*Yh {signs[2]}"
@@ -277,14 +326,29 @@ CLAIMS = (
         confusable=[("a11", "a12", "a21", "a22")],
     ),
     Claim(
+        "eq-5-row-2-index",
+        "Eq (5), row 2",
+        "a21 Xh � a11 Yh � sin γ cos φ2 Zh � A2 sin φ2",
+        "No other choice of signs saves the index 11, in either sense of γ: where hob and wheel begin to turn the "
+        "coefficient of Yh is cos γ or its negative, and a coefficient of the form of a11 is 1 or -1.",
+        BEGINNING,
+        contradiction=[
+            "d(R2.y, Yh)**2 = cos(gamma)**2",
+            "d(R2_across.y, Yh)**2 = cos(gamma)**2",
+            "printed_11**2 = 1",
+        ],
+        conditions=["sin γ ≠ 0"],
+    ),
+    Claim(
         "eq-5-row-3",
         "Eq (5), row 3",
         "sin γ sin φh Xh � sin γ cos φh Yh � cos γ Zh",
-        "True with - - +.",
+        "True with - - +, or - - - where γ is the shaft angle itself.",
         HOBBING,
         {
             "every lost sign +": "R2.z = sin(gamma)*sin(phih)*Xh + sin(gamma)*cos(phih)*Yh + cos(gamma)*Zh",
-            "- - +": "R2.z = -sin(gamma)*sin(phih)*Xh - sin(gamma)*cos(phih)*Yh + cos(gamma)*Zh",
+            "- - +, γ = 180° - Σ": "R2.z = -sin(gamma)*sin(phih)*Xh - sin(gamma)*cos(phih)*Yh + cos(gamma)*Zh",
+            "- - -, γ = Σ": "R2_across.z = -sin(gamma)*sin(phih)*Xh - sin(gamma)*cos(phih)*Yh - cos(gamma)*Zh",
         },
         damage=LOST,
     ),
@@ -323,7 +387,7 @@ CLAIMS = (
         "where, at Eq (5)",
         "a11 = sin φ2 cos γ sin φh � cos φ2 cos φh; a12 = sin φ2 cos γ cos φh � cos φ2 sin φh; a21 = cos φ2 cos γ "
         "sin φh � sin φ2 cos φh; a22 = cos φ2 cos γ cos φh � sin φ2 sin φh",
-        "Entries of the rotation from hob to wheel: true with + - - +.",
+        "Entries of the rotation from hob to wheel: true with + - - +, or - + + - where γ is the shaft angle itself.",
         HOBBING,
         {
             "every lost sign +": [
@@ -332,11 +396,17 @@ CLAIMS = (
                 "entry(L2h, 2, 1) = cos(phi2)*cos(gamma)*sin(phih) + sin(phi2)*cos(phih)",
                 "entry(L2h, 2, 2) = a22",
             ],
-            "+ - - +": [
+            "+ - - +, γ = 180° - Σ": [
                 "entry(L2h, 1, 1) = a11",
                 "entry(L2h, 1, 2) = a12",
                 "entry(L2h, 2, 1) = a21",
                 "entry(L2h, 2, 2) = a22",
+            ],
+            "- + + -, γ = Σ": [
+                "entry(L2h_across, 1, 1) = b11",
+                "entry(L2h_across, 1, 2) = b12",
+                "entry(L2h_across, 2, 1) = b21",
+                "entry(L2h_across, 2, 2) = b22",
             ],
         },
         damage=LOST,
@@ -365,10 +435,13 @@ CLAIMS = (
         "assembly-angle",
         "§4",
         "axes Z_fw and Z_f form an angle of γ � Δγh during the meshing",
-        "The cosine of the angle between the two axes, as the drive mounts its wheel, without the vertical error: γ "
-        "+ Δγh in the sense in which γ is counted.",
+        "The wheel's axis as the drive mounts it, without the vertical error: γ + Δγh in the sense in which γ is "
+        "counted.",
         ASSEMBLY,
-        {"+": "axis.z = cos(gamma + dgh)", "-": "axis.z = cos(gamma - dgh)"},
+        {
+            "+": ["axis.z = cos(gamma + dgh)", "axis.y = -sin(gamma + dgh)"],
+            "-": ["axis.z = cos(gamma - dgh)", "axis.y = -sin(gamma - dgh)"],
+        },
         damage=LOST,
     ),
     Claim(
@@ -377,14 +450,18 @@ CLAIMS = (
         "three independent equations; two independent equations; two additional independent equations of meshing; "
         "totally seven independent equations with eight unknowns",
         "Three coordinates; of the three equations between unit normals one follows from the other two and no more, "
-        "since any change of a normal at right angles to it can come about; Eqs (4) and (7) hold u1 and φ2, which "
-        "the others leave open.",
-        ASSEMBLY,
+        "since any change of a normal at right angles to it can come about. Eq (4) is linear in u1, which the others "
+        "leave open, and gives it wherever its slope is not 0. Eq (7) changes with φ2, which the others leave open as "
+        "well: where the hob's normal is axial it is m sin γ (A2 - Xh cos φh + Yh sin φh). That the seven are "
+        "independent at a contact of given surfaces each certified contact proves, its Jacobian being regular.",
+        COUNT,
         [
-            "dot(n1 - n2, n1 + n2) = dot(n1, n1) - dot(n2, n2)",
-            "cross(cross(n1, e), n1) = dot(n1, n1)*e - dot(n1, e)*n1",
+            "dot(na - nb, na + nb) = dot(na, na) - dot(nb, nb)",
+            "cross(cross(na, e), na) = dot(na, na)*e - dot(na, e)*na",
+            "f_disc = d(f_disc, u1)*(u1 - U1)",
+            "V_hob.z = m2h*sin(gamma)*(A2 - Xh*cos(phih) + Yh*sin(phih))",
         ],
-        conditions=["near parallel normals (n1 + n2 ≠ 0)"],
+        conditions=["near parallel normals (n1 + n2 ≠ 0)", "∂(n1·V)/∂u1 ≠ 0"],
     ),
     Claim(
         "eq-14",
@@ -397,9 +474,13 @@ CLAIMS = (
         "table-1",
         "Table 1",
         "pitch radius 12.00 mm, 60.05 mm",
-        "mn T1/(2 sin λ), and mn T2/(2 sin(γ + λ)) at γ = 45° only: at every other crossing angle the wheel is "
-        "another one.",
-        [Figure("4*3/(2*sin(radians(30)))", "12.00", "mm"), Figure("4*29/(2*sin(radians(75)))", "60.05", "mm")],
+        "The drive's own sizes with γ as the shaft angle, mn T1/(2 sin λ) and mn T2/(2 sin(γ + λ)), the latter at γ = "
+        "45° only: at every other crossing angle the wheel is another one. With γ as 180° less the shaft angle it "
+        "would be 224.09 mm.",
+        [
+            Figure(_table(TABLE.rule("r_worm"), 45), "12.00", "mm"),
+            Figure(_table(TABLE.size("wheel_pitch_radius_mm"), 45), "60.05", "mm"),
+        ],
     ),
     FigureClaim(
         "wheel-lead-angle",
@@ -407,7 +488,7 @@ CLAIMS = (
         "lead angle of the worm wheel 30.0°",
         "30° is the worm's and hob's lead angle. At γ = 45° the wheel's teeth are inclined by 15° to its axis: lead "
         "angle 75°.",
-        [Figure("90 - (90 - 30 - 45)", "30.0", "deg")],
+        [Figure(f"90 - 180/pi*({_table(TABLE.size('wheel_helix_angle_deg'), 45)})", "30.0", "deg")],
     ),
     FigureClaim(
         "contact-ratio",
@@ -445,16 +526,16 @@ CLAIMS = (
         "Right/Left handed of teeth RH LH",
         "At γ = 45° the wheel's helix angle 90° - γ - λ is 15°, positive: of the hand opposite to the worm's. So it "
         "is at 30°.",
-        [Figure("90 - 45 - 30", ">0"), Figure("90 - 30 - 30", ">0")],
+        [Figure(_table(TABLE.size("wheel_helix_angle_deg"), crossing), ">0") for crossing in (45, 30)],
     ),
-    FigureClaim(
+    Claim(
         "hand-of-the-others",
         "§7",
         "the right-handed ZK-type worm and left-handed ZN-type worm wheel",
-        "At γ = 60° the wheel's helix angle 90° - γ - λ is 0, a spur wheel; at 90° it is -30°, right-handed like the "
-        "worm.",
-        [Figure("90 - 90 - 30", ">0")],
-        final=True,
+        "Of γ = 60°. There the wheel's helix angle 90° - γ - λ is 0: a spur wheel, of neither hand. At 90° it is -30°, "
+        "right-handed like the worm.",
+        SPUR,
+        contradiction="helix = 0",
     ),
     Claim(
         "no-error",

@@ -141,9 +141,9 @@ tangent = mat([cos_t, s*sin_t, 0], [-s*sin_t, cos_t, 0], [0, 0, 1])
     described=gear(UNMODIFIED)
     | {
         "r_b": DRIVE.size("pinion_base_radius_mm"),
-        "sine_of_base_helix": DRIVE.operands("pinion_base_helix_angle_deg")[0],
-        "tangent_over": DRIVE.operands("pinion_transverse_pressure_angle_deg")[0],
-        "tangent_under": DRIVE.operands("pinion_transverse_pressure_angle_deg")[1],
+        "sine_of_base_helix": DRIVE.arc_of_size("pinion_base_helix_angle_deg")[0],
+        "tangent_over": DRIVE.arc_of_size("pinion_transverse_pressure_angle_deg")[0],
+        "tangent_under": DRIVE.arc_of_size("pinion_transverse_pressure_angle_deg")[1],
     },
 )
 

@@ -38,10 +38,11 @@ DOCUMENT = Document(
 DRIVE = Described(
     "cylindrical_worm_zn_zn",
     {
-        "tan(lambda_hob)": "p/r_hob", "tan(lambda_worm)": "p/r_worm", "T_hob*phi_hob/T_2": "phi2", "A_gen": "A",
-        "Sigma_gen": "Sigma", "phi_hob": "phi", "psi_hob": "psi", "psi_worm": "psi", "phi_worm": "phi1",
+        "tan(lambda_hob)": "p/r_hob", "T_hob*phi_hob/T_2": "phi2", "A_gen": "A", "Sigma_gen": "Sigma",
+        "phi_hob": "phi", "psi_hob": "psi",
     },
 )  # fmt: skip
+MESHED = Described(DRIVE.drive, {"tan(lambda_worm)": "p/r_worm", "psi_worm": "psi", "phi_worm": "phi1"})
 CUTTING = DRIVE.generation("wheel")
 PROFILE = ("vec", ("jet", "Px", 0), ("jet", "Py", 0), ("jet", "Pz", 0))
 
@@ -81,9 +82,9 @@ n = mounted@cross(d(flank, t), d(flank, psi))
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
     described={
         "P": PROFILE,
-        "flank": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
-        "mounted": DRIVE.matrix(DRIVE.motion("pinion")),
-        "placed": DRIVE.carried(DRIVE.motion("pinion"), "flank"),
+        "flank": MESHED.carried(MESHED.sweep("pinion"), "P"),
+        "mounted": MESHED.matrix(MESHED.motion("pinion")),
+        "placed": MESHED.carried(MESHED.motion("pinion"), "flank"),
     },
 )
 

@@ -384,14 +384,15 @@ CLAIMS = (
         "relative",
         "limits of validity",
         "A function whose sign has no meaning of its own, such as the singular function of a surface, is divided by "
-        "its value at a regular point. The quotient does not change with the length or the side of the normals it "
-        "was made with, and has the sign of the product of both values: positive where there is no zero between.",
+        "its value at a regular point. The quotient has the sign of the product of both values, positive where there is "
+        "no zero between; with the lengths k and k0 of the normals it was made with it changes by their quotient, and "
+        "not at all with their side.",
         [
-            "triple(A, B, k*n)/triple(A0, B0, k*n0) = g/g0",
+            "triple(A, B, k*n)/triple(A0, B0, k0*n0) = k/k0*(g/g0)",
             "g/g0*g0**2 = g*g0",
         ],
         SCALED,
-        conditions=["the function does not vanish at the reference point", "k ≠ 0"],
+        conditions=["the function does not vanish at the reference point", "k, k0 ≠ 0"],
     ),
     identity(
         "quotient",

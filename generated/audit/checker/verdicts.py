@@ -71,6 +71,10 @@ def check_verdict(verdict: dict, objects: dict[str, dict]) -> None:
     require(source["locator"] and verdict["plain"], f"{verdict['id']}: words are missing")
     require(source["verbatim"] or not printed, f"{verdict['id']}: the print is missing")
     check_bindings(verdict, source, objects)
+    require(
+        verdict["described"] == drives_read(verdict, objects),
+        f"{verdict['id']}: not the drives whose descriptions its equations read",
+    )
     roles = ("readings", "corrected", "contradiction")
     outcomes = [[outcome_of(reading, verdict, objects) for reading in verdict[role]] for role in roles]
     if outcomes[0] or outcomes[2]:
@@ -81,6 +85,17 @@ def check_verdict(verdict: dict, objects: dict[str, dict]) -> None:
     else:
         judged_by_words = ("not_mathematical", "definition") + (("ambiguous",) if verdict["missing"] else ())
         require(verdict["status"] in judged_by_words, f"{verdict['id']}: nothing is judged")
+
+
+def drives_read(verdict: dict, objects: dict[str, dict]) -> list[str]:
+    """The drives that the definitions of a verdict's equations were read from."""
+    found = set()
+    for reading in (*verdict["readings"], *verdict["corrected"], *verdict["contradiction"]):
+        for part in reading["parts"]:
+            for key in linked(objects, part["equation"], "equation")["where"].values():
+                if (origin := linked(objects, key, "step")["read"]) is not None:
+                    found.add(origin["drive"])
+    return sorted(found)
 
 
 def check_bindings(verdict: dict, source: dict, objects: dict[str, dict]) -> None:
