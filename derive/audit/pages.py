@@ -241,8 +241,8 @@ def _definitions(document: Document, verdicts: Sequence[Verdict]) -> list[tuple[
     found: dict[str, tuple[Markup, str, str]] = {}
     for name, tree in _used_definitions(verdicts):
         origin = origin_of(tree)
-        read = (origin.drive, words_of(origin.part)) if origin else ("", "")
-        found.setdefault(anchor(name, tree), (Markup(mathml.equation(name, tree)), *read))
+        drive, read = (origin.drive, words_of(origin.part)) if origin else ("", "")
+        found.setdefault(anchor(name, tree), (Markup(mathml.equation(name, tree)), drive, read))
     return [(key, *shown) for key, shown in found.items()]
 
 

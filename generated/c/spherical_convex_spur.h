@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 229, set_phi 7, R 116, R and J 270, step 304, observe 547.
- * Equations (hash 006cafb6bb9f4277e3d0bb973168d40e178a370cd9257ad42a4aeb78ef8b2cd8):
+ * Equations (hash 5d5d148361175c8499230ee643539e5050c3c9c98d84ee9cf837c1cf434a3584):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact

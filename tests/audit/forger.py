@@ -68,6 +68,9 @@ class Forger:
     def certificate(self, name):
         return self.one(object="certificate", equation=self.equation(name)["sha256"])
 
+    def step(self, name):
+        return self.one(object="step", id=name)
+
     def proof(self, left, right, /, name="recess-action/eq-12/as printed/1", **parts):
         """An equation and its certificate replaced by another statement with an empty numerator."""
         equation, certificate = self.equation(name), self.certificate(name)
@@ -79,7 +82,7 @@ class Forger:
             "point": {"symbols": {}, "half_tangents": {}}, "lhs": ["0"], "rhs": ["0"],
         } | parts  # fmt: skip
         verdict = self.verdict(name.rsplit("/", 2)[0])
-        verdict["status"] = "proved"
+        verdict |= {"status": "proved", "described": []}
         verdict["readings"][0]["texts"] = [text]
         verdict["readings"][0]["parts"] = verdict["readings"][0]["parts"][:1]
         self.source(verdict["id"])["reading"] = {"as printed": [text]}
@@ -103,6 +106,8 @@ class Forger:
             for item in (item for item in kept if item["object"] == kind):
                 text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), canonical(item))
                 body = json.loads(text)
+                if kind == "step":
+                    body["inputs"].sort()
                 old, body["sha256"] = item["sha256"], sha256_of(body)
                 renamed[old] = body["sha256"]
                 objects[body["sha256"]] = body

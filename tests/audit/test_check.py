@@ -90,11 +90,13 @@ def test_no_record_is_reported_as_such(tmp_path):
 
 @pytest.fixture
 def proof(objects):
-    """A certificate with at least one relation, its equation and definitions."""
+    """A certificate of one component that needs a relation, its equation and definitions."""
     certificate = next(
         item
         for item in objects.values()
-        if item["object"] == "certificate" and item["kind"] == "ring_nf" and item["relations"]
+        if item["object"] == "certificate"
+        and item["kind"] == "ring_nf"
+        and [bool(component["numerator"]) for component in item["components"]] == [True]
     )
     equation = objects[certificate["equation"]]
     return certificate, equation, definitions_of(equation, objects)

@@ -290,8 +290,8 @@ def test_derivatives_are_along_what_is_there():
 
 #: Print and description, or two parts of the description, say it in the same words.
 IN_THE_SAME_WORDS = {
-    "recess-action/eq-3", "recess-action/eq-37", "recess-action/worm-normal", "zk-zn/eq-6", "bevel/fillet-join", "bevel/tangent-cones",
-    "face_worm/fillet-join",
+    "recess-action/eq-3", "recess-action/eq-37", "recess-action/worm-normal", "zk-zn/eq-6",
+    "bevel/fillet-join", "bevel/tangent-cones", "face_worm/fillet-join",
 }  # fmt: skip
 
 

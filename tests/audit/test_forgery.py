@@ -123,7 +123,8 @@ def refuted_circle(forger):
         forger.equation("recess-action/eq-12/as printed/1"), forger.certificate("recess-action/eq-12/as printed/1")
     )  # fmt: skip
     forger.objects.append(
-        {"object": "step", "id": "forged.a", "op": "define", "tree": ["/", "u", "r"], "inputs": [], "sha256": "e" * 64}
+        {"object": "step", "id": "forged.a", "op": "define", "tree": ["/", "u", "r"], "inputs": [], "read": None,
+         "sha256": "e" * 64}
     )
     equation |= {
         "lhs": ["+", ["^", ["cos", "a"], 2], ["^", ["sin", "a"], 2]], "rhs": 1, "where": {"a": "e" * 64},
@@ -137,7 +138,7 @@ def refuted_circle(forger):
         "differs": [0],
     }  # fmt: skip
     verdict = forger.verdict("recess-action/eq-12")
-    verdict["status"] = "false"
+    verdict |= {"status": "false", "described": []}
     verdict["readings"][0]["texts"] = ["cos(a)**2 + sin(a)**2 = 1"]
     forger.source("recess-action/eq-12")["reading"] = {"as printed": ["cos(a)**2 + sin(a)**2 = 1"]}
 
@@ -293,7 +294,8 @@ def two_certificates(forger):
 
 def unused_object(forger):
     forger.objects.append(
-        {"object": "step", "id": "forged.x", "op": "define", "tree": "y", "inputs": [], "sha256": "c" * 64}
+        {"object": "step", "id": "forged.x", "op": "define", "tree": "y", "inputs": [], "read": None,
+         "sha256": "c" * 64}
     )
 
 
@@ -310,6 +312,43 @@ def step_with_an_input_it_does_not_use(forger):
 
 def step_under_another_operation(forger):
     next(item for item in forger.objects if item.get("op") == "diff")["op"] = "define"
+
+
+def read_from_another_part(forger):
+    forger.step("rack-and-pinion.R1")["read"]["part"] = ["carried", ["sweep", "wheel", 0, 2], ["given", "P"]]
+
+
+def read_with_other_letters(forger):
+    letters = forger.step("rack-and-pinion.r1")["read"]["letters"]
+    letters[[old for old, _ in letters].index("phi_worm")][1] = "-phi1"
+
+
+def read_with_a_letter_that_stands_for_two_things(forger):
+    letters = forger.step("rack-and-pinion.R1")["read"]["letters"]
+    letters.insert(0, ["tan(lambda_hob)", "p/r_hob"])
+
+
+def read_from_another_drive(forger):
+    forger.step("rack-and-pinion.R1")["read"]["drive"] = "cylindrical_worm_za_za"
+
+
+def read_from_no_drive(forger):
+    for step in forger.objects:
+        if step.get("read"):
+            step["read"]["drive"] = "../audit/artifacts"
+    for verdict in forger.objects:
+        if verdict.get("described"):
+            verdict["described"] = ["../audit/artifacts"]
+
+
+def read_and_called_typed(forger):
+    for step in forger.objects:
+        if "read" in step:
+            step["read"] = None
+
+
+def typed_and_called_read(forger):
+    forger.step("rack-and-pinion.n")["read"] = forger.step("rack-and-pinion.R1")["read"]
 
 
 def key_added(forger):
@@ -370,6 +409,13 @@ FORGED = [
     (definition_of_another_name, "another step's name"),
     (step_with_an_input_it_does_not_use, "not used"),
     (step_under_another_operation, "operation of its tree"),
+    (read_from_another_part, "not what the description"),
+    (read_with_other_letters, "not what the description"),
+    (read_with_a_letter_that_stands_for_two_things, "stands for two things"),
+    (read_from_another_drive, "not the drives"),
+    (read_from_no_drive, "is no drive"),
+    (read_and_called_typed, "not the drives"),
+    (typed_and_called_read, "no vector that is read"),
     (key_added, "not the keys"),
     (key_left_out, "not the keys"),
     (print_left_out, "print is missing"),
@@ -473,7 +519,24 @@ def repeated_line(folder):
     path.write_text("".join([lines[0], *lines]))
 
 
+def edited_description(folder):
+    """The wheel turns the other way in the mesh; the record is that of before."""
+    path = folder.parent / "descriptions" / "cylindrical_worm_zn_zn.json"
+    data = json.loads(path.read_text(encoding="utf-8"))
+    turn = data["bodies"][1]["motion"][-1]
+    turn[2] = ["*", -1, turn[2]]
+    path.write_text(json.dumps(data), encoding="utf-8")
+    reseal(folder)
+
+
+def no_description(folder):
+    (folder.parent / "descriptions" / "cylindrical_worm_zn_zn.json").unlink()
+    reseal(folder)
+
+
 FILES = [
+    (edited_description, "not what the description of cylindrical_worm_zn_zn says"),
+    (no_description, "there is no description"),
     (altered("index.html", "proved", "false"), "index.html has been changed"),
     (altered("audit.tex", "proved", "false"), "audit.tex has been changed"),
     (altered("checker/refusal.py", "Rejected", "Accepted"), "checker/refusal.py has been changed"),

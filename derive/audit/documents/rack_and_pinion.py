@@ -61,12 +61,11 @@ CROSSED = Described(DRIVE.drive, dict(DRIVE.letters) | {"Sigma": "shaft"})
 
 
 def _mounted(drive: Described) -> dict:
-    """The wheel's placement, and a point of it that turns with it."""
+    """How the wheel is turned, and where its centre lies."""
     wheel = drive.motion("wheel")
     return {
         "mounted": drive.matrix(wheel),
         "seat": drive.carried(wheel, ("vec", 0, 0, 0)),
-        "spun": drive.carried(wheel, ("vec", "wx", "wy", "wz")),
     }
 
 
@@ -79,8 +78,10 @@ k1 = vec(0, 0, 1)
 i2 = -i1
 j2 = -k1
 k2 = -j1
-omega1 = k1
-omega2 = I*k2
+spin_1 = d(turned, phi1)@T(turned)
+spin_2 = d(mounted, (phi2, I))@T(mounted)
+omega1 = vec(entry(spin_1, 3, 2), entry(spin_1, 1, 3), entry(spin_1, 2, 1))
+omega2 = vec(entry(spin_2, 3, 2), entry(spin_2, 1, 3), entry(spin_2, 2, 1))
 psi = lam + phi1
 e = vec(cos(psi), sin(psi), 0)
 e1 = vec(-sin(psi), cos(psi), 0)
@@ -107,17 +108,13 @@ R2_phi1 = d(R2, (phi1, 1), (phi2, I))
         "P": ("vec", ("jet", "xi", 0), ("jet", "eta", 0), ("jet", "zeta", 0)),
         "R1": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
         "r1": DRIVE.carried(DRIVE.motion("pinion"), "R1"),
+        "turned": DRIVE.matrix(DRIVE.motion("pinion")),
         **_mounted(DRIVE),
     },
 )
 
-RACK = scope(
-    "rack-and-pinion.rack",
-    """
-slid = xi*vec(cos(Psi), sin(Psi), 0) + eta*vec(-sin(Psi), cos(Psi), 0) + (zeta + p*Psi)*k1 - p*phi1*k1
-""",
-    extends=WORM,
-)
+#: The family in the place of its points along the helix, which stays.
+RACK = scope("rack-and-pinion.rack", "lam = Psi - phi1", extends=WORM)
 
 LIMIT = scope(
     "rack-and-pinion.limit",
@@ -202,7 +199,6 @@ r_2f = R2f*i1 + v*along
 ANY_SHAFT_ANGLE = scope(
     "rack-and-pinion.any-shaft-angle",
     """
-omega2 = -I*vec(0, sin(shaft), cos(shaft))
 seen = T(mounted)@(r1 - seat)
 f = -triple(d(seen, u), d(seen, lam), d(seen, (phi1, 1), (phi2, I)))
 D = omega2 - omega1 + tau*k1
@@ -240,8 +236,8 @@ CLAIMS = (
         [
             "cross(i2, j2) = k2",
             "dot(k1, k2) = 0",
-            "cross(omega1, r1) = d(r1, phi1)",
-            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
+            "omega1 = k1",
+            "omega2 = I*k2",
             "seat = -A*i2",
         ],
     ),
@@ -350,7 +346,7 @@ CLAIMS = (
         "a family of surfaces translating along -k_1 at constant speed p",
         "At fixed ψ the point moves by -p k1 per radian of φ1.",
         RACK,
-        "d(slid, phi1) = -p*k1",
+        "d(r1, phi1) = -p*k1",
     ),
     Claim(
         "pitch-line",
@@ -582,7 +578,6 @@ CLAIMS = (
         "meshing axis.",
         ONES,
         contradiction=[
-            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
             "dot(n, cross(D, r1) + W) = f",
             "4*dot(D, W) = (2*tau - middle)**2 + 4*sin(shaft) - 2*(1 + cos(shaft))*(1 + sin(shaft))",
         ],
@@ -605,7 +600,6 @@ CLAIMS = (
         "gear (Σ = 90°, p = 1, I = 1/2, A = 3) give two distinct meshing axes, at τ = 1 and τ = 3/2.",
         HELICAL,
         contradiction=[
-            "cross(omega2, spun - seat) = d(spun, (phi2, I))",
             "dot(n, cross(D, r1) + W) = f",
             "dot(D, W) = (tau - 1)*(tau - 3/2)",
         ],

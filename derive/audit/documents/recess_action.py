@@ -97,8 +97,8 @@ DIMENSIONS = Described(
 #: The sizes of Table 1, of axes at 90 degrees, and its numbers.
 SIZES_OF_TABLE = Described(DRIVE, {"r_worm": "r3", "lambda_worm": "lam3"})
 EXAMPLE = {
-    "m_n": "2", "T_1": "1", "T_2": "277", "lam3": "radians(3)", "Sigma": "radians(90)", "dx": "0", "alpha": "radians(10)",
-    "r3": "2*1/(2*sin(radians(3)))",
+    "m_n": "2", "T_1": "1", "T_2": "277", "lam3": "radians(3)", "Sigma": "radians(90)", "dx": "0",
+    "alpha": "radians(10)", "r3": "2*1/(2*sin(radians(3)))",
 }  # fmt: skip
 #: The groove's width as its own letter.
 GROOVE = Described(
@@ -774,7 +774,8 @@ CLAIMS = (
         "§3",
         "tooth thicknesses ... become 1.22 and 0.86 mn ... tooth thickness of the generated worm gear at its normal "
         "pitch circle is 1.51 mn",
-        "The drive's own width for dx/mn = 1, 2, 0 and mn = 1: π/2 - 2 (dx/mn) tan 10°. The standard value must be 1.57; 0.86 is cut, not rounded.",
+        "The drive's own width for dx/mn = 1, 2, 0 and mn = 1: π/2 - 2 (dx/mn) tan 10°. The standard value must be "
+        "1.57; 0.86 is cut, not rounded.",
         [
             Figure(written(SIZES_OF_TABLE.size("groove_width_mm"), EXAMPLE | {"m_n": "1", "dx": dx}), printed)
             for dx, printed in (("1", "1.22"), ("2", "0.86"), ("0", "1.51"))

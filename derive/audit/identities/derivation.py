@@ -384,9 +384,9 @@ CLAIMS = (
         "relative",
         "limits of validity",
         "A function whose sign has no meaning of its own, such as the singular function of a surface, is divided by "
-        "its value at a regular point. The quotient has the sign of the product of both values, positive where there is "
-        "no zero between; with the lengths k and k0 of the normals it was made with it changes by their quotient, and "
-        "not at all with their side.",
+        "its value at a regular point. The quotient has the sign of the product of both values, positive where there "
+        "is no zero between; with the lengths k and k0 of the normals it was made with it changes by their quotient, "
+        "and not at all with their side.",
         [
             "triple(A, B, k*n)/triple(A0, B0, k0*n0) = k/k0*(g/g0)",
             "g/g0*g0**2 = g*g0",
