@@ -76,7 +76,7 @@ EDITS = {
     ),
     "wheel turned the other way in mesh": (
         ZN, lambda d: negated_angle(d["bodies"][1]["motion"], -1), rack_and_pinion,
-        ["frames", "meshing", "existence", "uniqueness"],
+        ["frames", "pitch-radius-wheel", "eq-1", "axis-2", "existence", "uniqueness"],
     ),
     "helix of the other hand": (
         ZN, lambda d: negated_angle(steps(d, "pinion")[0]["motion"], 1), rack_and_pinion, ["worm-surface", "helicoid"],
