@@ -67,3 +67,21 @@ def test_a_long_formula_breaks_between_its_terms():
     whole = "".join(re.findall(r">([^<>]+)<", "".join(pieces)))
     assert whole == "m(acosx+bsinx−ccosysinx+dsiny)+ecosxcosy"
     assert MathML().pieces(parse("a + b")) == [MathML().write(parse("a + b"))]
+
+
+def test_a_page_says_where_its_definitions_were_read_and_in_which_letters():
+    page = text("recess-action.html")
+    told = re.findall(r'read from <a href="drive-(\w+)\.html">(\w+)</a>: ([^<]+)</span>', page)
+    assert ("cylindrical_worm_zn_zn",) * 2 + ("operand 1 of the arc function in rule 1 for lambda_hob",) in told
+    letters = page[page.index("Letters of the drives") :]
+    assert {drive for drive, _, _ in told} == set(re.findall(r'href="drive-(\w+)\.html"', letters))
+    assert "Sigma_gen → pi - gamma1" in letters
+
+
+@pytest.mark.parametrize(
+    ("entry", "said"),
+    [("helicoid", "Reads the description of <a"), ("inverse-rotation", "Of mathematics in general: it reads no")],
+)
+def test_a_statement_says_which_descriptions_it_reads_or_that_it_reads_none(entry, said):
+    page = text("rack-and-pinion.html")
+    assert said in page[page.index(f'id="{entry}"') :].partition("</section>")[0]
