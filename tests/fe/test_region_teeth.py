@@ -104,16 +104,43 @@ def mesh_faces():
     return (0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
 
 
-@pytest.mark.parametrize("member", quick(("pinion", "wheel")))
-def test_ends_in_any_section_are_those_that_the_region_has(member):
-    """Undercut or not, to 1e-9 mm; flank and fillet meet to the micrometre's thousandth."""
-    tooth, _ = gear_tooth(Drive.load("bevel-hypoid"), member, None)
-    values = np.sort(np.random.default_rng(3).uniform(*tooth.faces, 12))
+def whole(design):
+    """With a whole blank, of the standard proportions where the design leaves it open."""
+    return Drive(Drive.load(design).design.with_whole_blank()[0])
+
+
+def changes(known):
+    """Numbers of the known sections after which lines end for other reasons."""
+    return np.flatnonzero(np.any([why[1:] != why[:-1] for why in known.ends.values()], axis=0))
+
+
+@pytest.mark.parametrize(
+    ("design", "member"), quick((("bevel-hypoid", "pinion"), ("bevel-hypoid", "wheel"), ("plain-zc", "wheel")))
+)
+def test_ends_in_any_section_are_those_that_the_region_has(design, member):
+    """Undercut or not, beside a change of what ends the lines or not, to 1e-9 mm; flank and fillet meet to the
+    micrometre's thousandth.
+    """
+    tooth, _ = gear_tooth(whole(design), member, None)
+    values = np.random.default_rng(3).uniform(*tooth.faces, 12)
     for side in tooth.sides:
-        for near, exact in zip(KnownSide.of(side, tooth.faces).at(values), side.at(values), strict=True):
+        known = KnownSide.of(side, tooth.faces)
+        beside = np.ravel([known.values[changes(known) + k] + (0.5 - k) * 1e-4 for k in (0, 1)])
+        values = np.sort(np.concatenate([values, beside]))
+        for near, exact in zip(known.at(values), side.at(values), strict=True):
             for end in ("lower", "upper"):
                 places = [of.region.flank(getattr(of, end)).points for of in (near, exact)]
                 assert places[0] == pytest.approx(places[1], abs=1e-9)
+
+
+def test_sections_are_known_close_to_where_the_reasons_change():
+    """So that few lines are left to the side itself; there are such changes on the wheel of a ZC worm."""
+    tooth, _ = gear_tooth(whole("plain-zc"), "wheel", None)
+    sides = [KnownSide.of(side, tooth.faces) for side in tooth.sides]
+    assert any(len(changes(known)) for known in sides)
+    for known in sides:
+        assert (np.diff(known.values) > 0.0).all() and len(known.flank.along) == len(known.values)
+        assert (np.diff(known.values)[changes(known)] < 1e-4 * np.ptp(tooth.faces)).all()
 
 
 @pytest.mark.parametrize("member", quick(("pinion", "wheel"), "pinion"))

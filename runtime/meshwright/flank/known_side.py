@@ -2,7 +2,7 @@
 
 Between two known sections whose lines end for the same reasons, a limit, a crossing of flank and fillet or the end of
 the fillet on the flank, the ends are found by Newton's method from those beside them; elsewhere the side itself finds
-them.
+them. Where the reasons change, sections are known closer and closer to the change.
 """
 
 from __future__ import annotations
@@ -16,8 +16,11 @@ from meshwright.flank.region import Region
 from meshwright.flank.sections import lengthwise, solved
 from meshwright.flank.sides import Bools, Floats, Ints, RegionSide
 
-#: Sections in which a side is known.
+#: Sections in which a side is known, equally far apart.
 KNOWN = 65
+#: A distance between two of them that end for other reasons is divided into so many parts, and so often; not where
+#: there are more of them: such reasons are hard to tell apart, and change at no place.
+PARTS, TIMES, MOST = 16, 2, 12
 NEWTON_STEPS = 12
 #: A step of this, in sizes of the parameters, is none.
 STILL = 1e-14
@@ -42,7 +45,26 @@ class KnownSide:
     @classmethod
     def of(cls, side: RegionSide, faces: tuple[float, float]) -> KnownSide:
         """Raises UsageError where a section holds no flank or fillet."""
-        values = np.linspace(*faces, KNOWN)
+        known = cls._of(side, np.linspace(*faces, KNOWN))
+        for _ in range(TIMES):
+            changed = np.flatnonzero(np.any([why[:-1] != why[1:] for why in known.ends.values()], axis=0))
+            if not 0 < len(changed) <= MOST:
+                break
+            first, last = known.values[changed], known.values[changed + 1]
+            known = known._with(cls._of(side, np.linspace(first, last, PARTS + 1)[1:-1].T.ravel()))
+        return known
+
+    def _with(self, more: KnownSide) -> KnownSide:
+        """Both as one."""
+        order = np.argsort(np.concatenate([self.values, more.values]))
+        ends = {key: np.concatenate([why, more.ends[key]])[order] for key, why in self.ends.items()}
+        fillet = self.fillet and more.fillet and _together(self.fillet, more.fillet, order)
+        flank = _together(self.flank, more.flank, order)
+        return KnownSide(self.side, flank.along, flank, fillet, ends)
+
+    @classmethod
+    def _of(cls, side: RegionSide, values: Floats) -> KnownSide:
+        """In the sections (V,) alone."""
         flank, fillet = side.at(values)
         ends = {}
         for name, own, whole in (("flank", side.flank, flank), ("fillet", side.fillet, fillet)):
@@ -95,9 +117,9 @@ class KnownSide:
 
     def beside(self, values: Floats) -> tuple[Ints, Floats]:
         """Number (K,) of the known section before each, and the share (K, 1) of the way to the next."""
-        at = np.clip((values - self.values[0]) / (self.values[1] - self.values[0]), 0.0, len(self.values) - 1.0)
-        before = np.minimum(at.astype(int), len(self.values) - 2)
-        return before, (at - before)[:, None]
+        before = np.clip(np.searchsorted(self.values, values, side="right") - 1, 0, len(self.values) - 2)
+        first, last = self.values[before], self.values[before + 1]
+        return before, np.clip((values - first) / (last - first), 0.0, 1.0)[:, None]
 
     def _near(self, known: Lines, name: str, values: Floats, sure: Bools) -> Lines:
         """Lines in sections (K,) from the known ones; ``sure`` (K,) is false from then on where one is not found."""
@@ -156,6 +178,12 @@ def _moved(lines: Lines, upper: bool, chosen: Bools, q: Floats) -> Lines:
     end = _end(lines, upper).copy()
     end[chosen] = q
     return lines.moved(upper=end) if upper else lines.moved(lower=end)
+
+
+def _together(lines: Lines, others: Lines, order: Ints) -> Lines:
+    ends = ("along", "lower", "upper")
+    both = (np.concatenate([getattr(lines, name), getattr(others, name)])[order] for name in ends)
+    return Lines(lines.region, *both)
 
 
 def _some(lines: Lines, chosen: Bools) -> Lines:
