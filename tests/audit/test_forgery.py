@@ -328,6 +328,34 @@ def read_with_a_letter_that_stands_for_two_things(forger):
     letters.insert(0, ["tan(lambda_hob)", "p/r_hob"])
 
 
+def read_with_a_letter_that_is_no_expression(forger):
+    forger.step("rack-and-pinion.R1")["read"]["letters"][0] = ["p", "p q"]
+
+
+def read_with_a_letter_of_a_high_power(forger):
+    forger.step("rack-and-pinion.R1")["read"]["letters"].append(["r_worm", "r_worm**1000000000"])
+
+
+def read_from_a_vector_of_a_high_power(forger):
+    vector = ["given", ["vec", ["^", "x", 10**9], 0, 0]]
+    forger.step("rack-and-pinion.R1")["read"]["part"] = ["carried", ["sweep", "pinion", 0, 2], vector]
+
+
+def read_from_the_rule_before_the_first(forger):
+    forger.step("rack-and-pinion.R1")["read"]["part"] = ["rule", "lambda_worm", 0]
+
+
+def read_from_factors_that_are_none(forger):
+    forger.step("rack-and-pinion.R1")["read"]["part"] = ["carried", ["sweep", "pinion", 0, 0], ["given", "P"]]
+
+
+def read_from_parts_in_parts(forger):
+    part = ["given", "P"]
+    for _ in range(400):
+        part = ["carried", ["sweep", "pinion", 0, 2], part]
+    forger.step("rack-and-pinion.R1")["read"]["part"] = part
+
+
 def read_from_another_drive(forger):
     forger.step("rack-and-pinion.R1")["read"]["drive"] = "cylindrical_worm_za_za"
 
@@ -412,6 +440,12 @@ FORGED = [
     (read_from_another_part, "not what the description"),
     (read_with_other_letters, "not what the description"),
     (read_with_a_letter_that_stands_for_two_things, "stands for two things"),
+    (read_with_a_letter_that_is_no_expression, "SyntaxError"),
+    (read_with_a_letter_of_a_high_power, "more than one digit"),
+    (read_from_a_vector_of_a_high_power, "exponent"),
+    (read_from_the_rule_before_the_first, "no number 0"),
+    (read_from_factors_that_are_none, "no such factors"),
+    (read_from_parts_in_parts, "not what the description|Recursion|nested"),
     (read_from_another_drive, "not the drives"),
     (read_from_no_drive, "is no drive"),
     (read_and_called_typed, "not the drives"),

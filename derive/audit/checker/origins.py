@@ -24,6 +24,8 @@ from .straight_line import Function
 
 ZERO = Number(0, (), {})
 UNIT = [[ONE if i == k else ZERO for i in range(3)] for k in range(3)]
+#: Characters of a letter, and exponents.
+LONGEST, HIGHEST = 200, 100
 ARCS = ("asin", "acos", "atan", "atan2")
 DRIVE = re.compile(r"[a-z][a-z0-9_]*")
 
@@ -42,7 +44,8 @@ def check_origins(folder: Path, objects: dict[str, dict]) -> int:
             drives[name] = Described(read_json(read_file(path)))
         try:
             on_both_flanks(check_origin, step, drives[name])
-        except (LookupError, ValueError, AttributeError, TypeError, StopIteration) as error:
+        except (ArithmeticError, AttributeError, LookupError, RecursionError, StopIteration, SyntaxError, TypeError,
+                ValueError) as error:  # fmt: skip
             raise Rejected(f"{step['id']}: {error!r}") from error
     return len(steps)
 
@@ -67,7 +70,7 @@ class Reading:
         self.document = Open({}, {}, self.run, self._draw, {})
         values: dict[str, Number] = {}
         for old, new in reversed(letters):
-            left, right = read_expression(old), read_expression(new)
+            left, right = expression_of(old), expression_of(new)
             here = Open({}, values, self.run, self._draw, {})
             if isinstance(left, str):
                 values = values | {left: here(right)}
@@ -124,7 +127,8 @@ class Reading:
         steps = {"sweep": made[:1], "moved": [step for step in made if step["step"] == "moved"][:1]}
         steps["generation"] = [step for step in made if step["step"] == "envelope"][-1:]
         motion = entry["motion"] if kind == "motion" else steps[kind][0]["motion"]
-        require(0 <= first < last <= len(motion), f"{kind} of {place} has not so many factors")
+        whole = type(first) is type(last) is int and 0 <= first < last <= len(motion)
+        require(whole, f"{kind} of {place} has no such factors")
         return motion[first:last]
 
     def _expression(self, part: list) -> object:
@@ -133,13 +137,13 @@ class Reading:
         match kind:
             case "rule":
                 target, place = words
-                return [value for name, value in d["rules"] if name == target][place - 1]
+                return numbered([value for name, value in d["rules"] if name == target], place)
             case "size":
                 return next(size["value"] for size in d["sizes"] if size["key"] == words[0])
             case "arc":
                 operation, *operands = self._expression(words[1])
                 require(operation in ARCS, f"{operation} is no arc function")
-                return operands[words[0] - 1]
+                return numbered(operands, words[0])
             case "name":
                 return words[0]
             case "contact":
@@ -148,7 +152,7 @@ class Reading:
                 margins = self.drive.entries[words[0]]["margins"]
                 return next(m["positive"] for m in margins if m["event"] == words[1])
             case "condition":
-                return self.drive.entries[words[0]]["surface"]["conditions"][words[1] - 1]
+                return numbered(self.drive.entries[words[0]]["surface"]["conditions"], words[1])
             case "solved":
                 made = self.drive.entries[words[0]]["surface"]["made"]
                 return next(step["value"] for step in made if step["step"] == "solved")
@@ -198,6 +202,19 @@ class Reading:
         raise Rejected(f"{str(tree)[:40]} is no matrix that is read from a description")
 
 
+def numbered(items: list, place: object) -> object:
+    """The first is number 1."""
+    require(type(place) is int and 1 <= place <= len(items), f"there is no number {place!r} of {len(items)}")
+    return items[place - 1]
+
+
+def expression_of(text: str) -> object:
+    """A letter, or what stands for it, as an expression of a description; short, with exponents of one digit."""
+    require(type(text) is str and len(text) <= LONGEST, "a letter is no short text")
+    require(not re.search(r"\*\*\s*[(+-]*\s*\d\d", text), f"{text}: an exponent of more than one digit")
+    return read_expression(text)
+
+
 def times(matrix: list[Number], vector: list[Number]) -> list[Number]:
     """A matrix, column by column, times a vector."""
     total = [ZERO] * 3
@@ -225,6 +242,7 @@ def prefix(tree: object) -> object:
         case "/":
             return ["*", prefix(operands[0]), ["^", prefix(operands[1]), -1]]
         case "^":
+            require(type(operands[1]) is int and abs(operands[1]) < HIGHEST, "an exponent is too high")
             return ["^", prefix(operands[0]), operands[1]]
         case "*":
             flat = [prefix(part) for part in operands]
