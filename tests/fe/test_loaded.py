@@ -107,6 +107,23 @@ def test_two_pairs_share_the_torque(concave, compliance):
     assert one.transmission_error == pytest.approx(-concave.ratio * one.rotation, rel=1e-6)
 
 
+def test_loads_do_the_same_work_on_one_anothers_displacements(concave, compliance, monkeypatch):
+    """Betti's theorem, of cells of both pairs with edges nearby, and cells that bear one another's loads stably."""
+    seen = []
+
+    def kept(cells, used, *more):
+        seen.append(cells.areas[used, None] * cells.between(used, used))
+        return of(cells, used, *more)
+
+    of = loaded._Touching.of
+    monkeypatch.setattr(loaded._Touching, "of", kept)
+    both = loaded_contact(concave, 0.35 * concave.pinion.pitch, 3, TORQUE, compliance)
+    assert sum(pair.force > 0.0 for pair in both.pairs) == 2
+    for work in seen:
+        assert work == pytest.approx(work.T, rel=1e-9, abs=1e-12 * work.max())
+        assert np.linalg.eigvalsh(work)[0] > 0.0
+
+
 def test_teeth_are_softer_than_half_spaces(concave, compliance):
     """And bend most below the middle of the load: the peak is lower than Hertz's, by less than 1 %."""
     with_teeth = loaded_contact(concave, 0.0, 1, TORQUE, compliance)

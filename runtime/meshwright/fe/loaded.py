@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import block_diag, lu_factor, lu_solve
+from scipy.linalg import LinAlgError, block_diag, cho_factor, cho_solve
 from scipy.ndimage import binary_dilation
 
 from meshwright.fe.compliance import ToothCompliance, without_negative
@@ -383,12 +383,17 @@ def _smooth(
 class _Touching:
     """Equilibrium of the cells ``used`` (U,), factorised, and of all of them but the rows ``dropped`` (R,).
 
-    whole (U + 1,): pressures of all and the rotation. inverse (U + 1, R): the columns of the inverse for what is
-    dropped: W. W. Hager, Updating the inverse of a matrix (1989).
+    factor: Cholesky's, of what forces on the cells move one another by, times both areas: two loads do the same work
+    on one another's displacements (E. Betti, 1872). turned (U,): pressures by which the cells follow a unit rotation;
+    levers (U,): moment of a unit pressure. whole (U + 1,): pressures of all and the rotation. inverse (U + 1, R): the
+    columns of the inverse for what is dropped: W. W. Hager, Updating the inverse of a matrix (1989).
     """
 
     used: Ints
-    factor: tuple[Floats, Ints]
+    factor: tuple[Floats, bool]
+    areas: Floats
+    levers: Floats
+    turned: Floats
     whole: Floats
     dropped: Ints
     inverse: Floats
@@ -397,14 +402,24 @@ class _Touching:
     def of(
         cls, cells: _Cells, used: Ints, gap: Floats, arms: Floats, areas: Floats, torque: float
     ) -> _Touching:
-        size = len(used)
-        system = np.zeros((size + 1, size + 1), order="F")
-        system[:size, :size] = cells.between(used, used)
-        system[:size, size] = -arms[used]
-        system[size, :size] = areas[used] * arms[used]
-        factor = lu_factor(system, overwrite_a=True, check_finite=False)
-        whole = lu_solve(factor, np.append(-gap[used], torque), check_finite=False)
-        return cls(used, factor, whole, np.empty(0, dtype=np.int64), np.empty((size + 1, 0)))
+        levers = areas[used] * arms[used]
+        system = cells.between(used, used)
+        system *= areas[used, None]
+        try:
+            # of a symmetric matrix; the transposed one is laid out as LAPACK overwrites it
+            factor = cho_factor(system.T, lower=True, overwrite_a=True, check_finite=False)
+        except LinAlgError as error:
+            raise ArithmeticError("the pressures of the cells in contact are not determined") from error
+        turned = cho_solve(factor, levers, check_finite=False)
+        none = np.empty(0, dtype=np.int64), np.empty((len(used) + 1, 0))
+        open_ = cls(used, factor, areas[used], levers, turned, np.empty(0), *none)
+        return replace(open_, whole=open_._solved(-gap[used, None], torque)[:, 0])
+
+    def _solved(self, displacements: Floats, torque: float) -> Floats:
+        """Pressures and rotation (U + 1, K) where cells move by (U, K) less what the rotation gives way to."""
+        pressures = cho_solve(self.factor, self.areas[:, None] * displacements, overwrite_b=True, check_finite=False)
+        rotation = (torque - self.levers @ pressures) / (self.levers @ self.turned)
+        return np.vstack([pressures + self.turned[:, None] * rotation, rotation])
 
     def most(self, active: Bools) -> bool:
         """Whether so many of the cells are still ``active`` (N,) that it is less work not to factorise them anew."""
@@ -413,12 +428,10 @@ class _Touching:
     def without(self, pulled: Bools) -> _Touching:
         """The same without further cells, given among all (N,)."""
         rows = np.setdiff1d(np.flatnonzero(pulled[self.used]), self.dropped)
-        units = np.zeros((len(self.whole), len(rows)), order="F")
+        units = np.zeros((len(self.used), len(rows)))
         units[rows, np.arange(len(rows))] = 1.0
-        columns = lu_solve(self.factor, units, overwrite_b=True, check_finite=False)
-        return replace(
-            self, dropped=np.concatenate([self.dropped, rows]), inverse=np.hstack([self.inverse, columns])
-        )
+        inverse = np.hstack([self.inverse, self._solved(units, 0.0)])
+        return replace(self, dropped=np.concatenate([self.dropped, rows]), inverse=inverse)
 
     def pressure(self, count: int) -> tuple[Floats, float]:
         """Pressures (count,) of all cells, and the rotation. Raises ArithmeticError where they are not determined."""
