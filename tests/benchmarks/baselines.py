@@ -6,6 +6,9 @@ from scipy.optimize import fsolve
 
 from tests.benchmarks.timing import best
 
+#: What the description's own functions of choice are in floating point, under the names that SymPy prints.
+CHOICES = {"excess": lambda a: max(a, 0.0), "unit_step": lambda a: 0.0 if a < 0.0 else 1.0}
+
 
 def _expanded(drive, expression):
     """The expression in inputs alone, its definitions put in."""
@@ -15,12 +18,15 @@ def _expanded(drive, expression):
     return expression
 
 
+def lambdified(drive, unknowns):
+    """The residual as a function of unknowns, instant and parameters, by ``lambdify(cse=True)``."""
+    symbols = [unknowns, drive.instant, [p.symbol for p in drive.parameters]]
+    return sp.lambdify(symbols, [_expanded(drive, r) for r in drive.residual], [CHOICES, "numpy"], cse=True)
+
+
 def scipy_points(plan, case):
     """Points a second of ``fsolve`` on ``lambdify(cse=True)``, each started from the point before."""
-    drive = plan.drive
-    symbols = [plan.unknowns, drive.instant, [p.symbol for p in drive.parameters]]
-    residual = sp.lambdify(symbols, [_expanded(drive, r) for r in drive.residual], cse=True)
-    angles = case.angles[:50]
+    residual, angles = lambdified(plan.drive, plan.unknowns), case.angles[:50]
 
     def run():
         x = case.start
