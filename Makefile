@@ -113,7 +113,7 @@ test:
 	$(MAKE) --no-print-directory build cmake
 	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadgroup
 
-# Certified contacts that other programs can be tested against: generated/benchmark.
+# Certified contacts that other programs can be tested against: generated/benchmark, which is committed.
 benchmark: setup build
 	$(VENV)/bin/meshwright benchmark generated/benchmark
 

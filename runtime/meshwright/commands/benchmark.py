@@ -2,10 +2,13 @@
 
 A folder of design files, one table of all contacts as CSV and JSON, and an RO-Crate manifest. Every packaged design is
 a case, aligned and with each of its misalignments; each case is enclosed at decimal angles over one pitch, and beside
-points where branches of contact cross. Exit status 1 if a contact that floating point finds cannot be certified.
+points where branches of contact cross. ``benchmark_cases.toml`` names further ones: angles of published tables, contact
+that is nearly a line, flanks that touch on an edge first. Exit status 1 if a contact that floating point finds cannot be
+certified.
 """
 
 import hashlib
+import tomllib
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,6 +17,7 @@ import numpy as np
 from meshwright.base.files import write_csv, write_json, write_text
 from meshwright.commands.progress import progress
 from meshwright.contact import exact
+from meshwright.contact.certificate import degrees_of
 from meshwright.design.design import packaged_names, toml_text
 from meshwright.drive import Drive
 
@@ -26,6 +30,9 @@ MISALIGNED, BESIDE = 0.02, Fraction("0.01")
 #: When this set was first made, which a manifest must say.
 DATE = "2026-11-23"
 
+#: Further cases, of which the file says what they are for.
+FURTHER = Path(__file__).with_name("benchmark_cases.toml")
+
 
 def add_arguments(parser):
     parser.add_argument("folder", metavar="FOLDER", help="folder to write")
@@ -34,12 +41,13 @@ def add_arguments(parser):
 
 def run(options):
     folder, cases = Path(options.folder), []
-    names = options.design or packaged_names()
+    names, more = options.design or packaged_names(), tomllib.loads(FURTHER.read_text(encoding="utf-8"))["case"]
     (folder / "designs").mkdir(parents=True, exist_ok=True)
     with progress(len(names)) as step:
         for name in names:
             step(f"certifying {name}")
-            cases += [case(folder, *named) for named in variants(name)]
+            cases += [case(folder, words, drive, degrees(drive)) for words, drive in variants(name)]
+            cases += [further(folder, entry) for entry in more if entry["from"] == name]
     header = list(dict.fromkeys(key for c in cases for p in c["points"] for key in row(c, p)))
     rows = [row(c, p) for c in cases for p in c["points"]]
     write_json(str(folder / "contacts.json"), {"schema": "meshwright.benchmark/1", "cases": cases})
@@ -69,17 +77,26 @@ def degrees(drive):
     return sorted(angles)
 
 
-def case(folder, name, drive):
-    """One case as plain data; its design file is written."""
+def further(folder, entry):
+    """One case of the file of further ones."""
+    changes = {table: entry[table] for table in ("design", "misalignment", "blank") if table in entry}
+    drive = Drive.load(entry["from"]).with_(**changes)
+    about, first = entry["about"], entry.get("first_contact", False)
+    return case(folder, entry["name"], drive, degrees_of(entry["angles"]), about, first)
+
+
+def case(folder, name, drive, angles, about=None, first_contact=False):
+    """One case as plain data; its design file is written. ``angles``: exact degrees."""
     write_text(str(folder / "designs" / f"{name}.toml"), toml_text(drive.design.given()))
-    angles = degrees(drive)
     result = drive.tca(np.radians([float(a) for a in angles]))
     found = drive.certify(result.angles, result, angles)
-    return {
-        "name": name,
-        "design": f"designs/{name}.toml",
-        "points": [_point(found, k, angle, found.error_arcsec()[k]) for k, angle in enumerate(angles)],
-    }
+    points = [_point(found, k, angle, found.error_arcsec()[k]) for k, angle in enumerate(angles)]
+    if first_contact:
+        firsts, proofs = drive.first_contact(result.angles, result), drive.certify_first(result.angles, result, found)
+        for k, (point, proof) in enumerate(zip(points, proofs.to_plain(result), strict=True)):
+            point["first_contact"] = firsts.point(k, result.error)
+            point["tangency_comes_first"] = proof["outcome"]
+    return {"name": name, "about": about, "design": f"designs/{name}.toml", "points": points}
 
 
 def _point(found, k, angle, error):
@@ -111,6 +128,9 @@ def row(named, point):
                 flat |= {f"{name}_low": pair[0], f"{name}_high": pair[1]}
         elif key == "transmission_error_arcsec":
             flat |= dict(zip((f"{key}_low", f"{key}_high"), value or ("", ""), strict=True))
+        elif key == "first_contact":
+            flat |= {f"first_contact_{part}": value[part] for part in ("kind", "member")}
+            flat["first_contact_transmission_error_arcsec"] = value["transmission_error_arcsec"]
         elif key == "contact_point_mm":
             flat |= dict(zip((f"{key}_{axis}" for axis in "xyz"), value or ("", "", ""), strict=True))
         else:
