@@ -3,8 +3,8 @@
 A folder of design files, one table of all contacts as CSV and JSON, and an RO-Crate manifest. Every packaged design is
 a case, aligned and with each of its misalignments; each case is enclosed at decimal angles over one pitch, and beside
 points where branches of contact cross. ``benchmark_cases.toml`` names further ones: angles of published tables, contact
-that is nearly a line, flanks that touch on an edge first. Exit status 1 if a contact that floating point finds cannot be
-certified.
+that is nearly a line, flanks that touch on an edge first. Exit status 1 if a contact that floating point finds cannot
+be certified.
 """
 
 import hashlib
