@@ -31,8 +31,9 @@ static int reach(const search *h, const place *from, const double *q, double sho
     return 1;
 }
 
-/* A place halfway between two others; where neither meets the pinion's flank, it is not known to. */
-static int halfway(const search *h, const place *a, const place *b, place *P)
+/* A place halfway between two others, walked to from one in steps no shorter than a share of the way; where neither meets
+ * the pinion's flank, it is not known to. */
+static int halfway(const search *h, const place *a, const place *b, double shortest, place *P)
 {
     double q[MAX_K];
     for (int i = 0; i < h->nw; i++) q[i] = 0.5 * (a->q[i] + b->q[i]);
@@ -45,7 +46,7 @@ static int halfway(const search *h, const place *a, const place *b, place *P)
         P->delta = 0.5 * (a->delta + b->delta);
         if (meet(h, P)) return 1;
     }
-    if ((a->good && reach(h, a, q, 0.25, P)) || (b->good && reach(h, b, q, 0.25, P))) return 1;
+    if ((a->good && reach(h, a, q, shortest, P)) || (b->good && reach(h, b, q, shortest, P))) return 1;
     memcpy(P->q, q, sizeof q);
     return 0;
 }
