@@ -55,30 +55,27 @@ def narrowed(function, inside, outside, values, tolerance, near, steps):
     """
     a, b, fa, fb = outside.copy(), inside.copy(), values[1].copy(), values[0].copy()
     with np.errstate(divide="ignore", invalid="ignore"):
-        c, fc, share = a.copy(), fa.copy(), _within_bracket(fa / (fa - fb))
+        c, fc, share = a.copy(), fa.copy(), fa / (fa - fb)
     rows = np.flatnonzero(a != b)
     for _ in range(steps):
         if not len(rows):
             return
-        x = a[rows] + share[rows] * (b[rows] - a[rows])
+        least = np.minimum(0.5 * tolerance[rows] / np.abs(b[rows] - a[rows]), 0.5)
+        known = np.where(np.isfinite(share[rows]), share[rows], 0.5)
+        x = a[rows] + np.clip(known, least, 1.0 - least) * (b[rows] - a[rows])
         fx = function(x, rows)
         other = (fx >= 0.0) != (fa[rows] >= 0.0)
         c[rows], fc[rows] = np.where(other, b[rows], a[rows]), np.where(other, fb[rows], fa[rows])
         b[rows], fb[rows] = np.where(other, a[rows], b[rows]), np.where(other, fa[rows], fb[rows])
         a[rows], fa[rows] = x, fx
         rows = rows[~((fx >= 0.0) & (fx < near)) & (np.abs(b[rows] - x) > tolerance[rows])]
-        least = 0.5 * tolerance[rows] / np.abs(b[rows] - a[rows])
-        share[rows] = np.clip(_next_shares(*(v[rows] for v in (a, b, c, fa, fb, fc))), least, 1.0 - least)
+        share[rows] = _next_shares(*(v[rows] for v in (a, b, c, fa, fb, fc)))
 
 
 def _next_shares(a, b, c, fa, fb, fc):
-    """Where between each a and b to look next."""
+    """Where between each a and b to look next; not a number where nothing is known of it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
         safe = (phi * phi < xi) & ((1.0 - phi) ** 2 < 1.0 - xi)
         share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-    return _within_bracket(np.where(safe, share, 0.5))
-
-
-def _within_bracket(share):
-    return np.where((share > 0.0) & (share < 1.0), share, 0.5)
+    return np.where(safe, share, 0.5)
