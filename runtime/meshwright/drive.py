@@ -102,6 +102,22 @@ class Drive:
         return self.design.mirror.sign * self.design.reference_angle + np.asarray(pitches) * self.pitch()
 
     @cached_property
+    def path_start(self):
+        """The path of contact of a tooth pair as far as its first solution, and a status word: see
+        :meth:`~meshwright.cycle.path.Path.start`.
+        """
+        from meshwright.cycle.path import Path
+
+        return Path.start(self)
+
+    @cached_property
+    def window(self):
+        """Contact of one tooth pair from begin to end: :class:`~meshwright.cycle.windows.Window`."""
+        from meshwright.cycle.windows import contact_window
+
+        return contact_window(self)
+
+    @cached_property
     def past_the_tips(self):
         """Whether the teeth do not reach each other at any angle."""
         from meshwright.cycle.windows import past_the_tips
@@ -115,7 +131,7 @@ class Drive:
             return None
         from meshwright.cycle.edge import edge_window
 
-        return edge_window(Drive(self.design))
+        return edge_window(self if self.backend == "c" else Drive(self.design))
 
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""

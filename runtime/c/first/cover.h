@@ -9,6 +9,7 @@ enum {
     CLIMB_COST = 100,            /* places that a climb counts as, about those of a dozen steps */
     DEEPEST = 46,                /* how often a triangle is halved, and how often where a part of it never meets */
     DEEPEST_EDGE = 20,
+    WALKED = 4,                  /* up to so many halvings places between are walked to; then they are near enough */
     BUDGET = 20000               /* places that are looked at between the vertices */
 };
 
@@ -123,7 +124,7 @@ static void look(const search *h, const place *corners, best_ *best)
             best->highest = fmax(best->highest, high);
             continue;
         }
-        halfway(h, &T[edge], &T[(edge + 1) % 3], &middle);
+        halfway(h, &T[edge], &T[(edge + 1) % 3], deep < WALKED ? 0.25 : 1.0, &middle);
         if (middle.good && middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && middle.value > best->floor + 1e-13) {
             refine(h, &middle, best);
             best->budget -= CLIMB_COST; /* where climbs end nowhere, each place would begin another one */

@@ -15,8 +15,8 @@ enum {
     NEWTON_STEPS = 14
 };
 
-/* Newton's method ends with a step below this, in natural sizes. */
-static const double STEP_DONE = 1e-10;
+/* Newton's method ends with a step below this, in natural sizes, or one that the next would follow with one far below it. */
+static const double STEP_DONE = 1e-10, NEXT_DONE = 1e-13, QUADRATIC = 1e-3;
 /* Newton's method that moves more than so many times its first step and this, or than that, in natural sizes, or turns
  * the wheel by more, rad, may have left its sheet or come to the next tooth. */
 static const double JUMP = 3.0, JUMP_LEAST = 0.02, FARTHEST = 0.5, LARGEST_TURN = 0.1;
@@ -101,6 +101,12 @@ static void others(int parameters, int bound, int *free_)
 {
     for (int i = 0, k = 0; i < parameters; i++)
         if (i != bound && k < 2) free_[k++] = i;
+}
+
+/* Whether a Newton step after another one, by both of which the method converges quadratically, is the last that matters. */
+static int converged(double step, double before)
+{
+    return before < HUGE_VAL && step < QUADRATIC * before && step * (step / before) * (step / before) < NEXT_DONE;
 }
 
 /* A flank at two of its parameters: q completed from its condition, outputs o. */
@@ -197,7 +203,7 @@ static int meet(const search *h, place *P)
         const double share = largest > 0.5 ? 0.5 / largest : 1.0;
         for (int j = 0; j < parameters; j++) unknown[j] -= share * r[j];
         P->delta -= share * r[parameters];
-        done = largest < STEP_DONE || (largest < 1e-8 && largest > 0.5 * before);
+        done = largest < STEP_DONE || converged(largest, before) || (largest < 1e-8 && largest > 0.5 * before);
         before = largest;
     }
     if (!done || fabs(P->delta - delta) > LARGEST_TURN) return 0;

@@ -8,29 +8,32 @@
 enum { FINEST_WALK = 64 };
 
 /* Where the wheel's point at q meets the pinion's flank, from a place that meets it, in as many steps as it takes but
- * none shorter than a share of the way; 0 where it does not lead there. */
+ * none shorter than a share of the way; 0 where it does not lead there. A step goes no further than one that has failed. */
 static int reach(const search *h, const place *from, const double *q, double shortest, place *P)
 {
-    double done = 0.0, step = 1.0;
+    double done = 0.0, step = 1.0, failed = HUGE_VAL;
     *P = *from;
     while (done < 1.0) {
         place next = *P;
-        const double share = fmin(1.0, done + step);
+        const double share = fmin(fmin(1.0, done + step), failed);
         for (int i = 0; i < h->nw; i++) next.q[i] = share < 1.0 ? from->q[i] + share * (q[i] - from->q[i]) : q[i];
         if (meet(h, &next)) {
             *P = next;
+            if (share >= failed) failed = HUGE_VAL;
             done = share;
             step *= 2.0;
         } else {
-            step *= 0.5;
+            failed = share;
+            step = 0.5 * (share - done);
             if (step < shortest) return P->good = 0;
         }
     }
     return 1;
 }
 
-/* A place halfway between two others; where neither meets the pinion's flank, it is not known to. */
-static int halfway(const search *h, const place *a, const place *b, place *P)
+/* A place halfway between two others, walked to from one in steps no shorter than a share of the way; where neither meets
+ * the pinion's flank, it is not known to. */
+static int halfway(const search *h, const place *a, const place *b, double shortest, place *P)
 {
     double q[MAX_K];
     for (int i = 0; i < h->nw; i++) q[i] = 0.5 * (a->q[i] + b->q[i]);
@@ -43,7 +46,7 @@ static int halfway(const search *h, const place *a, const place *b, place *P)
         P->delta = 0.5 * (a->delta + b->delta);
         if (meet(h, P)) return 1;
     }
-    if ((a->good && reach(h, a, q, 0.25, P)) || (b->good && reach(h, b, q, 0.25, P))) return 1;
+    if ((a->good && reach(h, a, q, shortest, P)) || (b->good && reach(h, b, q, shortest, P))) return 1;
     memcpy(P->q, q, sizeof q);
     return 0;
 }
@@ -70,8 +73,21 @@ static int lead(const search *h, const place *from, size_t v, double shortest, p
     return 0;
 }
 
+/* The place nearest to a vertex, in natural sizes, among a known one and the vertices that meet the pinion's flank. */
+static const place *nearest(const search *h, const place *known, const place *at, size_t vertex)
+{
+    const place *found = known;
+    double least = away(h, vertex, known->q);
+    for (size_t v = 0; v < h->mesh->vertices; v++)
+        if (at[v].good && away(h, vertex, at[v].q) < least) {
+            least = away(h, vertex, at[v].q);
+            found = &at[v];
+        }
+    return found;
+}
+
 /* Where every vertex of the mesh meets the pinion's flank: each piece of the mesh from its vertex nearest to a known
- * place, and from there along its edges. tried[vertices] is work. */
+ * place, walked to from the nearest one by then, and from there along its edges. tried[vertices] is work. */
 static void flood(const search *h, const place *known, place *at, unsigned char *tried)
 {
     const mw_flank_mesh *mesh = h->mesh;
@@ -88,7 +104,9 @@ static void flood(const search *h, const place *known, place *at, unsigned char 
             }
         if (seed == mesh->vertices) return;
         tried[seed] = AT_MOST;
-        if (!lead(h, known, seed, 1.0 / (double)FINEST_WALK, at)) continue;
+        const place *near = nearest(h, known, at, seed);
+        const double finest = sqrt(least / away(h, seed, near->q)) / (double)FINEST_WALK;
+        if (!lead(h, near, seed, fmin(finest, 0.25), at)) continue;
         for (int grown = 1; grown;) {
             grown = 0;
             for (size_t t = 0; t < 3 * mesh->triangles; t++) {

@@ -13,6 +13,7 @@ from meshwright.base.files import write_text
 from meshwright.commands import loaded, loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.cycle.pairs import Mesh
 
 FORMATS = ("pdf", "svg", "png")
 
@@ -46,6 +47,7 @@ def run(options):
     marking = None if options.marking_um is None else options.marking_um / 1000.0
     sizes = dict(_misalignment(text) for text in options.misalign)
     angles = _loaded_angles(options, drive)
+    Mesh.of(drive)  # the window of contact, which the copy needs as well
     with aside(drive.crossings) as crossings:  # while the drawing libraries are imported
         report = _report()
         with progress(report.steps(drive) + 1 + (loaded.STEPS + len(angles) if len(angles) else 0)) as step:

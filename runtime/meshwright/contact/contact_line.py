@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import pointer
+from meshwright.base.roots import bracketed
 from meshwright.contact.model import DriveModel
 
 #: Step along the line in natural sizes of the unknowns, and how many at most to either side.
@@ -18,11 +19,13 @@ MAX_STEPS = 240
 #: The line is left where it has gone away from the flanks for more than this many steps.
 LEAVING = 6
 CORRECTIONS = 12
-CORRECTED = 1e-10
+CORRECTED, FALLING = 1e-12, 1e-2
+
+#: An end of the line is known to this share of a step.
+EDGE = 1e-12
 
 #: Singular values below this share of the largest belong to the direction of the line.
 RANK = 1e-8
-BISECTIONS = 40
 SECTIONS = 40
 GOLDEN = 0.6180339887498949
 
@@ -48,7 +51,7 @@ def contact_line(drive, angle, start):
     """
     equations = _Equations.of(drive, angle)
     solved = bool(np.isfinite(start).all())
-    solutions = _longest_inside(equations, _whole(equations, start)) if solved else np.empty((0, drive.model.nx))
+    solutions = _longest_inside(equations, *_whole(equations, start)) if solved else np.empty((0, drive.model.nx))
     observed = np.array([equations.observe(x) for x in solutions]).reshape(-1, drive.model.no)
     bodies = drive.design.description["bodies"]
     return ContactLine(
@@ -64,8 +67,7 @@ def deepest(drive, angle, start):
     order of the drive's observation, NaN elsewhere.
     """
     equations = _Equations.of(drive, angle)
-    line = _whole(equations, start)
-    depths = [equations.margin(x) for x in line]
+    line, depths = _whole(equations, start)
     k = int(np.argmax(depths))
     x = line[k]
     if 0 < k < len(line) - 1:
@@ -101,9 +103,10 @@ def _summit(equations, before, after):
 
 
 def _whole(equations, start):
-    """The line as far as the surfaces go, or somewhat past the flanks: (P, nx)."""
-    followed = [_followed(equations, start, sign) for sign in (-1.0, 1.0)]
-    return np.concatenate([followed[0][::-1], start[None, :], followed[1]])
+    """The line as far as the surfaces go, or somewhat past the flanks: (P, nx), and the smallest limits there (P,)."""
+    direction, margin = equations.direction(start), equations.margin(start)
+    (before, below), (after, above) = (_followed(equations, start, s * direction, margin) for s in (-1.0, 1.0))
+    return np.array([*before[::-1], start, *after]), np.array([*below[::-1], margin, *above])
 
 
 @dataclass(frozen=True)
@@ -146,39 +149,41 @@ class _Equations:
 
     def corrected(self, x):
         """The nearest solution; None if there is none near."""
+        before = 0.0
         for _ in range(CORRECTIONS):
             residual, jacobian = self.evaluate(x)
             if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(jacobian))):
                 return None
             step = np.linalg.lstsq(jacobian, residual, rcond=RANK)[0]
-            x = x - step * self.scale
-            if np.abs(step).max() < CORRECTED:
+            x, size = x - step * self.scale, float(np.abs(step).max())
+            # by quadratic convergence the next step would be shorter by the square of what this one is shorter by
+            if size < CORRECTED or (size < FALLING * before and size * (size / before) ** 2 < CORRECTED):
                 return x
+            before = size
         return None
 
 
-def _followed(equations, start, sign):
-    """Solutions (P, nx) from ``start`` on, without it, to one side."""
-    x, along = start, sign * equations.direction(start)
-    found, falling, margin = [], 0, equations.margin(start)
+def _followed(equations, start, along, margin):
+    """Solutions [(nx,)] from ``start`` on, without it, to one side, and the smallest limits there."""
+    x, found, margins, falling = start, [], [], 0
     for _ in range(MAX_STEPS):
         x = equations.corrected(x + STEP * along * equations.scale)
-        if x is None or not np.isfinite(equations.margin(x)):
+        before, margin = margin, np.nan if x is None else equations.margin(x)
+        if not np.isfinite(margin):
             break
         found.append(x)
-        before, margin = margin, equations.margin(x)
+        margins.append(margin)
         falling = falling + 1 if margin < min(before, 0.0) else 0
         if falling > LEAVING:
             break
         after = equations.direction(x)
         along = after if after @ along > 0.0 else -after
-    return np.array(found).reshape(-1, len(start))
+    return found, margins
 
 
-def _longest_inside(equations, line):
+def _longest_inside(equations, line, margins):
     """The longest stretch of the line on both flanks, its ends at their edges: (M, nx)."""
-    inside = np.array([equations.margin(x) >= 0.0 for x in line])
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], inside, [False])).astype(int)))
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], margins >= 0.0, [False])).astype(int)))
     if not len(edges):
         return line[:0]
     first, last = max(zip(edges[::2], edges[1::2], strict=True), key=lambda s: s[1] - s[0])
@@ -191,11 +196,15 @@ def _longest_inside(equations, line):
 
 
 def _edge(equations, inner, outer):
-    """Where the line between two of its points leaves a flank."""
-    for _ in range(BISECTIONS):
-        middle = equations.corrected(0.5 * (inner + outer))
-        if middle is not None and equations.margin(middle) >= 0.0:
-            inner = middle
-        else:
-            outer = 0.5 * (inner + outer) if middle is None else middle
-    return inner
+    """Where the line between two of its points leaves a flank; of what is known of it there, the last on the flank."""
+    inside = [inner]
+
+    def margin(share):
+        x = equations.corrected(inner + share * (outer - inner))
+        value = -1.0 if x is None else equations.margin(x)
+        if value >= 0.0:
+            inside.append(x)
+        return value
+
+    bracketed(margin, 0.0, 1.0, EDGE, (equations.margin(inner), equations.margin(outer)))
+    return max(inside, key=lambda x: np.abs(x - inner).max())

@@ -14,7 +14,7 @@ from meshwright.base.roots import bracketed
 from meshwright.contact.model import DriveModel
 from meshwright.cycle.first_contact import search_from
 from meshwright.cycle.rigid import RigidTeeth
-from meshwright.cycle.windows import Window, contact_window
+from meshwright.cycle.windows import Window
 
 #: Sampling of one pitch when looking for changes in the number of teeth in contact.
 SAMPLES = 96
@@ -45,7 +45,7 @@ class Mesh:
     @classmethod
     def of(cls, drive):
         """The mesh of a drive; without a path of contact (see the window's status) only that can be asked of it."""
-        return cls(drive, contact_window(drive))
+        return cls(drive, drive.window)
 
     @property
     def mirror(self):

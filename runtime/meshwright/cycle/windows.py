@@ -88,7 +88,7 @@ class Window:
 
 def contact_window(drive):
     """The :class:`Window` of a drive's tooth pair: the stretch of its path inside every limit, nearest to angle 0."""
-    path, status = Path.start(drive)
+    path, status = drive.path_start
     limits = limits_of(drive)
     if path is None:
         ends = _line_ends(drive, limits) if status == "line_contact" else (NO_EVENT, NO_EVENT)
@@ -109,7 +109,7 @@ def past_the_tips(drive):
 
     Where the path has a stretch between both tips, a point beyond it is a contact off the tip.
     """
-    path, _ = Path.start(drive)
+    path, _ = drive.path_start
     return path is not None and _past_the_tips(path, limits_of(drive))
 
 
@@ -118,7 +118,7 @@ def inside_the_tips(drive):
 
     None if its path of contact is past them everywhere, or there is none.
     """
-    path, _ = Path.start(drive)
+    path, _ = drive.path_start
     tips = _tips(limits_of(drive))
     if path is None or not tips:
         return None

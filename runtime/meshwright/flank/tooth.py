@@ -93,21 +93,23 @@ def _at_the_same_place(flank, start, points):
         return np.full((len(points), len(flank.parameters)), np.nan)
     nearest = np.argmin((seeds**2).sum(axis=1) - 2.0 * wanted @ seeds.T, axis=1)
     q = start.parameters[nearest].copy()
-    limit = LONGEST * wanted[:, 0].max()
+    limit, off, going = LONGEST * wanted[:, 0].max(), np.full(len(q), np.inf), np.arange(len(q))
     for _ in range(STEPS):
-        found = flank(q)
+        found = flank(q[going])
         x, y, z = found.points.T
         radius = np.hypot(x, y)
-        left = np.stack([radius, z], axis=-1) - wanted
+        left = np.stack([radius, z], axis=-1) - wanted[going]
         slopes = np.stack([(x * found.tangents[..., 0].T + y * found.tangents[..., 1].T).T / radius[:, None],
                            found.tangents[..., 2]], axis=1)  # fmt: skip
-        shorter = (limit / np.maximum(np.abs(left).max(axis=1), limit))[:, None]
+        off[going] = np.abs(left).max(axis=1)
+        shorter = (limit / np.maximum(off[going], limit))[:, None]
         residual = np.concatenate([left * shorter, found.conditions[:, :, 0]], axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            q -= solved(np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1), residual)
-        if not (np.abs(residual).max(axis=1) > 1e-3 * FOUND * limit).any():
+            q[going] -= solved(np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1), residual)
+        going = going[np.abs(residual).max(axis=1) > 1e-3 * FOUND * limit]
+        if not going.size:
             break
-    q[~(np.abs(left).max(axis=1) < FOUND * limit)] = np.nan
+    q[~(off < FOUND * limit)] = np.nan
     return q
 
 

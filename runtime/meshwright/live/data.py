@@ -11,7 +11,6 @@ from meshwright.contact import words
 from meshwright.contact.analysis import flag_names
 from meshwright.contact.results import impossible
 from meshwright.cycle.transmission import ROUND_OFF
-from meshwright.cycle.windows import contact_window
 from meshwright.design.design import given_vector, is_real
 from meshwright.design.schema import bounds
 from meshwright.live.teeth import teeth
@@ -70,7 +69,7 @@ def data(drive):
 
 def _from_reference(drive):
     """How far the middle of the mesh cycle is from the reference angle, rad: 0 unless a pair touches elsewhere only."""
-    window = contact_window(drive)
+    window = drive.window
     if window.path is None or not window.complete:
         return 0.0
     low, high = (end - drive.design.reference_angle for end in window.bounds)

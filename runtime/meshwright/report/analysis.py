@@ -155,7 +155,7 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
     step("window of contact")
     mesh = Mesh.of(drive)
     along_lines = mesh.window.status == "line_contact"
-    angles, per_pitch = _line_positions(drive) if along_lines else _positions(drive, mesh)
+    angles, per_pitch = _line_positions(drive, mesh.window) if along_lines else _positions(drive, mesh)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
     with (
@@ -210,10 +210,13 @@ def _positions(drive, mesh):
     return np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, per_pitch
 
 
-def _line_positions(drive):
+def _line_positions(drive, window):
     """Like :func:`_positions`, where there is any line of contact inside the limits."""
     pitch = drive.pitch()
     sought = np.arange(-2 * LINE_REACH, 2 * LINE_REACH + 1) * pitch / 2
+    if window.complete:
+        begin, end = sorted((window.begin.angle, window.end.angle))
+        sought = sought[(sought >= begin) & (sought <= end)]
     touching = sought[[len(line.points) > 0 for line in _lines(drive, sought)]]
     low, high = (touching[0], touching[-1]) if touching.size else (-pitch, pitch)
     count = round((high - low) / pitch * LINES_PER_PITCH)

@@ -1,6 +1,7 @@
 """The contact pattern on one member's flank."""
 
 import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
 
 from meshwright.report import style
 from meshwright.report.branches import broken
@@ -27,12 +28,12 @@ def draw(analysis, member):
     if projection.end_on:
         held.append(_flat(projection, flank.points[flank.inside >= 0.0]))
     ellipses = _near(np.vstack(held), [_flat(projection, ring) for ring in _ellipses(analysis, member)])
-    for ring in contours:
-        axes.fill(*ring.T, facecolor=colour, alpha=0.35, edgecolor=colour, linewidth=1.0)
-    for ring in ellipses:
-        axes.plot(*ring.T, color=colour, linewidth=0.6, alpha=0.8)
-    for line in lines:
-        axes.plot(*line.T, color=colour, linewidth=1.1)
+    for drawn in (
+        PolyCollection(contours, facecolors=colour, alpha=0.35, edgecolors=colour, linewidths=1.0),
+        LineCollection(ellipses, colors=colour, linewidths=0.6, alpha=0.8),
+        LineCollection(lines, colors=colour, linewidths=1.1),
+    ):
+        axes.add_collection(drawn, autolim=False)
     axes.plot(*broken(path, analysis.breaks).T, color=style.INK, linewidth=0.7 if projection.end_on else 1.3)
     if tca.solved.any():
         _name_ends(axes, path, tca.angles)

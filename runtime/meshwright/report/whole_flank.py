@@ -22,8 +22,12 @@ from meshwright.report.projection import Projection
 CELLS, POSITIONS, BEYOND = (18, 18), 41, 0.5
 NARROWER, NARROWED = 5.0, 3
 
-#: Newton steps to the mate, mm: longest, done; how many; and how far a flank may be off, as a share of its size.
-LONGEST, DONE, STEPS, FARTHEST = 8.0, 1e-9, 16, 0.05
+#: Newton steps to the mate, mm: longest; done, or followed by one below that, as quadratic convergence from at most the
+#: next number has it; how many; and how far a flank may be off, as a share of its size.
+LONGEST, DONE, QUADRATIC, STEPS, FARTHEST = 8.0, 1e-9, 1e-2, 16, 0.05
+
+#: A ray whose end strays so far, as a share of the flank's size, is given up.
+STRAYED = 0.5
 
 #: Two flanks face each other where their outward normals have at most this scalar product.
 FACING = -0.98
@@ -225,7 +229,8 @@ class _Rays:
         """Distance (P,) to the mate along rays, its parameters and the margin there, by Newton's method."""
         q, distance = q.copy(), np.zeros(len(q))
         going = np.arange(len(q))
-        good = np.zeros(len(q), dtype=bool)
+        good, before = np.zeros(len(q), dtype=bool), np.full(len(q), np.inf)
+        extent = np.ptp(self.points, axis=0).max()
         for _ in range(STEPS):
             found = self.mate(q[going])
             residual = np.concatenate(
@@ -239,16 +244,19 @@ class _Rays:
             step *= np.minimum(1.0, LONGEST / np.maximum(length, 1e-300))[:, None]
             q[going] -= step[:, :-1]
             distance[going] -= step[:, -1]
-            done = np.maximum(length, np.abs(step[:, -1])) < DONE
+            size = np.maximum(length, np.abs(step[:, -1]))
+            ratio = size / before[going]
+            done = (size < DONE) | ((ratio < QUADRATIC) & (before[going] < QUADRATIC) & (size * ratio * ratio < DONE))
+            before[going] = size
             good[going[done]] = True
-            going = going[~done & np.isfinite(step).all(axis=1)]
+            near = np.abs(distance[going]) < STRAYED * extent
+            going = going[~done & near & np.isfinite(step).all(axis=1)]
             if not going.size:
                 break
         found = self.mate(q)
-        size = np.ptp(self.points, axis=0).max()
         with np.errstate(invalid="ignore"):
             facing = np.einsum("ni,ni->n", found.normals, along) < FACING
-            good &= facing & (found.regular > 0.0) & (np.abs(distance) < FARTHEST * size)
+            good &= facing & (found.regular > 0.0) & (np.abs(distance) < FARTHEST * extent)
         margin = np.min([np.where(np.isnan(m), np.inf, m) for m in (found.regular, *found.margins.values())], axis=0)
         return np.where(good, distance, np.nan), q, margin
 
