@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.linalg import eigh
 
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.elastic import flexibility
@@ -203,6 +204,6 @@ def without_negative(compliance: Floats) -> Floats:
     Source: N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra and its
     Applications 103 (1988).
     """
-    values, vectors = np.linalg.eigh(compliance)
-    negative = values < 0.0
-    return compliance - (vectors[:, negative] * values[negative]) @ vectors[:, negative].T
+    rounding = len(compliance) * np.finfo(float).eps * np.abs(compliance).max(initial=0.0)
+    values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
+    return compliance - (vectors * values) @ vectors.T
