@@ -108,7 +108,7 @@ def _moved(
         return _by_patch(body.mesh.face_nodes(flank), shape, per_patch, rows)
 
     nodes, forces = _patch_loads(body.mesh.nodes, [quads for k in range(neighbours + 1) for quads in corners(k)])
-    moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces)
+    moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces, len(order))
     own, *later = moved[:, : shape[0] * shape[1]].reshape(neighbours + 1, -1, shape[0] * shape[1])
     middles = np.array([_middle(body.mesh.nodes, quads) for quads in corners(0)]).reshape(*shape, 3)
     lengths = [float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
