@@ -116,7 +116,7 @@ def test_loads_do_the_same_work_on_one_anothers_displacements(concave, complianc
 
     def kept(every, used):
         units = np.eye(sum(every.sizes))[used]
-        areas = np.concatenate([np.full(count, pair.area) for count, pair in zip(every.sizes, every.pairs, strict=True)])
+        areas = np.repeat([pair.area for pair in every.pairs], every.sizes)
         found = of(every, used)
         seen.append((areas[used, None] * np.column_stack([every.under(unit)[used] for unit in units]), found))
         return found
