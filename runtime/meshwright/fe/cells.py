@@ -30,7 +30,7 @@ class PairCells:
 
     half_space (side, side): displacements in mm by unit pressures at so many cells' distances along and across.
     free (n, n): what free edges of the teeth near the cells add to them, None where there is none.
-    weights (n, M): of the patches of its own teeth, the pinion's before the wheel's.
+    weights (n, M): of the displacements of its own teeth, the pinion's before the wheel's.
     """
 
     half_space: Floats
@@ -61,12 +61,12 @@ class PairCells:
 class Cells:
     """The cells of all ``pairs``, N together.
 
-    patches: of each pair, which of the Q patches of all teeth its cells are on. smooth (Q, Q): displacements of patches
-    by unit forces on others, what teeth add to half-space and free edges.
+    Teeth move in Q ways that the patches under the cells tell apart. ways: of each pair, which of them are its own.
+    smooth (Q, Q): displacements in these by unit forces in others, what teeth add to half-space and free edges.
     """
 
     pairs: tuple[PairCells, ...]
-    patches: tuple[Ints, ...]
+    ways: tuple[Ints, ...]
     smooth: Floats
 
     @classmethod
@@ -82,21 +82,22 @@ class Cells:
         }
         free = [_summed([of[0] for of in both if of]) for both in zip(*edges.values(), strict=True)]
         later = tuple(contact.pairs_later for contact in contacts)
-        blocks, patches, count = [], [np.empty((len(grids), 0), dtype=np.int64)], 0
+        weights = [[np.empty((len(grid.gap), 0))] for grid in grids]
+        ways = [[np.empty(0, dtype=np.int64)] for _ in grids]
+        blocks = [np.empty((0, 0))]
         for name, tooth in compliance.items():
             known = tuple(None if of is None or of[1] is None else of[1].tobytes() for of in edges[name])
-            blocks.append(_smooth(tooth, later, known))
-            patches.append(count + np.arange(len(blocks[-1])).reshape(len(grids), -1))
-            count += len(blocks[-1])
-        weights = [
-            np.hstack([np.empty((len(g.gap), 0)), *(t.weights(*g.place[name].T) for name, t in compliance.items())])
-            for g in grids
-        ]
+            spans = [tooth.span(*grid.place[name][grid.inside].T) for grid in grids]
+            begin = sum(len(block) for block in blocks) + np.cumsum([0] + [span.shape[1] for span in spans])
+            for k, (grid, span) in enumerate(zip(grids, spans, strict=True)):
+                weights[k].append(tooth.weights(*grid.place[name].T) @ span)
+                ways[k].append(np.arange(begin[k], begin[k + 1]))
+            blocks.append(_within(_smooth(tooth, later, known), spans))
         pairs = tuple(
-            PairCells(equal_cells(math.isqrt(len(g.gap)), g.half_major, g.half_minor, modulus), f, w, g.area)
+            PairCells(equal_cells(math.isqrt(len(g.gap)), g.half_major, g.half_minor, modulus), f, np.hstack(w), g.area)
             for g, f, w in zip(grids, free, weights, strict=True)
         )
-        return cls(pairs, tuple(np.hstack(patches)), block_diag(*blocks) if blocks else np.empty((0, 0)))
+        return cls(pairs, tuple(np.concatenate(of) for of in ways), block_diag(*blocks))
 
     @property
     def sizes(self) -> list[int]:
@@ -110,12 +111,12 @@ class Cells:
     def under(self, pressure: Floats) -> Floats:
         """Displacements (N,) of all cells under pressures (N,)."""
         forces, parts = np.zeros(len(self.smooth)), self.of_pairs(pressure)
-        for pair, patches, own in zip(self.pairs, self.patches, parts, strict=True):
-            forces[patches] += pair.area * (own @ pair.weights)
+        for pair, at, own in zip(self.pairs, self.ways, parts, strict=True):
+            forces[at] += pair.area * (own @ pair.weights)
         moved = self.smooth @ forces
         return np.concatenate([
-            pair.under(own) + pair.weights @ moved[patches]
-            for pair, patches, own in zip(self.pairs, self.patches, parts, strict=True)
+            pair.under(own) + pair.weights @ moved[at]
+            for pair, at, own in zip(self.pairs, self.ways, parts, strict=True)
         ])  # fmt: skip
 
     @property
@@ -124,7 +125,7 @@ class Cells:
         own = [
             pair.half_space[0, 0]
             + pair.area * np.sum((pair.weights @ self.smooth[np.ix_(at, at)]) * pair.weights, axis=1)
-            for pair, at in zip(self.pairs, self.patches, strict=True)
+            for pair, at in zip(self.pairs, self.ways, strict=True)
         ]
         return float(np.abs(np.concatenate(own)).max())
 
@@ -137,7 +138,7 @@ class Cells:
         first = np.cumsum([0, *self.sizes[:-1]])
         lowers, joints = [], []
         joined = np.eye(len(self.smooth))
-        for pair, at, begin, own in zip(self.pairs, self.patches, first, np.split(used, ends[:-1]), strict=True):
+        for pair, at, begin, own in zip(self.pairs, self.ways, first, np.split(used, ends[:-1]), strict=True):
             work = pair.own(own - begin)
             work *= pair.area
             try:
@@ -147,7 +148,7 @@ class Cells:
                 raise ArithmeticError("the pressures of the cells in contact are not determined") from error
             joints.append(_lower_solved(lowers[-1], pair.area * pair.weights[own - begin]))
             joined[:, at] += self.smooth[:, at] @ (joints[-1].T @ joints[-1])
-        return Bearing(ends, tuple(lowers), tuple(joints), self.patches, self.smooth, lu_factor(joined, True, False))
+        return Bearing(ends, tuple(lowers), tuple(joints), self.ways, self.smooth, lu_factor(joined, True, False))
 
 
 @dataclass(frozen=True)
@@ -156,14 +157,14 @@ class Bearing:
     do the same work on one another's displacements (E. Betti, 1872), so it is symmetric.
 
     ends: numbers among U at which the cells of each pair end; lowers: of each pair the factor of Cholesky (u, u) of
-    half-space and free edges; joints (u, M): the cells' forces on the patches, solved with that; joined: factors of
-    1 + S G with S = ``smooth``, and G the force on patches by unit displacements of them.
+    half-space and free edges; joints (u, M): the cells' forces in the ``ways`` of their teeth, solved with that; joined:
+    factors of 1 + S G with S = ``smooth``, and G the forces by unit displacements in these ways.
     """
 
     ends: Ints
     lowers: tuple[Floats, ...]
     joints: tuple[Floats, ...]
-    patches: tuple[Ints, ...]
+    ways: tuple[Ints, ...]
     smooth: Floats
     joined: tuple[Floats, Ints]
 
@@ -173,12 +174,12 @@ class Bearing:
         parts = [
             _lower_solved(low, own) for low, own in zip(self.lowers, np.split(work, self.ends[:-1]), strict=True)
         ]
-        for joint, at, own in zip(self.joints, self.patches, parts, strict=True):
+        for joint, at, own in zip(self.joints, self.ways, parts, strict=True):
             forces[at] += joint.T @ own
         moved = lu_solve(self.joined, self.smooth @ forces, overwrite_b=True, check_finite=False)
         return np.vstack([
             _lower_solved(low, own - joint @ moved[at], transposed=True)
-            for low, joint, at, own in zip(self.lowers, self.joints, self.patches, parts, strict=True)
+            for low, joint, at, own in zip(self.lowers, self.joints, self.ways, parts, strict=True)
         ])  # fmt: skip
 
 
@@ -188,6 +189,12 @@ def _lower_solved(lower: Floats, values: Floats, transposed: bool = False) -> Fl
 
 def _summed(parts: list[Floats]) -> Floats | None:
     return np.sum(parts, axis=0) if parts else None
+
+
+def _within(whole: Floats, spans: list[Floats]) -> Floats:
+    """B^T A B of a matrix (T K, T K) with the blocks (K, R) of T spans along the diagonal of B."""
+    half = np.hstack([part @ span for part, span in zip(np.split(whole, len(spans), axis=1), spans, strict=True)])
+    return np.vstack([span.T @ part for part, span in zip(np.split(half, len(spans)), spans, strict=True)])
 
 
 @lru_cache(maxsize=16)

@@ -31,6 +31,8 @@ from meshwright.fe.hexahedra import Floats, Ints, nodal_areas
 from meshwright.fe.pair import Member
 
 _MOST_NEIGHBOURS = 2
+# What is so small a part of the largest singular value is rounding.
+_NONE = 1e-13
 # Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
 # contact would tell too high a pressure.
 TOOTH_PATCHES = (6, 8)
@@ -71,6 +73,16 @@ class ToothCompliance:
         """Weights (N, P Q) of the patches at N places on the flank, given as fractions of arc length and face width."""
         along, across = (spline_weights(n, at) for n, at in zip(self.shape, (profile, face), strict=True))
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
+
+    def span(self, profile: Floats, face: Floats) -> Floats:
+        """Orthonormal columns (P Q, R) that span the rows of the :meth:`weights` at N places: few where these are close
+        together, since splines are polynomials between the ends of patches.
+        """
+        bases = []
+        for count, at in zip(self.shape, (profile, face), strict=True):
+            _, sizes, ways = np.linalg.svd(spline_weights(count, at), full_matrices=False)
+            bases.append(ways[sizes > _NONE * sizes.max(initial=0.0)].T)
+        return np.kron(*bases)
 
 
 def neighbours_of(pairs: int) -> int:

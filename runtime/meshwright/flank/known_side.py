@@ -30,7 +30,7 @@ STILL = 1e-14
 JOINED, CROSSED, ELSEWHERE = -3, -2, -1
 #: Terms of the polynomials; their last ones are no more than this part of the parameter's size; so often pieces are
 #: halved until that is so.
-TERMS, TAIL, TOLD, HALVINGS = 16, 3, 1e-11, 5
+TERMS, TAIL, TOLD, HALVINGS = 16, 3, 1e-11, 10
 
 
 @dataclass(frozen=True)
