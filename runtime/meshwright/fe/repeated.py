@@ -124,8 +124,9 @@ def _turned(remainder: Remainder, tooth: _Tooth, turn: Floats) -> Remainder:
     whole = whole.reshape(count, 3, count, 3)[moving][:, :, moving]
     whole = np.einsum("aibj,ik,jl->akbl", whole, turn, turn, optimize=True).reshape((3 * len(moving),) * 2)
     border, acting = tooth.nodes[remainder.border[moving]], remainder.cases if len(tooth.cases) else tooth.cases
-    loads = np.einsum("bia,ij->bja", remainder.loads.reshape(count, 3, -1)[moving, :, : len(acting)], turn)
-    return Remainder(border, whole, loads.reshape(len(whole), len(acting)), tooth.cases[acting])
+    loads = remainder.loads[:, : len(acting)].reshape(count, 3, len(acting))[moving]
+    loads = np.einsum("bia,ij->bja", loads, turn).reshape(len(whole), len(acting))
+    return Remainder(border, whole, loads, tooth.cases[acting])
 
 
 def _in_order(remainder: Remainder, border: Ints) -> Remainder:
