@@ -12,7 +12,7 @@ from meshwright.commands import loading
 from meshwright.fe import cells
 from meshwright.fe.blocks import Block
 from meshwright.fe.cells import Cells
-from meshwright.fe.compliance import spline_weights, tooth_compliance
+from meshwright.fe.compliance import ToothCompliance, spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
 from meshwright.fe.gap import contact_grid
 from meshwright.fe.halfspace import equal_cells, mean_displacement, rectangle_displacement
@@ -130,6 +130,19 @@ def test_loads_do_the_same_work_on_one_anothers_displacements(concave, complianc
         assert np.linalg.eigvalsh(work)[0] > 0.0
         pressures = np.random.default_rng(5).normal(size=(len(work), 2))
         assert bearing.pressures(work @ pressures) == pytest.approx(pressures, abs=1e-8)
+
+
+def test_few_ways_span_what_close_places_weigh():
+    """Splines are parabolas in a patch: within one, three ways along and three across tell all of their patches apart;
+    no place tells any.
+    """
+    tooth = ToothCompliance((6, 20), np.zeros((120, 120)), (), (1.0, 1.0))
+    profile, face = np.random.default_rng(6).uniform([[3.0 / 6.0], [7.0 / 20.0]], [[4.0 / 6.0], [8.0 / 20.0]], (2, 50))
+    ways, weights = tooth.span(profile, face), tooth.weights(profile, face)
+    assert ways.shape == (120, 9)
+    assert ways.T @ ways == pytest.approx(np.eye(9), abs=1e-12)
+    assert weights @ ways @ ways.T == pytest.approx(weights, abs=1e-11)
+    assert tooth.span(np.empty(0), np.empty(0)).shape == (120, 0)
 
 
 def test_teeth_are_softer_than_half_spaces(concave, compliance):

@@ -157,8 +157,8 @@ class Bearing:
     do the same work on one another's displacements (E. Betti, 1872), so it is symmetric.
 
     ends: numbers among U at which the cells of each pair end; lowers: of each pair the factor of Cholesky (u, u) of
-    half-space and free edges; joints (u, M): the cells' forces in the ``ways`` of their teeth, solved with that; joined:
-    factors of 1 + S G with S = ``smooth``, and G the forces by unit displacements in these ways.
+    half-space and free edges; joints (u, M): the cells' forces in the ``ways`` of their teeth, solved with that;
+    joined: factors of 1 + S G with S = ``smooth``, and G the forces by unit displacements in these ways.
     """
 
     ends: Ints
