@@ -25,17 +25,18 @@ _ALIKE = 1e-10
 class _Tooth:
     """A tooth of a body: its ``elements`` (E, 8), numbered in itself, and numbers in the body of its ``nodes`` (L,).
 
-    corners (L, 3): where they are, from their middle. cases (A,): the load cases on it, with ``forces`` (L, 3, A).
-    held, joined (L,): which nodes do not move, and which others it shares with its neighbours.
+    corners (L, 3): where they are, from their middle. held, joined (L,): which of them do not move, and which others it
+    shares with its neighbours. cases (A,): the load cases on it, with ``forces`` (F, 3, A) on the ``loaded`` (F,).
     """
 
     elements: Ints
     nodes: Ints
     corners: Floats
-    cases: Ints
-    forces: Floats
     held: Bools
     joined: Bools
+    cases: Ints
+    loaded: Ints
+    forces: Floats
 
     def turn_to(self, other: _Tooth) -> Floats | None:
         """The turn (3, 3), rows to rows, that makes this one the other, whose loads this one has; None for none."""
@@ -45,9 +46,8 @@ class _Tooth:
         turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
         if not _close(self.corners @ turn, other.corners):
             return None
-        same = self.forces.shape == other.forces.shape and _close(
-            np.einsum("lia,ij->lja", self.forces, turn), other.forces
-        )
+        same = len(self.cases) == len(other.cases) and np.array_equal(self.loaded, other.loaded)
+        same = same and _close(np.einsum("fia,ij->fja", self.forces, turn), other.forces)
         return turn if same or not len(other.cases) else None
 
 
@@ -72,10 +72,10 @@ def work(
         held_by_all = np.all([tooth.held for tooth in alike], axis=0)
         border = np.any([tooth.joined | tooth.held for tooth in alike], axis=0) & ~held_by_all
         own = HexMesh(mesh.nodes[first.nodes], first.elements)
-        inside = np.flatnonzero(~border & first.forces.any(axis=(1, 2)))
+        inside = ~border[first.loaded]
         parts = dissected(own, rows, np.flatnonzero(held_by_all), np.flatnonzero(border))
         remainder, moved = eliminated(
-            parts, own.elements, stiffness(own.nodes[own.elements]), inside, first.forces[inside], []
+            parts, own.elements, stiffness(own.nodes[own.elements]), first.loaded[inside], first.forces[inside], []
         )
         for number, turn in turns.items():
             left[number] = _turned(remainder, whole[number], turn)
@@ -103,15 +103,13 @@ def _teeth(mesh: HexMesh, held: Ints, nodes: Ints, forces: Floats, teeth: int) -
     for elements, (numbers, begin, inside) in zip(np.split(mesh.elements, teeth), own, strict=True):
         order = np.argsort(begin)
         here, joined = elements.ravel()[begin[order]], of_teeth[numbers[order]] > 1
-        loaded = (row[here] >= 0) & ~joined
-        acting = np.zeros((len(here), *forces.shape[1:]))
-        acting[loaded] = forces[row[here[loaded]]]
+        loaded = np.flatnonzero((row[here] >= 0) & ~joined)
+        acting, corners = forces[row[here[loaded]]], mesh.nodes[here]
         cases = np.flatnonzero(acting.any(axis=(0, 1)))
-        corners = mesh.nodes[here]
         found.append(
             _Tooth(
-                np.argsort(order)[inside].reshape(elements.shape), here, corners - corners.mean(axis=0), cases,
-                acting[:, :, cases], fixed[here], joined & ~fixed[here],
+                np.argsort(order)[inside].reshape(elements.shape), here, corners - corners.mean(axis=0), fixed[here],
+                joined & ~fixed[here], cases, loaded, acting[:, :, cases],
             )
         )  # fmt: skip
     return found
