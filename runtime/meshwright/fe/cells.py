@@ -82,9 +82,9 @@ class Cells:
         }
         free = [_summed([of[0] for of in both if of]) for both in zip(*edges.values(), strict=True)]
         later = tuple(contact.pairs_later for contact in contacts)
-        weights = [[np.empty((len(grid.gap), 0))] for grid in grids]
-        ways = [[np.empty(0, dtype=np.int64)] for _ in grids]
-        blocks = [np.empty((0, 0))]
+        weights: list[list[Floats]] = [[np.empty((len(grid.gap), 0))] for grid in grids]
+        ways: list[list[Ints]] = [[np.empty(0, dtype=np.int64)] for _ in grids]
+        blocks: list[Floats] = [np.empty((0, 0))]
         for name, tooth in compliance.items():
             known = tuple(None if of is None or of[1] is None else of[1].tobytes() for of in edges[name])
             spans = [tooth.span(*grid.place[name][grid.inside].T) for grid in grids]
