@@ -29,8 +29,8 @@ STILL = 1e-14
 #: Why a line ends: the number of a limit, or one of these.
 JOINED, CROSSED, ELSEWHERE = -3, -2, -1
 #: Terms of the polynomials; their last ones are no more than this part of the parameter's size; so often pieces are
-#: halved until that is so.
-TERMS, TAIL, TOLD, HALVINGS = 16, 3, 1e-11, 10
+#: halved until that is so. They are made when so many sections are asked for at once.
+TERMS, TAIL, TOLD, HALVINGS, MANY = 16, 3, 1e-11, 8, 128
 
 
 @dataclass(frozen=True)
@@ -104,11 +104,14 @@ class KnownSide:
 
     def profiles(self, name: str, values: Floats) -> tuple[Floats, Floats]:
         """The profile's parameter (K,) at the lower and at the upper ends of flank or fillet in sections (K,)."""
-        if not self.pieces:
+        if not self.pieces and len(values) >= MANY:
             self.pieces.append(_Pieces.of(self))
-        found, told = self.pieces[0].at(values)
-        if not told.all():
-            found[~told] = self.exact_profiles(values[~told])
+        if self.pieces:
+            found, told = self.pieces[0].at(values)
+            if not told.all():
+                found[~told] = self.exact_profiles(values[~told])
+        else:
+            found = self.exact_profiles(values)
         first = 0 if name == "flank" else 2
         return found[:, first], found[:, first + 1]
 
