@@ -217,5 +217,11 @@ def without_negative(compliance: Floats) -> Floats:
     Applications 103 (1988).
     """
     rounding = len(compliance) * np.finfo(float).eps * np.abs(compliance).max(initial=0.0)
+    try:
+        np.linalg.cholesky(compliance + rounding * np.eye(len(compliance)))
+    except np.linalg.LinAlgError:
+        pass
+    else:
+        return compliance  # as often as not, and seen much faster
     values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
     return compliance - (vectors * values) @ vectors.T
