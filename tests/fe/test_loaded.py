@@ -9,9 +9,10 @@ from test_solver_chain import linear_field, macneal_harder_patch
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
-from meshwright.fe import loaded
+from meshwright.fe import cells
 from meshwright.fe.blocks import Block
-from meshwright.fe.compliance import spline_weights, tooth_compliance
+from meshwright.fe.cells import Cells
+from meshwright.fe.compliance import ToothCompliance, spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
 from meshwright.fe.gap import contact_grid
 from meshwright.fe.halfspace import equal_cells, mean_displacement, rectangle_displacement
@@ -108,20 +109,40 @@ def test_two_pairs_share_the_torque(concave, compliance):
 
 
 def test_loads_do_the_same_work_on_one_anothers_displacements(concave, compliance, monkeypatch):
-    """Betti's theorem, of cells of both pairs with edges nearby, and cells that bear one another's loads stably."""
+    """Betti's theorem, of cells of both pairs with edges nearby, and cells that bear one another's loads stably: what
+    is factorised pair by pair tells the pressures under which cells move as they do.
+    """
     seen = []
 
-    def kept(cells, used, *more):
-        seen.append(cells.areas[used, None] * cells.between(used, used))
-        return of(cells, used, *more)
+    def kept(every, used):
+        units = np.eye(sum(every.sizes))[used]
+        areas = np.repeat([pair.area for pair in every.pairs], every.sizes)
+        found = of(every, used)
+        seen.append((areas[used, None] * np.column_stack([every.under(unit)[used] for unit in units]), found))
+        return found
 
-    of = loaded._Touching.of
-    monkeypatch.setattr(loaded._Touching, "of", kept)
+    of = Cells.bearing
+    monkeypatch.setattr(Cells, "bearing", kept)
     both = loaded_contact(concave, 0.35 * concave.pinion.pitch, 3, TORQUE, compliance)
     assert sum(pair.force > 0.0 for pair in both.pairs) == 2
-    for work in seen:
+    for work, bearing in seen:
         assert work == pytest.approx(work.T, rel=1e-9, abs=1e-12 * work.max())
         assert np.linalg.eigvalsh(work)[0] > 0.0
+        pressures = np.random.default_rng(5).normal(size=(len(work), 2))
+        assert bearing.pressures(work @ pressures) == pytest.approx(pressures, abs=1e-8)
+
+
+def test_few_ways_span_what_close_places_weigh():
+    """Splines are parabolas in a patch: within one, three ways along and three across tell all of their patches apart;
+    no place tells any.
+    """
+    tooth = ToothCompliance((6, 20), np.zeros((120, 120)), (), (1.0, 1.0))
+    profile, face = np.random.default_rng(6).uniform([[3.0 / 6.0], [7.0 / 20.0]], [[4.0 / 6.0], [8.0 / 20.0]], (2, 50))
+    ways, weights = tooth.span(profile, face), tooth.weights(profile, face)
+    assert ways.shape == (120, 9)
+    assert ways.T @ ways == pytest.approx(np.eye(9), abs=1e-12)
+    assert weights @ ways @ ways.T == pytest.approx(weights, abs=1e-11)
+    assert tooth.span(np.empty(0), np.empty(0)).shape == (120, 0)
 
 
 def test_teeth_are_softer_than_half_spaces(concave, compliance):
@@ -262,7 +283,7 @@ def test_a_contact_cut_off_by_an_edge_is_named(concave, monkeypatch):
     assert cut.peak_pressure > 2.0 ** (1.0 / 3.0) * cut.hertz.peak_pressure
     assert not whole.cut_off and not whole.peaks_at_edge and whole.edges == ()
     assert whole.peak_pressure == pytest.approx(whole.hertz.peak_pressure, rel=2e-3)
-    monkeypatch.setattr(loaded, "free_edge_displacements", lambda *_: None)
+    monkeypatch.setattr(cells, "free_edge_displacements", lambda *_: None)
     held = loaded_contact(concave, np.radians(-1.8182), 3, TORQUE, None).pairs[0]
     assert held.peak_pressure > 2.0 * held.hertz.peak_pressure and held.peak_pressure > cut.peak_pressure
     assert held.force > cut.force

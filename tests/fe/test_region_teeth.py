@@ -119,7 +119,7 @@ def changes(known):
 )
 def test_ends_in_any_section_are_those_that_the_region_has(design, member):
     """Undercut or not, beside a change of what ends the lines or not, to 1e-9 mm; flank and fillet meet to the
-    micrometre's thousandth.
+    micrometre's thousandth. Polynomials tell the profile's parameter there to 1e-9 of its size, in most sections.
     """
     tooth, _ = gear_tooth(whole(design), member, None)
     values = np.random.default_rng(3).uniform(*tooth.faces, 12)
@@ -127,10 +127,16 @@ def test_ends_in_any_section_are_those_that_the_region_has(design, member):
         known = KnownSide.of(side, tooth.faces)
         beside = np.ravel([known.values[changes(known) + k] + (0.5 - k) * 1e-4 for k in (0, 1)])
         values = np.sort(np.concatenate([values, beside]))
+        known.profiles("flank", np.linspace(*tooth.faces, 1001))
+        assert known.pieces[0].at(np.linspace(*tooth.faces, 1001))[1].mean() > 0.95
         for near, exact in zip(known.at(values), side.at(values), strict=True):
             for end in ("lower", "upper"):
                 places = [of.region.flank(getattr(of, end)).points for of in (near, exact)]
                 assert places[0] == pytest.approx(places[1], abs=1e-9)
+        for name, exact in zip(("flank", "fillet"), side.at(values), strict=True):
+            of = exact.region.profile
+            for told, end in zip(known.profiles(name, values), (exact.lower, exact.upper), strict=True):
+                assert told == pytest.approx(end[:, of], abs=1e-9 * exact.region.chart.sizes[of])
 
 
 def test_sections_are_known_close_to_where_the_reasons_change():

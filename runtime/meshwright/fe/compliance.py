@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.linalg import eigh
 
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
 from meshwright.fe.elastic import flexibility
@@ -30,6 +31,8 @@ from meshwright.fe.hexahedra import Floats, Ints, nodal_areas
 from meshwright.fe.pair import Member
 
 _MOST_NEIGHBOURS = 2
+# What is so small a part of the largest singular value is rounding.
+_NONE = 1e-13
 # Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
 # contact would tell too high a pressure.
 TOOTH_PATCHES = (6, 8)
@@ -71,6 +74,16 @@ class ToothCompliance:
         along, across = (spline_weights(n, at) for n, at in zip(self.shape, (profile, face), strict=True))
         return (along[:, :, None] * across[:, None, :]).reshape(len(profile), -1)
 
+    def span(self, profile: Floats, face: Floats) -> Floats:
+        """Orthonormal columns (P Q, R) that span the rows of the :meth:`weights` at N places: few where these are close
+        together, since splines are polynomials between the ends of patches.
+        """
+        bases = []
+        for count, at in zip(self.shape, (profile, face), strict=True):
+            _, sizes, ways = np.linalg.svd(spline_weights(count, at), full_matrices=False)
+            bases.append(ways[sizes > _NONE * sizes.max(initial=0.0)].T)
+        return np.kron(*bases)
+
 
 def neighbours_of(pairs: int) -> int:
     """Neighbours on either side that leave the rim as free as in a finite-element model of so many pairs, or two."""
@@ -107,7 +120,7 @@ def _moved(
         return _by_patch(body.mesh.face_nodes(flank), shape, per_patch, rows)
 
     nodes, forces = _patch_loads(body.mesh.nodes, [quads for k in range(neighbours + 1) for quads in corners(k)])
-    moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces)
+    moved = flexibility(body.mesh, member.material, body.rim, body.rows, nodes, forces, len(order))
     own, *later = moved[:, : shape[0] * shape[1]].reshape(neighbours + 1, -1, shape[0] * shape[1])
     middles = np.array([_middle(body.mesh.nodes, quads) for quads in corners(0)]).reshape(*shape, 3)
     lengths = [float(np.linalg.norm(np.diff(middles, axis=axis), axis=-1).mean()) for axis in (0, 1)]
@@ -203,6 +216,12 @@ def without_negative(compliance: Floats) -> Floats:
     Source: N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra and its
     Applications 103 (1988).
     """
-    values, vectors = np.linalg.eigh(compliance)
-    negative = values < 0.0
-    return compliance - (vectors[:, negative] * values[negative]) @ vectors[:, negative].T
+    rounding = len(compliance) * np.finfo(float).eps * np.abs(compliance).max(initial=0.0)
+    try:
+        np.linalg.cholesky(compliance + rounding * np.eye(len(compliance)))
+    except np.linalg.LinAlgError:
+        pass
+    else:
+        return compliance  # as often as not, and seen much faster
+    values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
+    return compliance - (vectors * values) @ vectors.T

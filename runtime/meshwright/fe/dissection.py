@@ -34,8 +34,11 @@ class Part:
     border: Ints
 
 
-def dissected(mesh: HexMesh, rows: int, held: Ints) -> list[Part]:
-    """The parts of a mesh with ``rows`` elements of each quadrilateral of its section in a row; the whole is last."""
+def dissected(mesh: HexMesh, rows: int, held: Ints, kept: Ints) -> list[Part]:
+    """The parts of a mesh with ``rows`` elements of each quadrilateral of its section in a row; the whole is last.
+
+    held: nodes that do not move; kept: nodes that no part eliminates, the border of the whole.
+    """
     section = _Section.of(mesh, rows)
     cuts: list[tuple[Ints, tuple[int, ...]]] = []
 
@@ -54,14 +57,38 @@ def dissected(mesh: HexMesh, rows: int, held: Ints) -> list[Part]:
         return len(cuts) - 1
 
     cut(np.arange(len(mesh.elements) // rows), 0, rows)
-    return _eliminated(mesh, cuts, held)
+    return _eliminated(mesh, cuts, held, kept)
 
 
-def _eliminated(mesh: HexMesh, cuts: list[tuple[Ints, tuple[int, ...]]], held: Ints) -> list[Part]:
+def chained(borders: list[Ints]) -> tuple[list[Ints], list[Part]]:
+    """Nodes on each of some ``borders`` in the order of elimination, and the parts that join what lies behind these one
+    after another: their numbers follow those of the borders, and the whole is last.
+    """
+    nodes, at = np.unique(np.concatenate(borders), return_inverse=True)
+    last = np.zeros(len(nodes), dtype=np.int64)
+    np.maximum.at(last, at, np.repeat(np.arange(len(borders)), [len(border) for border in borders]))
+    order = np.argsort(last, kind="stable")
+    nodes, last = nodes[order], last[order]
+    rank = np.argsort(order)
+    ranks = np.split(rank[at], np.cumsum([len(border) for border in borders])[:-1])
+    parts, open_ = [], np.empty(0, dtype=np.int64)
+    for number, own in enumerate(ranks):
+        open_ = np.union1d(open_, own)
+        done = last[open_] <= number
+        children = (len(borders) + number - 1, number) if number else (number,)
+        parts.append(Part(np.empty(0, dtype=np.int64), children, nodes[open_[done]], nodes[open_[~done]]))
+        open_ = open_[~done]
+    return [nodes[np.sort(own)] for own in ranks], parts
+
+
+def _eliminated(
+    mesh: HexMesh, cuts: list[tuple[Ints, tuple[int, ...]]], held: Ints, kept: Ints
+) -> list[Part]:
     """The parts, with the nodes that each eliminates: those that no element outside it has."""
     free = np.ones(len(mesh.nodes), dtype=bool)
     free[held] = False
     everywhere = np.bincount(mesh.elements.ravel(), minlength=len(mesh.nodes))
+    everywhere[kept] += 1
     shared: list[tuple[Ints, Ints]] = []
     owned: list[Ints] = []
     for elements, children in cuts:
@@ -75,7 +102,7 @@ def _eliminated(mesh: HexMesh, cuts: list[tuple[Ints, tuple[int, ...]]], held: I
         owned.append(nodes[inner])
         shared.append((nodes[~inner], counts[~inner]))
     rank = np.empty(len(mesh.nodes), dtype=np.int64)
-    order = np.concatenate(owned)
+    order = np.concatenate([*owned, kept])
     rank[order] = np.arange(len(order))
     borders = [nodes[np.argsort(rank[nodes])] for nodes, _ in shared]
     return [Part(*cut, own, border) for cut, own, border in zip(cuts, owned, borders, strict=True)]

@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 
-from meshwright.fe import factor
-from meshwright.fe.dissection import dissected
+from meshwright.fe import repeated
 from meshwright.fe.hexahedra import GAUSS_POINTS, Floats, HexMesh, Ints, jacobians, shape_derivatives
 from meshwright.fe.material import Material
 
@@ -18,16 +17,18 @@ from meshwright.fe.material import Material
 _AT_ONCE = 128
 
 
-def flexibility(mesh: HexMesh, material: Material, held: Ints, rows: int, nodes: Ints, forces: Floats) -> Floats:
+def flexibility(
+    mesh: HexMesh, material: Material, held: Ints, rows: int, nodes: Ints, forces: Floats, teeth: int = 1
+) -> Floats:
     """(C, C) displacements in mm, each the mean that one of C load cases weighs, by unit loads of the others.
 
     ``forces`` (K, 3, C) act on distinct ``nodes`` (K,): with the stiffness K it is forces^T K^-1 forces. ``held`` nodes
-    do not move; ``rows`` elements of each quadrilateral of the mesh's section follow one another.
+    do not move. The mesh is made of so many ``teeth``, one after another; ``rows`` elements of each quadrilateral of
+    their sections follow one another.
     """
-    return factor.work(
-        dissected(mesh, rows, held), mesh.elements, element_stiffness(mesh.nodes[mesh.elements], material),
-        nodes, forces,
-    )  # fmt: skip
+    return repeated.work(
+        mesh, lambda corners: element_stiffness(corners, material), held, rows, nodes, forces, teeth
+    )
 
 
 def assemble(mesh: HexMesh, material: Material) -> csc_matrix:

@@ -23,7 +23,7 @@ _PIECES = 40
 
 
 @dataclass(frozen=True)
-class _Remainder:
+class Remainder:
     """What a part leaves on its border: stiffness (3B, 3B), lower triangle, and loads (3B, A) of the ``cases`` (A,)."""
 
     border: Ints
@@ -32,18 +32,23 @@ class _Remainder:
     cases: Ints
 
 
-def work(parts: list[Part], elements: Ints, stiffness: Floats, nodes: Ints, forces: Floats) -> Floats:
-    """(C, C) matrix forces^T K^-1 forces of load cases ``forces`` (K, 3, C) on ``nodes`` (K,).
+def eliminated(
+    parts: list[Part], elements: Ints, stiffness: Floats, nodes: Ints, forces: Floats, known: list[Remainder]
+) -> tuple[Remainder, Floats]:
+    """What the last of some parts leaves, and the (C, C) work of load cases on one another in what is eliminated.
 
-    K is made up of the ``stiffness`` (M, 24, 24) of ``elements`` (M, 8); the nodes that no part has do not move.
+    forces (K, 3, C) on ``nodes`` (K,): those on the last border are left out. The ``elements`` (M, 8) have the
+    ``stiffness`` (M, 24, 24); of the parts with the first numbers what they leave is ``known``, and ``parts`` have the
+    next numbers. Nodes that no part has do not move. Where nothing is left the work is forces^T K^-1 forces.
     """
+    count = 1 + max(int(of.max(initial=0)) for of in (elements, *(part.own for part in parts)))
     total = np.zeros((forces.shape[2], forces.shape[2]))
-    loads = _Loads.of(nodes, forces, int(elements.max()) + 1)
-    place = np.full(int(elements.max()) + 1, -1)
+    loads = _Loads.of(nodes, forces, max(count, int(nodes.max(initial=0)) + 1))
+    place = np.full(count, -1)
     largest = max(3 * (len(part.own) + len(part.border)) for part in parts)
     room = np.empty(largest * largest)
-    left: dict[int, _Remainder] = {}
-    for number, part in enumerate(parts):
+    left = dict(enumerate(known))
+    for number, part in enumerate(parts, len(known)):
         here = np.concatenate([part.own, part.border])
         place[here] = np.arange(len(here))
         size, own = 3 * len(here), 3 * len(part.own)
@@ -59,8 +64,9 @@ def work(parts: list[Part], elements: Ints, stiffness: Floats, nodes: Ints, forc
         place[here] = -1
         remainder = _eliminate(front, moved, own)
         total[np.ix_(cases, cases)] += moved[:own].T @ moved[:own]
-        left[number] = _Remainder(part.border, remainder, moved[own:], cases)
-    return total
+        left[number] = Remainder(part.border, remainder, moved[own:], cases)
+    (last,) = left.values()
+    return last, total
 
 
 def _eliminate(front: Floats, loads: Floats, own: int) -> Floats:
@@ -96,6 +102,8 @@ def _assemble(front: Floats, places: Ints, stiffness: Floats) -> None:
 
 def _add(front: Floats, remainder: Floats, places: Ints) -> None:
     """Add the lower triangle of a remainder at ascending places of its nodes."""
+    if not len(places):
+        return
     breaks = np.flatnonzero(np.diff(places) != 1) + 1
     if len(breaks) >= _PIECES:
         freedoms = _freedoms(places)
@@ -120,7 +128,7 @@ class _Loads:
         row[nodes] = np.arange(len(nodes))
         return cls(forces, row)
 
-    def on(self, own: Ints, children: list[_Remainder], place: Ints, size: int) -> tuple[Ints, Floats]:
+    def on(self, own: Ints, children: list[Remainder], place: Ints, size: int) -> tuple[Ints, Floats]:
         """The cases (A,) that act on a front, and their loads (size, A): those of its children and on its own nodes."""
         loaded = own[self.row[own] >= 0]
         forces = self.forces[self.row[loaded]]

@@ -16,6 +16,8 @@ from meshwright.flank.sections import solved
 Bools = NDArray[np.bool_]
 
 _NEWTON_STEPS = 20
+# After so many steps a normal that comes no closer than to this part of its miss before meets no flank.
+_EARLY_STEPS, _CLOSER = 8, 0.5
 _STEP_TOLERANCE = 1e-13
 # A flank with an edge near the grid may leave some of the normals unmet.
 _PIERCED = 1e-9
@@ -134,8 +136,8 @@ def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> t
     surface = curves.surface
     if not isinstance(surface, Smooth):
         raise TypeError("a flank whose tangents nobody knows is met by no normals")
-    going = np.arange(len(feet))
-    for _ in range(_NEWTON_STEPS):
+    going, before = np.arange(len(feet)), np.full(len(feet), np.inf)
+    for step in range(_NEWTON_STEPS):
         at = profile[going], face[going]
         points, tangents = surface.tangents(*at)
         miss = (points - feet[going]) @ plane[:2].T
@@ -143,7 +145,10 @@ def _pierce(curves: SectionCurves, rail: Rail, feet: Floats, plane: Floats) -> t
         found = np.isfinite(change).all(axis=1)
         change[~found] = 0.0
         profile[going], face[going] = at[0] - change[:, 0], at[1] - change[:, 1]
-        going = going[found & (np.abs(miss).max(axis=1) >= _STEP_TOLERANCE * 1e2)]
+        largest = np.abs(miss).max(axis=1)
+        closer = (largest < _CLOSER * before) | (step < _EARLY_STEPS)
+        more = found & closer & (largest >= _STEP_TOLERANCE * 1e2)
+        going, before = going[more], largest[more]
         if not len(going):
             break
     return profile, face

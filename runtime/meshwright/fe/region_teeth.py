@@ -99,8 +99,7 @@ class _Curves:
 
     def _ends(self, values: Floats, share: float) -> Floats:
         """Profile parameters (K,) at a share of the way from the root end to the tip end."""
-        found = self.known.lines(self.region, values)
-        ends = [end[:, found.region.profile] for end in (found.lower, found.upper)]
+        ends = self.known.profiles(self.region, values)
         low, high = ends if self.upward else ends[::-1]
         return low + share * (high - low)
 

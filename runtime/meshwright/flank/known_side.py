@@ -2,7 +2,9 @@
 
 Between two known sections whose lines end for the same reasons, a limit, a crossing of flank and fillet or the end of
 the fillet on the flank, the ends are found by Newton's method from those beside them; elsewhere the side itself finds
-them. Where the reasons change, sections are known closer and closer to the change.
+them. Where the reasons change, sections are known closer and closer to the change. The profile's parameter at the ends
+is analytic in between: Chebyshev polynomials tell it, on pieces as short as they need to be: L. N. Trefethen,
+Approximation Theory and Approximation Practice (2013).
 """
 
 from __future__ import annotations
@@ -26,6 +28,9 @@ NEWTON_STEPS = 12
 STILL = 1e-14
 #: Why a line ends: the number of a limit, or one of these.
 JOINED, CROSSED, ELSEWHERE = -3, -2, -1
+#: Terms of the polynomials; their last ones are no more than this part of the parameter's size; so often pieces are
+#: halved until that is so. They are made when so many sections are asked for at once.
+TERMS, TAIL, TOLD, HALVINGS, MANY = 16, 3, 1e-11, 8, 128
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,7 @@ class KnownSide:
     fillet: Lines | None
     ends: dict[tuple[str, bool], Ints]
     found: dict[bytes, tuple[Lines, Lines | None]] = field(default_factory=dict, repr=False)
+    pieces: list[_Pieces] = field(default_factory=list, repr=False)
 
     @classmethod
     def of(cls, side: RegionSide, faces: tuple[float, float]) -> KnownSide:
@@ -96,6 +102,24 @@ class KnownSide:
             self.found[key] = self._at(values)
         return self.found[key]
 
+    def profiles(self, name: str, values: Floats) -> tuple[Floats, Floats]:
+        """The profile's parameter (K,) at the lower and at the upper ends of flank or fillet in sections (K,)."""
+        if not self.pieces and len(values) >= MANY:
+            self.pieces.append(_Pieces.of(self))
+        if self.pieces:
+            found, told = self.pieces[0].at(values)
+            if not told.all():
+                found[~told] = self.exact_profiles(values[~told])
+        else:
+            found = self.exact_profiles(values)
+        first = 0 if name == "flank" else 2
+        return found[:, first], found[:, first + 1]
+
+    def exact_profiles(self, values: Floats) -> Floats:
+        """The profile's parameter (K, E) at both ends of the flank, and of the fillet if there is one."""
+        whole = [lines for lines in self.at(values) if lines]
+        return np.column_stack([end[:, lines.region.profile] for lines in whole for end in (lines.lower, lines.upper)])
+
     def _at(self, values: Floats) -> tuple[Lines, Lines | None]:
         sure = self._between_alike(values)
         flank = self._near(self.flank, "flank", values, sure)
@@ -110,10 +134,13 @@ class KnownSide:
     def _between_alike(self, values: Floats) -> Bools:
         """Whether (K,) lines end for the same reasons, known ones, in the known sections on either side."""
         before, _ = self.beside(values)
-        alike = (values >= self.values[0]) & (values <= self.values[-1])
-        for why in self.ends.values():
-            alike &= (why[before] == why[before + 1]) & (why[before] != ELSEWHERE)
-        return alike
+        return (values >= self.values[0]) & (values <= self.values[-1]) & self.alike[before]
+
+    @property
+    def alike(self) -> Bools:
+        """Whether (V - 1,) lines end for the same reasons, known ones, in a known section and the next."""
+        same = [(why[:-1] == why[1:]) & (why[:-1] != ELSEWHERE) for why in self.ends.values()]
+        return np.all(same, axis=0)
 
     def beside(self, values: Floats) -> tuple[Ints, Floats]:
         """Number (K,) of the known section before each, and the share (K, 1) of the way to the next."""
@@ -168,6 +195,53 @@ class KnownSide:
         points = [lines.region.flank(q).points for lines, q in zip(both, found, strict=True)]
         sure[crossed] &= np.linalg.norm(points[0] - points[1], axis=1) < ROUNDING
         return _moved(flank, joints[0], crossed, found[0]), _moved(fillet, joints[1], crossed, found[1])
+
+
+@dataclass(frozen=True)
+class _Pieces:
+    """Polynomials on P pieces, ascending, from ``low`` to ``high`` (P,): coefficients ``terms`` (P, TERMS, E)."""
+
+    low: Floats
+    high: Floats
+    terms: Floats
+
+    @classmethod
+    def of(cls, known: KnownSide) -> _Pieces:
+        """Those of the exact profiles of a side; none where they are no such polynomials."""
+        turns = np.pi * (np.arange(TERMS) + 0.5) / TERMS
+        fit = np.cos(np.arange(TERMS)[:, None] * turns) * (2.0 / TERMS)
+        fit[0] *= 0.5
+        regions = [lines.region for lines in (known.flank, known.fillet) if lines]
+        sizes = np.repeat([region.chart.sizes[region.profile] for region in regions], 2)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], known.alike.astype(int), [0]])))
+        low, high = known.values[edges[::2]], known.values[edges[1::2]]
+        done: list[tuple[Floats, Floats, Floats]] = [(np.empty(0), np.empty(0), np.empty((0, TERMS, len(sizes))))]
+        for _ in range(HALVINGS + 1):
+            if not len(low):
+                break
+            places = 0.5 * (low + high)[:, None] + 0.5 * (high - low)[:, None] * np.cos(turns)
+            terms = fit @ known.exact_profiles(places.ravel()).reshape(*places.shape, -1)
+            told = np.all(np.abs(terms[:, -TAIL:]) <= TOLD * sizes, axis=(1, 2))
+            done.append((low[told], high[told], terms[told]))
+            middle = 0.5 * (low + high)[~told]
+            low, high = np.concatenate([low[~told], middle]), np.concatenate([middle, high[~told]])
+        joined = [np.concatenate(column) for column in zip(*done, strict=True)]
+        order = np.argsort(joined[0])
+        return cls(*(column[order] for column in joined))
+
+    def at(self, values: Floats) -> tuple[Floats, Bools]:
+        """Profiles (K, E) in sections (K,), and whether (K,) they are told."""
+        found = np.empty((len(values), self.terms.shape[2]))
+        piece = np.searchsorted(self.low, values, side="right") - 1
+        told = piece >= 0
+        told[told] = values[told] <= self.high[piece[told]]
+        piece, terms = piece[told], self.terms[piece[told]]
+        share = (2.0 * values[told] - self.low[piece] - self.high[piece]) / (self.high[piece] - self.low[piece])
+        later, last = np.zeros_like(terms[:, 0]), terms[:, -1]
+        for k in range(TERMS - 2, 0, -1):
+            later, last = last, terms[:, k] + 2.0 * share[:, None] * last - later
+        found[told] = terms[:, 0] + share[:, None] * last - later
+        return found, told
 
 
 def _end(lines: Lines, upper: bool) -> Floats:

@@ -403,8 +403,8 @@ def tangents(region, found):
     size, k = slopes.shape
     matrix = np.zeros((size, k, k))
     matrix[:, 0, region.profile], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
-    ways = [solved(matrix, np.broadcast_to(np.eye(k)[row], (size, k))) for row in (0, 1)]
-    return np.einsum("rnk,nkj->nrj", np.array(ways), found.tangents)
+    ways = solved(matrix, np.broadcast_to(np.eye(k)[:, :2], (size, k, 2)))
+    return np.swapaxes(ways, 1, 2) @ found.tangents
 
 
 def solve(region, profile, along, start):

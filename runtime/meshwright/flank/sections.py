@@ -120,12 +120,13 @@ def lengthwise_bending(flank, found, second):
 
 
 def solved(matrix, residual):
-    """Solutions (N, c) of N systems of linear equations; NaN for singular ones."""
-    step = np.full(residual.shape, np.nan)
-    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+    """Solutions (N, c), or (N, c, m) of m at once, of N systems of linear equations; NaN for singular ones."""
+    each = residual if residual.ndim == 3 else residual[:, :, None]
+    step = np.full(each.shape, np.nan)
+    good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(each).all(axis=(1, 2))
     try:
-        step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
+        step[good] = np.linalg.solve(matrix[good], each[good])
     except np.linalg.LinAlgError:  # one singular matrix refuses them all
         good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
-        step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
-    return step
+        step[good] = np.linalg.solve(matrix[good], each[good])
+    return step.reshape(residual.shape)

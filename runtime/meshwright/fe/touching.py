@@ -1,0 +1,105 @@
+"""Which cells touch: an active set over the cells of all pairs with one rigid rotation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshwright.fe.cells import Bearing, Cells
+from meshwright.fe.gap import Bools
+from meshwright.fe.hexahedra import Floats, Ints
+
+_ACTIVE_SET_STEPS = 200
+#: Share of the cells above which those that are let go are taken out of a factorisation.
+_KEPT = 0.75
+
+
+@dataclass(frozen=True)
+class _Touching:
+    """Equilibrium of the cells ``used`` (U,), factorised, and of all of them but the rows ``dropped`` (R,).
+
+    turned (U,): pressures by which the cells follow a unit rotation; levers (U,): moment of a unit pressure. whole
+    (U + 1,): pressures of all and the rotation. inverse (U + 1, R): the columns of the inverse for what is dropped:
+    W. W. Hager, Updating the inverse of a matrix (1989).
+    """
+
+    used: Ints
+    bearing: Bearing
+    areas: Floats
+    levers: Floats
+    turned: Floats
+    whole: Floats
+    dropped: Ints
+    inverse: Floats
+
+    @classmethod
+    def of(cls, cells: Cells, used: Ints, gap: Floats, arms: Floats, areas: Floats, torque: float) -> _Touching:
+        levers, bearing = areas[used] * arms[used], cells.bearing(used)
+        turned = bearing.pressures(levers[:, None])[:, 0]
+        none = np.empty(0, dtype=np.int64), np.empty((len(used) + 1, 0))
+        open_ = cls(used, bearing, areas[used], levers, turned, np.empty(0), *none)
+        return replace(open_, whole=open_._solved(-gap[used, None], torque)[:, 0])
+
+    def _solved(self, displacements: Floats, torque: float) -> Floats:
+        """Pressures and rotation (U + 1, K) where cells move by (U, K) less what the rotation gives way to."""
+        pressures = self.bearing.pressures(self.areas[:, None] * displacements)
+        rotation = (torque - self.levers @ pressures) / (self.levers @ self.turned)
+        return np.vstack([pressures + self.turned[:, None] * rotation, rotation])
+
+    def most(self, active: Bools) -> bool:
+        """Whether so many of the cells are still ``active`` (N,) that it is less work not to factorise them anew."""
+        return bool(active[self.used].mean() > _KEPT)
+
+    def without(self, pulled: Bools) -> _Touching:
+        """The same without further cells, given among all (N,)."""
+        rows = np.setdiff1d(np.flatnonzero(pulled[self.used]), self.dropped)
+        units = np.zeros((len(self.used), len(rows)))
+        units[rows, np.arange(len(rows))] = 1.0
+        inverse = np.hstack([self.inverse, self._solved(units, 0.0)])
+        return replace(self, dropped=np.concatenate([self.dropped, rows]), inverse=inverse)
+
+    def pressure(self, count: int) -> tuple[Floats, float]:
+        """Pressures (count,) of all cells, and the rotation. Raises ArithmeticError where they are not determined."""
+        solution = self.whole
+        if len(self.dropped):
+            open_again = np.linalg.solve(self.inverse[self.dropped], solution[self.dropped])
+            solution = solution - self.inverse @ open_again
+            solution[self.dropped] = 0.0
+        if not np.isfinite(solution).all():
+            raise ArithmeticError("the pressures of the cells in contact are not determined")
+        found = np.zeros(count)
+        found[self.used] = solution[:-1]
+        return found, float(solution[-1])
+
+
+def active_set(
+    cells: Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
+) -> tuple[Floats, float]:
+    """Pressures (N,) >= 0 and rotation with gap + displacement - rotation arms >= 0, zero where p > 0, moment = torque.
+
+    start (N,): cells thought to touch.  Raises ArithmeticError if no cell is on both flanks, or the set of touching
+    cells does not settle.
+    """
+    if not inside.any():
+        raise ArithmeticError("no cell of the contact grid lies on both flanks: the load is too large for these teeth")
+    active = inside & start
+    if not active.any():
+        active = inside & (gap <= gap[inside].min())
+    scale = cells.largest
+    touching: _Touching | None = None
+    for _ in range(_ACTIVE_SET_STEPS):
+        touching = touching or _Touching.of(cells, np.flatnonzero(active), gap, arms, areas, torque)
+        pressure, rotation = touching.pressure(len(gap))
+        pulled = pressure < 0.0
+        if pulled.any():
+            active &= ~pulled
+            touching = touching.without(pulled) if touching.most(active) else None
+            continue
+        opening = gap + cells.under(pressure) - rotation * arms
+        overlapping = inside & ~active & (opening < -1e-9 * scale * max(1.0, float(pressure.max())))
+        if not overlapping.any():
+            return pressure, float(rotation)
+        active |= overlapping
+        touching = None
+    raise ArithmeticError(f"the loaded contact did not settle in {_ACTIVE_SET_STEPS} steps")
