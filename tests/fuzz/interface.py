@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -270,16 +271,17 @@ def build_quickly(folder, compiler, built, design):
     """As :func:`build` for one drive, without sanitizers, of the objects in ``built`` that ``make build`` left."""
     folder.mkdir(parents=True, exist_ok=True)
     (name,) = write_seeds(folder, (design,))
-    left = [*built.glob("*.o"), *(built / name).glob("*.o")]
+    first, *others = DRIVE.units
+    left = [path for path in built.glob("*.o") if path.name != "library.o"]
+    left += [built / name / f"{Path(unit).stem}.o" for unit in others]
     own = [
         _compiled(folder, compiler, ("-O0",), SOURCE / "library.c", ('-DMW_DRIVES="drives.h"',), "library"),
         _compiled(folder, compiler, ("-O0",), HERE / "alone.c", (f"-DMW_DRIVE={name}",), "alone"),
         _compiled(folder, compiler, ("-O0",), HERE / "interface.c", ("-DMW_FUZZ_ALONE",), "interface"),
-        # the drive's first unit knows in `make build`'s objects nothing of what is in objects beside it
-        *(_compiled(folder, compiler, ("-O1",), *unit) for unit in (_units(name, DRIVE)[0], *_units(name, IN_LANES, PROOFS))),
+        # what is in objects of its own beside the drive's, and the unit that refers to it where all is linked together
+        *(_compiled(folder, compiler, ("-O1",), *u) for u in _units(name, replace(DRIVE, units=(first,)), IN_LANES, PROOFS)),
     ]
-    again = ("library.o", "drive.o")
-    return _linked(folder / "fuzz", compiler, (), (*own, *(str(o) for o in left if o.name not in again)))
+    return _linked(folder / "fuzz", compiler, (), (*own, *map(str, left)))
 
 
 def _objects(folder, compiler, flags, designs):
