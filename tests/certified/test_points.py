@@ -239,7 +239,7 @@ def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
 
 
 def certificates_and_bounds(drive, m, proved_by, solutions):
-    """Bits of certificates by the table ``m`` and of many points one after the other by ``proved_by``, a degree apart."""
+    """Bits of certificates by the table ``m`` and of many points by ``proved_by``, one by one, a degree apart."""
     n, state = len(solutions), pointer(drive.enclosed.state.copy(), "mw_wide[]")
     phi, found = np.zeros(n, record("mw_wide")), np.zeros(n, record("mw_certificate"))
     phi["hi"] = np.radians(np.arange(n))

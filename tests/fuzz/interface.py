@@ -274,12 +274,13 @@ def build_quickly(folder, compiler, built, design):
     first, *others = DRIVE.units
     left = [path for path in built.glob("*.o") if path.name != "library.o"]
     left += [built / name / f"{Path(unit).stem}.o" for unit in others]
+    apart = replace(DRIVE, units=(first,))
     own = [
         _compiled(folder, compiler, ("-O0",), SOURCE / "library.c", ('-DMW_DRIVES="drives.h"',), "library"),
         _compiled(folder, compiler, ("-O0",), HERE / "alone.c", (f"-DMW_DRIVE={name}",), "alone"),
         _compiled(folder, compiler, ("-O0",), HERE / "interface.c", ("-DMW_FUZZ_ALONE",), "interface"),
         # what is in objects of its own beside the drive's, and the unit that refers to it where all is linked together
-        *(_compiled(folder, compiler, ("-O1",), *u) for u in _units(name, replace(DRIVE, units=(first,)), IN_LANES, PROOFS)),
+        *(_compiled(folder, compiler, ("-O1",), *unit) for unit in _units(name, apart, IN_LANES, PROOFS)),
     ]
     return _linked(folder / "fuzz", compiler, (), (*own, *map(str, left)))
 

@@ -356,7 +356,7 @@ def main(arguments=None):
     parser.add_argument("drive", nargs="*", help="drives that the folder holds")
     parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
     parser.add_argument("--now", nargs="*", metavar="DRIVE", help="compile these only; default: all that it holds")
-    parser.add_argument("--whole", action="store_true", help="compile also what solves and proves many contacts at once")
+    parser.add_argument("--whole", action="store_true", help="compile also what solves and proves many at once")
     options = parser.parse_args(arguments)
     source = Path(__file__).resolve().parents[2] / "c"
     try:

@@ -87,7 +87,7 @@ def folder_of(name, places=None):
 def object_of(name, places=None, kind=""):
     """Path of a drive's shared object; one that is missing, damaged or of other sources is compiled into the cache.
 
-    ``places`` as in :func:`folder_of`; ``kind``: the drive itself or, as file names end, ``"_in_lanes"``, ``"_proofs"``.
+    ``places`` as in :func:`folder_of`; ``kind``: "" the drive itself or, as file names end, "_in_lanes", "_proofs".
     """
     folder = folder_of(name, places)
     path = folder / f"{name}{kind}.so"
