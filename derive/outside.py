@@ -91,6 +91,8 @@ def write(page, name, record, folder, log, source=None):
             replace_text(folder / _place(path), text)
         replace_text(folder / "audit" / f"{name}.json", json.dumps(entry, indent=1, ensure_ascii=False) + "\n")
         build.moved(name, fresh, folder)
+        # what is beside it was compiled from what was there before
+        build.drop_superseded([name], folder, compiler.package())
 
 
 def _place(path):

@@ -46,7 +46,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     generated = ROOT / "generated"
     families = json.loads((generated / "families.json").read_text(encoding="utf-8"))
     drives = _program("derive/packaged.py").packaged(families)
-    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects"), "--proofs"]
+    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects"), "--whole"]
     if settings.pop("libraries", None) != "built" and _program("runtime/meshwright/base/compile.py").main(arguments):
         raise SystemExit("the libraries do not compile: see above")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -15,7 +15,7 @@ def available():
 
 def trace(lanes, drive, angles):
     """Unknowns, statuses and number of successes of one design along ``angles``, each lane a part of them."""
-    m, n = drive.model, len(angles)
+    m, n = drive.design.model_in_lanes, len(angles)
     width = library().mw_lanes_width(lanes)
     work = np.empty(library().mw_lanes_work(lanes, m, -(-n // width)))
     x, status = np.empty((n, m.nx)), np.empty(n, dtype=np.int32)
@@ -31,7 +31,7 @@ def trace_designs(lanes, drive, designs, angles, start=None):
 
     ``start`` is near the solutions at the first angle; that of the drive itself if it is not given.
     """
-    m, count, n = drive.model, len(designs), len(angles)
+    m, count, n = drive.design.model_in_lanes, len(designs), len(angles)
     start = drive.trace(angles[:1])[0][0] if start is None else start
     x, status = np.empty((count, n, m.nx)), np.empty((count, n), dtype=np.int32)
     work = np.empty(library().mw_lanes_work(lanes, m, n))

@@ -434,6 +434,12 @@ MW_INLINE double bevel_formate_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[bevel_formate_NP]. */
 static inline void bevel_formate_derive(double *p)
 {
@@ -1784,6 +1790,10 @@ static inline void bevel_formate_size(const double *p, double *d)
     const double t0 = p[1] / p[2];
     d[0] = t0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[bevel_formate_NP] complete; s[bevel_formate_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -4014,6 +4024,12 @@ static inline double bevel_formate_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t795), 1.0, MW_FMA(MW_ABS(t790), s[179], MW_FMA(MW_ABS(t803), s[180], MW_FMA(MW_ABS(t785), s[181], MW_ABS(t798) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[bevel_formate_NX] along v[bevel_formate_NX + 1], a direction of (x, phi): the first,
  * d1[bevel_formate_NX], and unless d2 is NULL the second, d2[bevel_formate_NX]. Of the state only the design part is read. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
@@ -5358,6 +5374,10 @@ static inline void bevel_formate_scale(const double *s, double *x)
     x[4] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[bevel_formate_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -6335,6 +6355,12 @@ static inline void bevel_formate_observe(const double *s, const double *x, doubl
     o[58] = t811;
     o[59] = t842;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (phi_cradle_pinion, theta_pinion).
  *     0 point[3], mm
@@ -8911,6 +8937,10 @@ static inline void bevel_formate_placement(const double *s, const double *q, dou
     o[34] = 0.0;
     o[35] = s[188];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name bevel_formate_unknown_names[] = {
     { "phi_cradle_pinion", "rad", "turn of the cradle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -7,6 +7,12 @@
 #ifndef MESHWRIGHT_BEVEL_FORMATE_SENSITIVITY_H
 #define MESHWRIGHT_BEVEL_FORMATE_SENSITIVITY_H
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Rules: known[bevel_formate_NP] as the design gives them (not a number: open), p the same completed, dp[bevel_formate_NP] the changes
  * of what is known. Fills in, in known and in dp, what follows by defaults and rules. */
 static inline void bevel_formate_derive_tangent(double *known, const double *p, double *dp)
@@ -4295,5 +4301,9 @@ static inline void bevel_formate_tangent(const double *p, const double *dp, doub
     dr[1] = t778;
     dr[2] = t838;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 #endif

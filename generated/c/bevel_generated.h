@@ -442,6 +442,12 @@ MW_INLINE double bevel_generated_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[bevel_generated_NP]. */
 static inline void bevel_generated_derive(double *p)
 {
@@ -2342,6 +2348,10 @@ static inline void bevel_generated_size(const double *p, double *d)
     const double t0 = p[1] / p[2];
     d[0] = t0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[bevel_generated_NP] complete; s[bevel_generated_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -4971,6 +4981,12 @@ static inline double bevel_generated_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t936), 1.0, MW_FMA(MW_ABS(t931), s[240], MW_FMA(MW_ABS(t924), 1.0, MW_FMA(MW_ABS(t918), s[241], MW_ABS(t940) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[bevel_generated_NX] along v[bevel_generated_NX + 1], a direction of (x, phi): the first,
  * d1[bevel_generated_NX], and unless d2 is NULL the second, d2[bevel_generated_NX]. Of the state only the design part is read. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
@@ -6736,6 +6752,10 @@ static inline void bevel_generated_scale(const double *s, double *x)
     x[4] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[bevel_generated_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -8014,6 +8034,12 @@ static inline void bevel_generated_observe(const double *s, const double *x, dou
     o[59] = t1104;
     o[60] = t1141;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (phi_cradle_pinion, theta_pinion).
  *     0 point[3], mm
@@ -11594,6 +11620,10 @@ static inline void bevel_generated_placement(const double *s, const double *q, d
     o[34] = 0.0;
     o[35] = s[247];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name bevel_generated_unknown_names[] = {
     { "phi_cradle_pinion", "rad", "turn of the cradle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -9,7 +9,7 @@
 #ifndef MESHWRIGHT_BEVEL_GENERATED_BOUNDED_H
 #define MESHWRIGHT_BEVEL_GENERATED_BOUNDED_H
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
@@ -11353,7 +11353,7 @@ static const mw_bounded bevel_generated_bounded = {
     8, bevel_generated_edge_systems, bevel_generated_expansions
 };
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #pragma GCC pop_options
 #endif
 

@@ -7,6 +7,12 @@
 #ifndef MESHWRIGHT_BEVEL_GENERATED_SENSITIVITY_H
 #define MESHWRIGHT_BEVEL_GENERATED_SENSITIVITY_H
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Rules: known[bevel_generated_NP] as the design gives them (not a number: open), p the same completed, dp[bevel_generated_NP] the changes
  * of what is known. Fills in, in known and in dp, what follows by defaults and rules. */
 static inline void bevel_generated_derive_tangent(double *known, const double *p, double *dp)
@@ -6087,5 +6093,9 @@ static inline void bevel_generated_tangent(const double *p, const double *dp, do
     dr[1] = t1450;
     dr[2] = t1442;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 #endif

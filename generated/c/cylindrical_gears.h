@@ -410,6 +410,12 @@ MW_INLINE double cylindrical_gears_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_gears_NP]. */
 static inline void cylindrical_gears_derive(double *p)
 {
@@ -1086,6 +1092,10 @@ static inline void cylindrical_gears_size(const double *p, double *d)
     d[21] = t154;
     d[22] = t119;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_gears_NP] complete; s[cylindrical_gears_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -3563,6 +3573,12 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t507), s[158], MW_FMA(MW_ABS(t511), s[159], MW_FMA(MW_ABS(t494), s[158], MW_FMA(MW_ABS(t495), s[160], MW_ABS(t504) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_gears_NX] along v[cylindrical_gears_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_gears_NX], and unless d2 is NULL the second, d2[cylindrical_gears_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit,
@@ -4268,6 +4284,10 @@ static inline void cylindrical_gears_scale(const double *s, double *x)
     x[3] = s[157];
     x[4] = 1.0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Everything worth knowing at a solution: o[cylindrical_gears_NO].
  *     0 point_pinion_f[3], mm, frame f
@@ -5053,6 +5073,12 @@ static inline void cylindrical_gears_observe(const double *s, const double *x, d
     o[59] = t574;
     o[60] = t650;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (l_pinion, z_pinion).
  *     0 point[3], mm
@@ -6940,6 +6966,10 @@ static inline void cylindrical_gears_solid_wheel(const double *s, const double *
     o[8] = 0.0;
     o[9] = s[140];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_gears_unknown_names[] = {
     { "l_pinion", "mm", "along the rack's edge from its datum line, to the tip of the pinion", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

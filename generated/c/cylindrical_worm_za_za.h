@@ -418,6 +418,12 @@ MW_INLINE double cylindrical_worm_za_za_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_za_za_NP]. */
 static inline void cylindrical_worm_za_za_derive(double *p)
 {
@@ -582,6 +588,10 @@ static inline void cylindrical_worm_za_za_size(const double *p, double *d)
     d[5] = t24;
     d[6] = t12;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_worm_za_za_NP] complete; s[cylindrical_worm_za_za_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -1616,6 +1626,12 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t245), s[95], MW_FMA(MW_ABS(t230), 1.0, MW_FMA(MW_ABS(t229), s[95], MW_FMA(MW_ABS(t235), 1.0, MW_ABS(t246) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_za_za_NX] along v[cylindrical_worm_za_za_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_za_za_NX], and unless d2 is NULL the second, d2[cylindrical_worm_za_za_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
@@ -2040,6 +2056,10 @@ static inline void cylindrical_worm_za_za_scale(const double *s, double *x)
     x[3] = 1.0;
     x[4] = 1.0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Everything worth knowing at a solution: o[cylindrical_worm_za_za_NO].
  *     0 point_pinion_f[3], mm, frame f
@@ -2581,6 +2601,12 @@ static inline void cylindrical_worm_za_za_observe(const double *s, const double 
     o[60] = t308;
     o[61] = t394;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (t_worm, psi_worm).
  *     0 point[3], mm
@@ -4422,6 +4448,10 @@ static inline void cylindrical_worm_za_za_solid_wheel(const double *s, const dou
     o[3] = s[113];
     o[4] = s[56];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_worm_za_za_unknown_names[] = {
     { "t_worm", "mm", "radius", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

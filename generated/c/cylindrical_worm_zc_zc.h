@@ -427,6 +427,12 @@ MW_INLINE double cylindrical_worm_zc_zc_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zc_zc_NP]. */
 static inline void cylindrical_worm_zc_zc_derive(double *p)
 {
@@ -597,6 +603,10 @@ static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
     d[5] = t24;
     d[6] = t12;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_worm_zc_zc_NP] complete; s[cylindrical_worm_zc_zc_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -2536,6 +2546,12 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t581), s[101], MW_FMA(MW_ABS(t568), 1.0, MW_FMA(MW_ABS(t578), s[102], MW_FMA(MW_ABS(t572), 1.0, MW_ABS(t588) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zc_zc_NX] along v[cylindrical_worm_zc_zc_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zc_zc_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zc_zc_NX]. Of the state only the design part is read. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
@@ -3956,6 +3972,10 @@ static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
     x[4] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[cylindrical_worm_zc_zc_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -4803,6 +4823,12 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
     o[62] = t652;
     o[63] = t702;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (t_worm, psi_worm).
  *     0 point[3], mm
@@ -8089,6 +8115,10 @@ static inline void cylindrical_worm_zc_zc_solid_wheel(const double *s, const dou
     o[3] = s[121];
     o[4] = s[71];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_worm_zc_zc_unknown_names[] = {
     { "t_worm", "rad", "angle of the contact point on the grinding wheel", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

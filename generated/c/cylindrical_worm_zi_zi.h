@@ -420,6 +420,12 @@ MW_INLINE double cylindrical_worm_zi_zi_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zi_zi_NP]. */
 static inline void cylindrical_worm_zi_zi_derive(double *p)
 {
@@ -584,6 +590,10 @@ static inline void cylindrical_worm_zi_zi_size(const double *p, double *d)
     d[5] = t24;
     d[6] = t12;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_worm_zi_zi_NP] complete; s[cylindrical_worm_zi_zi_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -1931,6 +1941,12 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t339), s[86], MW_FMA(MW_ABS(t328), 1.0, MW_FMA(MW_ABS(t327), s[86], MW_FMA(MW_ABS(t333), 1.0, MW_ABS(t346) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zi_zi_NX] along v[cylindrical_worm_zi_zi_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zi_zi_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zi_zi_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
@@ -2591,6 +2607,10 @@ static inline void cylindrical_worm_zi_zi_scale(const double *s, double *x)
     x[4] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[cylindrical_worm_zi_zi_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -3229,6 +3249,12 @@ static inline void cylindrical_worm_zi_zi_observe(const double *s, const double 
     o[62] = t347;
     o[63] = t506;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (t_worm, psi_worm).
  *     0 point[3], mm
@@ -5488,6 +5514,10 @@ static inline void cylindrical_worm_zi_zi_solid_wheel(const double *s, const dou
     o[3] = s[106];
     o[4] = s[49];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_worm_zi_zi_unknown_names[] = {
     { "t_worm", "mm", "radius", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -9,7 +9,7 @@
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZI_ZI_BOUNDED_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZI_ZI_BOUNDED_H
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
@@ -4208,7 +4208,7 @@ static const mw_bounded cylindrical_worm_zi_zi_bounded = {
     7, cylindrical_worm_zi_zi_edge_systems, cylindrical_worm_zi_zi_expansions
 };
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #pragma GCC pop_options
 #endif
 

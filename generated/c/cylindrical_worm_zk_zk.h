@@ -423,6 +423,12 @@ MW_INLINE double cylindrical_worm_zk_zk_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zk_zk_NP]. */
 static inline void cylindrical_worm_zk_zk_derive(double *p)
 {
@@ -590,6 +596,10 @@ static inline void cylindrical_worm_zk_zk_size(const double *p, double *d)
     d[5] = t24;
     d[6] = t12;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_worm_zk_zk_NP] complete; s[cylindrical_worm_zk_zk_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -2139,6 +2149,12 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t459), s[107], MW_FMA(MW_ABS(t446), 1.0, MW_FMA(MW_ABS(t456), s[108], MW_FMA(MW_ABS(t450), 1.0, MW_ABS(t466) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zk_zk_NX] along v[cylindrical_worm_zk_zk_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zk_zk_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zk_zk_NX]. Of the state only the design part is read. */
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
@@ -3182,6 +3198,10 @@ static inline void cylindrical_worm_zk_zk_scale(const double *s, double *x)
     x[4] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[cylindrical_worm_zk_zk_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -3902,6 +3922,12 @@ static inline void cylindrical_worm_zk_zk_observe(const double *s, const double 
     o[62] = t516;
     o[63] = t576;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (t_worm, psi_worm).
  *     0 point[3], mm
@@ -6555,6 +6581,10 @@ static inline void cylindrical_worm_zk_zk_solid_wheel(const double *s, const dou
     o[3] = s[127];
     o[4] = s[80];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_worm_zk_zk_unknown_names[] = {
     { "t_worm", "rad", "angle of the contact point on the grinding wheel", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

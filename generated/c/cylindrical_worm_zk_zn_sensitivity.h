@@ -7,6 +7,12 @@
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZK_ZN_SENSITIVITY_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZK_ZN_SENSITIVITY_H
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Rules: known[cylindrical_worm_zk_zn_NP] as the design gives them (not a number: open), p the same completed, dp[cylindrical_worm_zk_zn_NP] the changes
  * of what is known. Fills in, in known and in dp, what follows by defaults and rules. */
 static inline void cylindrical_worm_zk_zn_derive_tangent(double *known, const double *p, double *dp)
@@ -1276,5 +1282,9 @@ static inline void cylindrical_worm_zk_zn_tangent(const double *p, const double 
     dr[1] = t474;
     dr[2] = t436;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 #endif

@@ -420,6 +420,12 @@ MW_INLINE double cylindrical_worm_zn_zn_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zn_zn_NP]. */
 static inline void cylindrical_worm_zn_zn_derive(double *p)
 {
@@ -584,6 +590,10 @@ static inline void cylindrical_worm_zn_zn_size(const double *p, double *d)
     d[5] = t24;
     d[6] = t12;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[cylindrical_worm_zn_zn_NP] complete; s[cylindrical_worm_zn_zn_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -1778,6 +1788,12 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t266), s[116], MW_FMA(MW_ABS(t250), 1.0, MW_FMA(MW_ABS(t264), s[116], MW_FMA(MW_ABS(t254), 1.0, MW_ABS(t270) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zn_zn_NX] along v[cylindrical_worm_zn_zn_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zn_zn_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zn_zn_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
@@ -2302,6 +2318,10 @@ static inline void cylindrical_worm_zn_zn_scale(const double *s, double *x)
     x[3] = 1.0;
     x[4] = 1.0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Everything worth knowing at a solution: o[cylindrical_worm_zn_zn_NO].
  *     0 point_pinion_f[3], mm, frame f
@@ -2883,6 +2903,12 @@ static inline void cylindrical_worm_zn_zn_observe(const double *s, const double 
     o[60] = t371;
     o[61] = t437;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (t_worm, psi_worm).
  *     0 point[3], mm
@@ -4908,6 +4934,10 @@ static inline void cylindrical_worm_zn_zn_solid_wheel(const double *s, const dou
     o[3] = s[139];
     o[4] = s[66];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name cylindrical_worm_zn_zn_unknown_names[] = {
     { "t_worm", "mm", "distance along the edge from the virtual apex of both edges", "", "", 1.0, 0.0, HUGE_VAL },

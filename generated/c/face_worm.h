@@ -425,6 +425,12 @@ MW_INLINE double face_worm_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[face_worm_NP]. */
 static inline void face_worm_derive(double *p)
 {
@@ -2315,6 +2321,10 @@ static inline void face_worm_size(const double *p, double *d)
     d[5] = t7;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Design stage: p[face_worm_NP] complete; s[face_worm_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
 /* Equations: derivation/root, derivation/quotient, derivation/relative, derivation/tangent, derivation/step-size. */
@@ -4019,6 +4029,12 @@ static inline double face_worm_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t534), s[137], MW_FMA(MW_ABS(t542), 1.0, MW_FMA(MW_ABS(t533), 1.0, MW_FMA(MW_ABS(t556), s[137], MW_FMA(MW_ABS(t541), 1.0, MW_ABS(t548) * 1.0)))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[face_worm_NX] along v[face_worm_NX + 1], a direction of (x, phi): the first,
  * d1[face_worm_NX], and unless d2 is NULL the second, d2[face_worm_NX]. Of the state only the design part is read. */
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
@@ -4927,6 +4943,10 @@ static inline void face_worm_scale(const double *s, double *x)
     x[5] = 1.0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
+
 /* Everything worth knowing at a solution: o[face_worm_NO].
  *     0 point_pinion_f[3], mm, frame f
  *     3 normal_pinion_f[3], frame f
@@ -5711,6 +5731,12 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
     o[60] = t618;
     o[61] = t649;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (u_worm, theta_worm, psi_worm).
  *     0 point[3], mm
@@ -7668,6 +7694,10 @@ static inline void face_worm_solid_pinion(const double *s, const double *q, doub
     o[8] = 0.0;
     o[9] = s[152];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name face_worm_unknown_names[] = {
     { "u_worm", "mm", "along the worm's blade", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -9,7 +9,7 @@
 #ifndef MESHWRIGHT_FACE_WORM_BOUNDED_H
 #define MESHWRIGHT_FACE_WORM_BOUNDED_H
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
@@ -4604,7 +4604,7 @@ static const mw_bounded face_worm_bounded = {
     2, face_worm_edge_systems, face_worm_expansions
 };
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #pragma GCC pop_options
 #endif
 

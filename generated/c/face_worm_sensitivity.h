@@ -7,6 +7,12 @@
 #ifndef MESHWRIGHT_FACE_WORM_SENSITIVITY_H
 #define MESHWRIGHT_FACE_WORM_SENSITIVITY_H
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Rules: known[face_worm_NP] as the design gives them (not a number: open), p the same completed, dp[face_worm_NP] the changes
  * of what is known. Fills in, in known and in dp, what follows by defaults and rules. */
 static inline void face_worm_derive_tangent(double *known, const double *p, double *dp)
@@ -4655,5 +4661,9 @@ static inline void face_worm_tangent(const double *p, const double *dp, double p
     dr[1] = t805;
     dr[2] = t807;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 #endif

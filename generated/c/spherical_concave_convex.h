@@ -396,6 +396,12 @@ MW_INLINE double spherical_concave_convex_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[spherical_concave_convex_NP]. */
 static inline void spherical_concave_convex_derive(double *p)
 {
@@ -578,6 +584,10 @@ static inline void spherical_concave_convex_size(const double *p, double *d)
     d[14] = t32;
     d[15] = t19;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[spherical_concave_convex_NP] complete; s[spherical_concave_convex_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -1650,6 +1660,12 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t304), s[79], MW_FMA(MW_ABS(t296), s[80], MW_FMA(MW_ABS(t310), s[79], MW_FMA(MW_ABS(t291), s[81], MW_ABS(t313) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[spherical_concave_convex_NX] along v[spherical_concave_convex_NX + 1], a direction of (x, phi): the first,
  * d1[spherical_concave_convex_NX], and unless d2 is NULL the second, d2[spherical_concave_convex_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
@@ -2134,6 +2150,10 @@ static inline void spherical_concave_convex_scale(const double *s, double *x)
     x[3] = s[78];
     x[4] = 1.0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Everything worth knowing at a solution: o[spherical_concave_convex_NO].
  *     0 point_pinion_f[3], mm, frame f
@@ -2745,6 +2765,12 @@ static inline void spherical_concave_convex_observe(const double *s, const doubl
     o[61] = t410;
     o[62] = t477;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (l_pinion, theta_pinion).
  *     0 point[3], mm
@@ -4385,6 +4411,10 @@ static inline void spherical_concave_convex_solid_wheel(const double *s, const d
     o[8] = 0.0;
     o[9] = s[67];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name spherical_concave_convex_unknown_names[] = {
     { "l_pinion", "mm", "along the cutter's edge from the root of the pinion", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

@@ -9,7 +9,7 @@
 #ifndef MESHWRIGHT_SPHERICAL_CONCAVE_CONVEX_BOUNDED_H
 #define MESHWRIGHT_SPHERICAL_CONCAVE_CONVEX_BOUNDED_H
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
@@ -4327,7 +4327,7 @@ static const mw_bounded spherical_concave_convex_bounded = {
     8, spherical_concave_convex_edge_systems, spherical_concave_convex_expansions
 };
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #pragma GCC pop_options
 #endif
 

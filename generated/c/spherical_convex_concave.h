@@ -396,6 +396,12 @@ MW_INLINE double spherical_convex_concave_atan2(double y, double x)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[spherical_convex_concave_NP]. */
 static inline void spherical_convex_concave_derive(double *p)
 {
@@ -578,6 +584,10 @@ static inline void spherical_convex_concave_size(const double *p, double *d)
     d[14] = t32;
     d[15] = t19;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Design stage: p[spherical_convex_concave_NP] complete; s[spherical_convex_concave_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
  * the guard that does not hold. */
@@ -1642,6 +1652,12 @@ static inline double spherical_convex_concave_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t293), s[80], MW_FMA(MW_ABS(t285), s[81], MW_FMA(MW_ABS(t304), s[80], MW_FMA(MW_ABS(t291), s[82], MW_ABS(t307) * 1.0))));
 }
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Derivatives of the residual at input angle phi and x[spherical_convex_concave_NX] along v[spherical_convex_concave_NX + 1], a direction of (x, phi): the first,
  * d1[spherical_convex_concave_NX], and unless d2 is NULL the second, d2[spherical_convex_concave_NX]. Of the state only the design part is read. */
 /* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
@@ -2128,6 +2144,10 @@ static inline void spherical_convex_concave_scale(const double *s, double *x)
     x[3] = s[79];
     x[4] = 1.0;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 /* Everything worth knowing at a solution: o[spherical_convex_concave_NO].
  *     0 point_pinion_f[3], mm, frame f
@@ -2740,6 +2760,12 @@ static inline void spherical_convex_concave_observe(const double *s, const doubl
     o[61] = t409;
     o[62] = t478;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
 
 /* Flank of the pinion in its body frame at q = (l_pinion, theta_pinion).
  *     0 point[3], mm
@@ -4376,6 +4402,10 @@ static inline void spherical_convex_concave_solid_wheel(const double *s, const d
     o[8] = 0.0;
     o[9] = s[68];
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 static const mw_name spherical_convex_concave_unknown_names[] = {
     { "l_pinion", "mm", "along the cutter's edge from the root of the pinion", "", "", 1.0, -HUGE_VAL, HUGE_VAL },

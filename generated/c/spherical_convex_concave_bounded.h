@@ -9,7 +9,7 @@
 #ifndef MESHWRIGHT_SPHERICAL_CONVEX_CONCAVE_BOUNDED_H
 #define MESHWRIGHT_SPHERICAL_CONVEX_CONCAVE_BOUNDED_H
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
@@ -4318,7 +4318,7 @@ static const mw_bounded spherical_convex_concave_bounded = {
     8, spherical_convex_concave_edge_systems, spherical_convex_concave_expansions
 };
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #pragma GCC pop_options
 #endif
 

@@ -7,6 +7,12 @@
 #ifndef MESHWRIGHT_SPHERICAL_CONVEX_SPUR_SENSITIVITY_H
 #define MESHWRIGHT_SPHERICAL_CONVEX_SPUR_SENSITIVITY_H
 
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+/* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
+#pragma GCC push_options
+#pragma GCC optimize("O1")
+#endif
+
 /* Rules: known[spherical_convex_spur_NP] as the design gives them (not a number: open), p the same completed, dp[spherical_convex_spur_NP] the changes
  * of what is known. Fills in, in known and in dp, what follows by defaults and rules. */
 static inline void spherical_convex_spur_derive_tangent(double *known, const double *p, double *dp)
@@ -779,5 +785,9 @@ static inline void spherical_convex_spur_tangent(const double *p, const double *
     dr[1] = t373;
     dr[2] = t390;
 }
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC pop_options
+#endif
 
 #endif

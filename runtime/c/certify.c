@@ -347,23 +347,58 @@ static int granted(const mw_model *m, problem *p, const solution *found, mw_cert
     return ended(c, MW_UNIQUE, MW_REASON_NONE);
 }
 
-/* As enclose(), by printed code where that is enough: in doubles at x, about which it is the only one, then closer from the
- * residual there in double-double. 0 where it is not enough. */
+/* As the printed code does it, to the same bits, residual at x, unless NULL, and Jacobian over the box x +- d; own: balls of the
+ * angle. By the table where there is no printed code. */
+static void linearise(const mw_enclosing *by, const mw_certified *t, problem *p, const double *own, const double *x,
+                      const double *d, double *R, double *J)
+{
+    mw_ball registers[MWC_REGISTERS], *at = p->balls + p->count;
+    double not_asked[2 * MW_MAX_UNKNOWNS];
+    const unsigned short *output = p->equations->output;
+    const int n = p->n;
+    if (by) {
+        by->linearise(&p->balls[0].mid, own, x, d, R ? R : not_asked, J);
+        return;
+    }
+    for (int i = t->design_slots; i < t->slots; i++, own += 2) p->balls[i] = mwc_make(own[0], own[1]);
+    for (int i = 0; i < n; i++) at[i] = mwc_make(x[i], 0.0);
+    if (R) mwc_run_ball(p->equations, p->equations->first, p->balls, registers);
+    for (int i = 0; R && i < n; i++) mwc_put(R, i, registers[output[i]]);
+    for (int i = 0; i < n; i++) at[i] = mwc_make(x[i], d[i]);
+    mwc_run_ball(p->equations, p->equations->instructions, p->balls, registers);
+    for (int i = 0; i < n * n; i++) mwc_put(J, i, registers[output[n + i]]);
+}
+
+/* Likewise what follows from an angle. */
+static void at_angle(const mw_enclosing *by, const mw_certified *t, problem *p, mw_ball phi, double *own)
+{
+    mw_ball registers[MWC_REGISTERS];
+    if (by) {
+        by->instant(&p->balls[0].mid, &phi.mid, own);
+        return;
+    }
+    p->balls[t->slots] = phi;
+    mwc_run_ball(&t->instant, t->instant.instructions, p->balls, registers);
+    for (int i = 0; i < t->slots - t->design_slots; i++) mwc_put(own, i, registers[t->instant.output[i]]);
+}
+
+/* As enclose(), in doubles where that is enough: at x, about which it is the only one, then closer from the residual there in
+ * double-double. 0 where it is not enough. */
 static int enclose_quickly(const mw_model *m, problem *p, const double *x, solution *found)
 {
     const mw_certified *t = tables_of(m);
-    const double *s = &p->balls[0].mid, *own = &p->balls[t->design_slots].mid;
+    const double *own = &p->balls[t->design_slots].mid;
     const mw_enclosing *by = m->kernels->enclosing();
     const int n = p->n;
     double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], near[MW_MAX_UNKNOWNS];
     double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
     mw_ball R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], shift[MW_MAX_UNKNOWNS];
     for (int i = 0; i < n; i++) found->box[i] = p->sizes[i] * MWC_FIRST_BOX;
-    by->linearise(s, own, x, found->box, &R[0].mid, &J[0].mid);
+    linearise(by, t, p, own, x, found->box, &R[0].mid, &J[0].mid);
     mwc_prove1(n, &R[0].mid, &J[0].mid, found->box, proved, z, K, e);
     if (!(proved[0] > 0.0)) return 0;
     for (int i = 0; i < n; i++) near[i] = e[i][0], found->x[i] = mwc_wide_of(x[i]);
-    by->linearise(s, own, x, near, &R[0].mid, &J[0].mid);
+    linearise(by, t, p, own, x, near, NULL, &J[0].mid);
     if (!mwc_inverse(n, J, C)) return 0;
     residual_at(p, found->x, R);
     mwc_shift(n, C, R, shift);
@@ -462,22 +497,23 @@ int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const doubl
     return c->outcome;
 }
 
-/* One point by printed code alone. */
-static void certify_one(const mw_enclosing *by, int n, int error, const double *s, double *own, const mw_wide *phi, const double *x,
+/* One point in doubles alone. */
+static void certify_one(const mw_enclosing *by, const mw_model *m, problem *p, double *own, const mw_wide *phi, const double *x,
                         const double *d, unsigned char *unique, mw_ball *errors)
 {
-    const mw_ball angle = mwc_of_wide(*phi);
+    const mw_certified *t = tables_of(m);
+    const int n = p->n;
     double R[2 * MW_MAX_UNKNOWNS], J[2 * MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
     double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
-    by->instant(s, &angle.mid, own);
-    by->linearise(s, own, x, d, R, J);
+    at_angle(by, t, p, mwc_of_wide(*phi), own);
+    linearise(by, t, p, own, x, d, R, J);
     switch (n) { /* loops of a constant length are what compilers unroll */
     case 5: mwc_prove1(5, R, J, d, proved, z, K, e); break;
     case 6: mwc_prove1(6, R, J, d, proved, z, K, e); break;
     default: mwc_prove1(n, R, J, d, proved, z, K, e);
     }
     *unique = proved[0] > 0.0;
-    *errors = mwc_make(x[error], *unique ? e[error][0] : HUGE_VAL);
+    *errors = mwc_make(x[m->error], *unique ? e[m->error][0] : HUGE_VAL);
 }
 
 /* What doubles do not show, shown with all means if it can be. */
@@ -501,12 +537,13 @@ size_t mw_certify_many(const mw_lane_set *set, const mw_proofs *proofs, const mw
     for (size_t i = 0; i < n; i++) unique[i] = 0, errors[i] = mwc_make(nx ? x[i * nx + (size_t)m->error] : NAN, HUGE_VAL);
     if (!possible || n == 0 || turned(m, phi[0], &p) != MW_REASON_NONE) return 0;
     const mw_enclosing *in_lanes = set && proofs ? proofs->lanes[set->set] : NULL;
+    const mw_enclosing *by = proofs ? proofs->enclosing() : m->kernels->enclosing();
     for (size_t i = 0; i < nx; i++) d[i] = p.sizes[i] * MWC_FIRST_BOX;
     if (in_lanes)
         for (; k + lanes <= n; k += lanes)
             set->certify(in_lanes, m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (; k < n; k++)
-        certify_one(m->kernels->enclosing(), m->nx, m->error, &p.balls[0].mid, own, phi + k, x + k * nx, d, unique + k, errors + k);
+        certify_one(by, m, &p, own, phi + k, x + k * nx, d, unique + k, errors + k);
     for (size_t i = 0; i < n; i++) {
         if (!unique[i]) certify_alone(m, &p, phi[i], x + i * nx, unique + i, errors + i);
         count += unique[i];

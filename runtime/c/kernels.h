@@ -1,4 +1,4 @@
-/* What a drive's object holds beside its model table: lane kernels, tangents, bounded flanks, tables.
+/* What a drive's objects hold beside its model table: tangents, bounded flanks, tables; lane kernels, proofs.
  * SPDX-License-Identifier: MIT-0 */
 #ifndef MW_KERNELS_H
 #define MW_KERNELS_H
@@ -63,7 +63,8 @@ typedef enum mw_instruction_set { MW_NATIVE, MW_AVX2, MW_AVX512, MW_INSTRUCTION_
 #define MW_WIDE_LANES
 #endif
 
-/* What it holds, each of a unit of its own; lanes: NULL for an instruction set that was not compiled. */
+/* What it holds, each of a unit of its own. enclosing: NULL where that is in an object beside it (mw_proofs), and the tables
+ * are run instead, to the same bits. lanes: NULL for an instruction set that was not compiled, or is in one (mw_in_lanes). */
 typedef struct mw_kernels {
     const mw_tangents *(*tangents)(void);
     const mw_bounded *(*bounded)(void);
@@ -72,11 +73,18 @@ typedef struct mw_kernels {
     const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
 } mw_kernels;
 
-/* A drive's equations with error bounds in lanes: an object of its own, because few programs certify many points and it
- * takes longer to compile than all else. NULL for an instruction set that was not compiled. */
+/* Objects beside a drive's own, because few programs need them and they take longer to compile than all else: lane kernels,
+ * for many designs or angles; equations with error bounds, at one point and in lanes, for many proofs. drive: as in its model
+ * table. NULL for an instruction set that was not compiled. */
+typedef struct mw_in_lanes {
+    const char *drive;
+    const mw_lane_model *lanes[MW_INSTRUCTION_SETS];
+} mw_in_lanes;
+
 typedef struct mw_proofs {
-    const char *drive;           /* as in its model table */
+    const char *drive;
     const mw_enclosing *lanes[MW_INSTRUCTION_SETS];
+    const mw_enclosing *(*enclosing)(void);
 } mw_proofs;
 
 #endif

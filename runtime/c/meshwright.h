@@ -23,6 +23,14 @@ int mw_model_count(void);
 const mw_model *mw_model_at(int index);
 const mw_model *mw_find(const char *drive);
 
+/* A drive whose object has its lane kernels and its equations with error bounds in objects beside it, with those of
+ * mw_in_lanes_<drive>() and mw_proofs_<drive>(); without one that is NULL: lanes are then traced one by one, and points proved
+ * by tables, to the same bits. room[mw_joined_size()] as of malloc, which the result is in. NULL if one is another drive's. */
+struct mw_in_lanes;
+struct mw_proofs;
+size_t mw_joined_size(void);
+const mw_model *mw_joined(const mw_model *m, const struct mw_in_lanes *lanes, const struct mw_proofs *proofs, void *room);
+
 /* Complete the parameters p[np] of a design (NaN: open) by rules, defaults and the model's design systems;
  * q[np + 1] work. Returns 0, or 1 + index of the design system that has no regular solution, or -1 for a foreign table. */
 int mw_complete(const mw_model *m, double *p, double *q, mw_info *info);

@@ -75,7 +75,8 @@ int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const doubl
 /* Certify n points of one design at once, by plain doubles with radii: phi[n], x[n*nx]; unique[n] is 1 where the equations have
  * one solution within 2^-24 natural sizes of x, errors[n] then holds its transmission error. What doubles do not show is left
  * to mw_certify. set: as of mw_lanes, and proofs: the drive's, of mw_proofs_of or mw_proofs_<drive>() of an object of its own;
- * one point after the other where either is NULL. Returns how many are unique: none if the proofs are another drive's. */
+ * one point after the other where either is NULL, by tables where the object of m has no printed code for it either. Returns
+ * how many are unique: none if the proofs are another drive's. */
 struct mw_lane_set;
 struct mw_proofs;
 size_t mw_certify_many(const struct mw_lane_set *set, const struct mw_proofs *proofs, const mw_model *m, const mw_wide *s,

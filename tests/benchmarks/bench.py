@@ -86,7 +86,7 @@ def lane_points(case, width):
     lanes, lib = library().mw_lanes(width), library()
     if lanes == ffi.NULL:
         return None
-    m, n, designs = case.drive.model, 250, POINTS // 250
+    m, n, designs = case.drive.design.model_in_lanes, 250, POINTS // 250
     parameters, angles = np.tile(case.parameters, (designs, 1)), case.angles[:n].copy()
     start, work = case.start.copy(), np.empty(lib.mw_lanes_work(lanes, m, n))
     x, status = np.empty((designs, n, m.nx)), np.empty((designs, n), dtype=np.int32)

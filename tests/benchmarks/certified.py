@@ -41,8 +41,8 @@ def points(drive, angles, solutions, width):
     phi = np.zeros(n, record("mw_wide"))
     phi["hi"], x = angles[:n], np.ascontiguousarray(solutions[:n])
     unique, errors = np.zeros(n, np.uint8), np.zeros(n, record("mw_ball"))
-    in_lanes = ffi.NULL if width == 1 else proofs(drive.design.description["name"], drive.design.places)
-    arguments = (lanes, in_lanes, enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x), n)
+    printed = proofs(drive.design.description["name"], drive.design.places)
+    arguments = (lanes, printed, enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x), n)
     outputs = (pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]"))
     seconds = best(lambda: lib.mw_certify_many(*arguments, *outputs), repeats=30)
     assert unique.all() and errors["radius"].max() < 1e-11
@@ -50,12 +50,15 @@ def points(drive, angles, solutions, width):
 
 
 def certificates(drive, angles, solutions):
-    """Whole certificates a second."""
+    """Whole certificates a second, by printed code."""
     n, state = FULL, drive.enclosed.state.copy()
     phi = np.zeros(n, record("mw_wide"))
     phi["hi"], x, line = angles[:n], np.ascontiguousarray(solutions[:n]), np.zeros(n, np.int32)
     found = np.zeros(n, record("mw_certificate"))
-    arguments = (drive.enclosed.model, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x))
+    printed = proofs(drive.design.description["name"], drive.design.places)
+    room = ffi.new("double[]", library().mw_joined_size() // 8 + 1)
+    joined = library().mw_joined(drive.enclosed.model, ffi.NULL, printed, room)
+    arguments = (joined, pointer(state, "mw_wide[]"), pointer(phi, "mw_wide[]"), pointer(x))
     more = (pointer(line, "int[]"), n, pointer(found, "mw_certificate[]"))
     seconds = best(lambda: library().mw_certify_points(*arguments, *more), repeats=15)
     assert (found["outcome"] == 1).all()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
+from meshwright.base.library import ffi, library, pointer, proofs, record
 from meshwright.cli import main
 from meshwright.contact.branch import fold_angle
 from meshwright.contact.certificate import certify, certify_boxes, certify_many
@@ -235,3 +236,29 @@ def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
         for k in range(len(angles)):
             low, high = narrow.error(k)
             assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])
+
+
+def certificates_and_bounds(drive, m, proved_by, solutions):
+    """Bits of certificates by the table ``m`` and of many points by ``proved_by``, one by one, a degree apart."""
+    n, state = len(solutions), pointer(drive.enclosed.state.copy(), "mw_wide[]")
+    phi, found = np.zeros(n, record("mw_wide")), np.zeros(n, record("mw_certificate"))
+    phi["hi"] = np.radians(np.arange(n))
+    unique, errors = np.zeros(n, np.uint8), np.zeros(n, record("mw_ball"))
+    points = pointer(phi, "mw_wide[]"), pointer(solutions)
+    lines = pointer(np.zeros(n, np.int32), "int[]")
+    shown = library().mw_certify_points(m, state, *points, lines, n, pointer(found, "mw_certificate[]"))
+    many = pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]")
+    assert library().mw_certify_many(ffi.NULL, proved_by, m, state, *points, n, *many) == shown == n
+    return found.tobytes(), unique.tobytes(), errors.tobytes()
+
+
+@pytest.mark.parametrize("name", quick(["recess-action-full", "face-worm-cylindrical-convex"], "recess-action-full"))
+def test_what_tables_prove_has_the_bits_of_what_printed_code_proves(name):
+    """With the object of proofs and without it, which is compiled only for many of them."""
+    drive = Drive.load(name)
+    solutions = np.ascontiguousarray(drive.trace(np.radians(np.arange(12.0)))[0])
+    printed, room = proofs(drive.design.description["name"]), ffi.new("double[]", library().mw_joined_size() // 8 + 1)
+    joined = library().mw_joined(drive.model, ffi.NULL, printed, room)
+    tables = certificates_and_bounds(drive, drive.model, ffi.NULL, solutions)
+    assert certificates_and_bounds(drive, joined, printed, solutions) == tables
+    assert library().mw_joined(Drive.load("plain-za").model, ffi.NULL, printed, room) == ffi.NULL

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from meshwright import Drive
+from meshwright.base.compile import PARTS
 from meshwright.base.library import SHIPPED
 from meshwright.contact.results import ARCSEC
 from tests.embedding import compile as c
@@ -153,9 +154,9 @@ def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
     program = Path("runtime", "meshwright", "base", "compile.py")
     built, objects = tmp_path / "built", tmp_path / "objects"
     compiler = " ".join((*sorted(c.compilers().items())[-1][1][0], "-fsyntax-only"))
-    c.run(sys.executable, program, "generated", built, "spherical_convex_spur", "--objects", objects, "--proofs",
+    c.run(sys.executable, program, "generated", built, "spherical_convex_spur", "--objects", objects, "--whole",
           cwd=unpacked, env=os.environ | {"CC": compiler})  # fmt: skip
-    assert (built / "spherical_convex_spur_proofs.so").exists()
+    assert all((built / f"spherical_convex_spur{part.ending}.so").exists() for part in PARTS)
 
 
 def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from meshwright.base import compile as build
+from meshwright.base.library import SHIPPED
 from tests.embedding import compile as c
 from tests.embedding.machines import arm64
 from tests.embedding.test_headers import ONE_QUICKLY, problem_of
@@ -21,8 +22,11 @@ _VECTOR = re.compile(r"\t(v[a-z0-9]+)\s.*%[xyz]mm")
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64" or not shutil.which("objdump"), reason="x86-64 with binutils")
-def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has():
-    objects = sorted((*OBJECTS.glob("*.o"), *OBJECTS.glob("face_worm/*.o")))
+def test_only_the_wide_lanes_hold_instructions_that_not_every_x86_64_has(tmp_path):
+    shutil.copytree(SHIPPED / "include", tmp_path / "include")
+    build.drives(["spherical_convex_spur"], tmp_path, SHIPPED, tmp_path, parts=(build.IN_LANES,))
+    objects = [*OBJECTS.glob("*.o"), *OBJECTS.glob("face_worm/*.o")]
+    objects += tmp_path.glob("spherical_convex_spur_in_lanes/*.o")
     assert {path.name for path in objects} >= {*WIDE, "lanes_native.o", "library.o", "sensitivity.o", "drive.o"}
     for path in objects:
         code = c.run("objdump", "-d", "--no-show-raw-insn", path)

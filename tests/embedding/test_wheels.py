@@ -124,8 +124,9 @@ def test_the_libraries_of_a_wheel_export_all_that_the_package_calls(unpacked, ta
     kind, processor, offered = exported(lief, folder / CORE)
     assert (kind, processor) == KINDS[tag]
     assert names and names <= offered
-    for stem, name in ((DRIVE, f"mw_drive_{DRIVE}"), (f"{DRIVE}_proofs", f"mw_proofs_{DRIVE}")):
-        kind, processor, offered = exported(lief, folder / f"{stem}.so")
+    for ending in ("", "_in_lanes", "_proofs"):
+        name = f"mw{ending or '_drive'}_{DRIVE}"
+        kind, processor, offered = exported(lief, folder / f"{DRIVE}{ending}.so")
         assert (kind, processor) == KINDS[tag]
         assert name in offered
     if kind == "PE":

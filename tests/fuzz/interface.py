@@ -11,12 +11,13 @@ import subprocess
 import tempfile
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from meshwright import Drive
-from meshwright.base.compile import PARTS, PROOFS
+from meshwright.base.compile import DRIVE, IN_LANES, PARTS, PROOFS
 from meshwright.base.library import ffi, library, pointer
 from meshwright.cycle import certified_first, first_contact
 from meshwright.design import design
@@ -270,14 +271,18 @@ def build_quickly(folder, compiler, built, design):
     """As :func:`build` for one drive, without sanitizers, of the objects in ``built`` that ``make build`` left."""
     folder.mkdir(parents=True, exist_ok=True)
     (name,) = write_seeds(folder, (design,))
-    left = [*built.glob("*.o"), *(built / name).glob("*.o")]
+    first, *others = DRIVE.units
+    left = [path for path in built.glob("*.o") if path.name != "library.o"]
+    left += [built / name / f"{Path(unit).stem}.o" for unit in others]
+    apart = replace(DRIVE, units=(first,))
     own = [
         _compiled(folder, compiler, ("-O0",), SOURCE / "library.c", ('-DMW_DRIVES="drives.h"',), "library"),
         _compiled(folder, compiler, ("-O0",), HERE / "alone.c", (f"-DMW_DRIVE={name}",), "alone"),
         _compiled(folder, compiler, ("-O0",), HERE / "interface.c", ("-DMW_FUZZ_ALONE",), "interface"),
-        *(_compiled(folder, compiler, ("-O1",), *unit) for unit in _units(name, PROOFS)),
+        # what is in objects of its own beside the drive's, and the unit that refers to it where all is linked together
+        *(_compiled(folder, compiler, ("-O1",), *unit) for unit in _units(name, apart, IN_LANES, PROOFS)),
     ]
-    return _linked(folder / "fuzz", compiler, (), (*own, *(str(o) for o in left if o.name != "library.o")))
+    return _linked(folder / "fuzz", compiler, (), (*own, *map(str, left)))
 
 
 def _objects(folder, compiler, flags, designs):
@@ -288,16 +293,19 @@ def _objects(folder, compiler, flags, designs):
     straight = STRAIGHT if any("undefined" in flag for flag in flags) else ()
     for name in names:
         drive = (f"-DMW_DRIVE={name}", *straight)
-        units += [(path, (*own, *straight), stem) for part in PARTS for path, own, stem in _units(name, part)]
+        units += [(path, (*own, *straight), stem) for path, own, stem in _units(name, *PARTS)]
         units.append((HERE / "alone.c", drive, f"alone_{name}"))
     with ThreadPoolExecutor(2) as pool:
         return list(pool.map(lambda unit: _compiled(folder, compiler, flags, *unit), units))
 
 
-def _units(drive, part):
-    """Sources of an object of a drive, the macros they are compiled with, and names for what is made of them."""
-    own = (f"-DMW_DRIVE={drive}", *part.defines)
-    return [(SOURCE / unit, own, f"{drive}{part.ending}_{Path(unit).stem}") for unit in part.units]
+def _units(drive, *parts):
+    """Sources of objects of a drive, the macros they are compiled with, and names for what is made of them."""
+    return [
+        (SOURCE / unit, (f"-DMW_DRIVE={drive}", *part.defines), f"{drive}{part.ending}_{Path(unit).stem}")
+        for part in parts
+        for unit in part.units
+    ]
 
 
 def _compiled(folder, compiler, flags, path, own, stem):

@@ -14,8 +14,10 @@ from meshwright import Drive
 from meshwright.base import compile as build
 from meshwright.base import drives, first_use
 from meshwright.base.errors import DesignError, LibraryError
+from meshwright.base.library import text
 from meshwright.cli import main
 from meshwright.design import design
+from meshwright.sweep import samples
 
 ROOT = Path(__file__).resolve().parents[2]
 FILE = Path(__file__).parent / "drives" / "crowned_worm.py"
@@ -30,8 +32,10 @@ def run(*arguments, module=None, **environment):
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A folder of drives with the one that the file defines."""
+    """A folder of drives with the one that the file defines, written where an older one was."""
     place = tmp_path_factory.mktemp("drives")
+    for part in build.PARTS:
+        (place / f"{NAME}{part.ending}.so").write_bytes(b"of other sources")
     done = run(FILE, "--into", place, module="derive")
     assert done.returncode == 0, done.stderr
     return place
@@ -66,6 +70,25 @@ def test_a_drive_of_one_file_is_solved_by_every_way_to_name_its_folder(folder, c
     assert np.abs(_errors("tca", plain, *angles, MESHWRIGHT_DRIVES=str(folder)) - straight).max() < 1e-9
     bent = _errors("--drives", folder, "tca", crowned(0.002), *angles) - straight
     assert np.ptp(bent) > 1e-3
+
+
+def test_no_object_of_what_the_drive_was_before_stays(folder):
+    """An object beside the drive's own would be of its old equations."""
+    assert [path.name for path in folder.glob("*.so")] == [f"{NAME}.so"]
+    assert build.sealed(folder / f"{NAME}.so")
+
+
+def test_many_designs_of_it_are_traced_in_lanes_of_their_own_object(folder, crowned, tmp_path, monkeypatch):
+    """Compiled from the folder's headers when first asked for, into the cache: one by one they are the same."""
+    monkeypatch.setenv(drives.CACHE, str(tmp_path / "cache"))
+    own = Drive.load(crowned(0.001), drives=folder)
+    crowns = np.linspace(0.0, 0.002, 9)
+    found = samples.solve(own, ["design.blade_crown_per_mm"], crowns[:, None], np.radians([-10.0, 10.0]))
+    for crown, errors in zip(crowns, found.error, strict=True):
+        one = own.with_(design={"blade_crown_per_mm": crown}).tca(np.radians([-10.0, 10.0]))
+        assert np.abs(errors - one.error).max() < 1e-12
+    assert [path.name for path in tmp_path.glob("cache/*/*.so")] == [f"{NAME}_in_lanes.so"]
+    assert text(own.design.model_in_lanes.drive) == NAME
 
 
 def test_a_folder_may_be_called_like_a_command(folder, crowned, tmp_path, monkeypatch, capsys):

@@ -1,17 +1,9 @@
-/* The equations of the drive MW_DRIVE with error bounds, as tables and at one point.  SPDX-License-Identifier: MIT-0 */
+/* The equations of the drive MW_DRIVE as tables, for arithmetics with error bounds.  SPDX-License-Identifier: MIT-0 */
 #include "exact.h"
 #include "parts.h"
 #include MW_GENERATED(_certified)
-#include MW_GENERATED(_certify)
-
-static const mw_enclosing enclosing = { MW_OF(_enclose_instant1), MW_OF(_enclose1) };
 
 const mw_certified *MW_OF(_part_certified)(void)
 {
     return &MW_OF(_certified);
-}
-
-const mw_enclosing *MW_OF(_part_enclosing)(void)
-{
-    return &enclosing;
 }

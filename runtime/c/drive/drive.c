@@ -1,7 +1,8 @@
 /* One drive: MW_DRIVE is its name, its generated headers are on the include path. With the other units of its object (see
- * parts.h) and the lanes_*.c of the folder above, compiled with the same MW_DRIVE, this is the drive's object: it exports
+ * parts.h), compiled with the same MW_DRIVE, this is the drive's object: it exports
  *     const mw_model *mw_drive_<name>(void);
- * and the entries for CasADi (see casadi.h), and uses the core library.  SPDX-License-Identifier: MIT-0 */
+ * and the entries for CasADi (see casadi.h), and uses the core library. With MW_APART, lane kernels and equations with error
+ * bounds are in objects beside it (in_lanes.c, proofs.c); without it they are linked with it.  SPDX-License-Identifier: MIT-0 */
 #include "parts.h"
 
 /* The model table of the header refers to this. */
@@ -10,16 +11,20 @@ static const mw_kernels kernels;
 
 #include MW_GENERATED()
 
-extern const mw_lane_model MW_OF(_lanes_native);
-#ifdef MW_WIDE_LANES
-extern const mw_lane_model MW_OF(_lanes_avx2), MW_OF(_lanes_avx512);
-#define MW_WIDE(name) &MW_OF(name)
+#ifdef MW_APART
+static const mw_enclosing *apart(void)
+{
+    return NULL;
+}
+#define MW_ENCLOSING apart
+#define MW_LANE_MODELS { NULL }
 #else
-#define MW_WIDE(name) NULL
+#define MW_ENCLOSING MW_OF(_part_enclosing)
+#define MW_LANE_MODELS MW_EVERY_SET(MW_OF)
+MW_DECLARE_SETS(mw_lane_model, MW_OF)
 #endif
 static const mw_kernels kernels = {
-    MW_OF(_part_tangents), MW_OF(_part_bounded), MW_OF(_part_certified), MW_OF(_part_enclosing),
-    { &MW_OF(_lanes_native), MW_WIDE(_lanes_avx2), MW_WIDE(_lanes_avx512) }
+    MW_OF(_part_tangents), MW_OF(_part_bounded), MW_OF(_part_certified), MW_ENCLOSING, MW_LANE_MODELS
 };
 
 const mw_model *MW_PASTE(mw_drive_, MW_DRIVE)(void);

@@ -6,9 +6,10 @@ then a folder of drives, in this form::
     <drive>.json, <drive>.casadi …          description, CasADi functions
     include/<drive>.h, _lanes.h, …          generated C
     <drive>.so, <drive>.stamp               shared object, and from what it was made
-    <drive>_proofs.so, …                    what proves many contacts at once (:data:`PROOFS`)
+    <drive>_in_lanes.so, …                  many designs or angles at once (:data:`IN_LANES`)
+    <drive>_proofs.so, …                    many proofs of contact at once (:data:`PROOFS`)
 
-Either object may be missing: it is then compiled when it is first asked for (:mod:`meshwright.base.first_use`). The
+Each object may be missing: it is then compiled when it is first asked for (:mod:`meshwright.base.first_use`). The
 package's own folder holds beside that the table of families, the core library, its headers and, in ``source/``, what
 each drive is compiled from.
 """
@@ -57,16 +58,20 @@ GENERATED = ("{}.h", "{}_lanes.h", "{}_sensitivity.h", "{}_bounded.h", "{}_certi
 #: Units of a drive's objects that are no lanes → the generated headers that they include.
 READS = {
     "drive/drive.c": ("{}.h",),
-    "drive/certified.c": ("{}_certified.h", "{}_certify.h"),
     "drive/bounded.c": ("{}.h", "{}_bounded.h"),
     "drive/tangents.c": ("{}.h", "{}_sensitivity.h"),
+    "drive/certified.c": ("{}_certified.h",),
+    "drive/enclosing.c": ("{}_certify.h",),
+    "drive/in_lanes.c": (),
     "drive/proofs.c": (),
 }
-#: The drive itself, and its equations with error bounds in lanes: few ask for these, which take longer than all else.
 LANES = ("lanes_native.c", "lanes_avx2.c", "lanes_avx512.c")
-DRIVE = Part("", (*(unit for unit in READS if unit != "drive/proofs.c"), *LANES), ("{}.h", "{}_lanes.h"))
-PROOFS = Part("_proofs", ("drive/proofs.c", *LANES), ("{}_certify.h",), ("-DMW_PROOFS",))
-PARTS = (DRIVE, PROOFS)
+#: The drive itself: all that one design asks for.
+DRIVE = Part("", ("drive/drive.c", "drive/bounded.c", "drive/tangents.c", "drive/certified.c"), ())
+#: Its equations in lanes, and its equations with error bounds: few ask for these, which take longer than all else.
+IN_LANES = Part("_in_lanes", ("drive/in_lanes.c", *LANES), ("{}.h", "{}_lanes.h"))
+PROOFS = Part("_proofs", ("drive/proofs.c", "drive/enclosing.c", *LANES), ("{}_certify.h",), ("-DMW_PROOFS",))
+PARTS = (DRIVE, IN_LANES, PROOFS)
 #: What the units need beside the drive's own headers: relative to runtime/c.
 DRIVE_HEADERS = (
     "drive/names.h", "drive/parts.h", "drive/casadi.h", "drive/lanes.h", "drive/proven.h", "kernels.h",
@@ -255,7 +260,7 @@ def _job(unit, part, name, folder, package, objects, target):
     read = [folder / "include" / pattern.format(name) for pattern in part.reads(unit)]
     made = objects / f"{name}{part.ending}" / f"{Path(unit).stem}.o"
     command = (*target.command, *target.more)
-    return command, source / unit, made, folders, (f"-DMW_DRIVE={name}", *part.defines), read
+    return command, source / unit, made, folders, (f"-DMW_DRIVE={name}", "-DMW_APART", *part.defines), read
 
 
 class Begun:
@@ -351,7 +356,7 @@ def main(arguments=None):
     parser.add_argument("drive", nargs="*", help="drives that the folder holds")
     parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
     parser.add_argument("--now", nargs="*", metavar="DRIVE", help="compile these only; default: all that it holds")
-    parser.add_argument("--proofs", action="store_true", help="compile also what proves many contacts at once")
+    parser.add_argument("--whole", action="store_true", help="compile also what solves and proves many at once")
     options = parser.parse_args(arguments)
     source = Path(__file__).resolve().parents[2] / "c"
     try:
@@ -360,7 +365,7 @@ def main(arguments=None):
         _copy(options.generated / "families.json", options.folder / "families.json")
         drop_superseded(options.drive, options.folder, options.folder)
         now = options.drive if options.now is None else options.now
-        parts = PARTS if options.proofs else (DRIVE,)
+        parts = PARTS if options.whole else (DRIVE,)
         drives(now, options.folder, options.folder, options.objects, parts=parts)
     except (CompileError, OSError) as error:
         print(error, file=sys.stderr)

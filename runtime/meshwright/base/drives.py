@@ -84,18 +84,18 @@ def folder_of(name, places=None):
     return derived(name)
 
 
-def object_of(name, places=None, proofs=False):
+def object_of(name, places=None, kind=""):
     """Path of a drive's shared object; one that is missing, damaged or of other sources is compiled into the cache.
 
-    ``places`` as in :func:`folder_of`; ``proofs``: the object that proves many contacts at once.
+    ``places`` as in :func:`folder_of`; ``kind``: "" the drive itself or, as file names end, "_in_lanes", "_proofs".
     """
     folder = folder_of(name, places)
-    path = folder / (f"{name}_proofs.so" if proofs else f"{name}.so")
+    path = folder / f"{name}{kind}.so"
     if folder == SHIPPED and path.exists():
         return path
     from meshwright.base.first_use import compiled
 
-    return compiled(name, folder, proofs)
+    return compiled(name, folder, kind)
 
 
 def cache_folder():

@@ -22,13 +22,13 @@ from meshwright.base.errors import LibraryError
 SEAL = "sealed.json"
 
 
-def compiled(name, folder, proofs=False):
-    """Path of the shared object of a drive in ``folder``, or of the one that is made of its sources into the cache.
+def compiled(name, folder, kind=""):
+    """Path of a shared object of a drive in ``folder``, or of the one that is made of its sources into the cache.
 
-    ``proofs``: the object that proves many contacts at once in place of the drive's own.
+    ``kind``: the ending of the name of a :class:`~meshwright.base.compile.Part`.
     """
-    part = build.PROOFS if proofs else build.DRIVE
-    object_ = f"{name}{part.ending}"
+    (part,) = (part for part in build.PARTS if part.ending == kind)
+    object_ = f"{name}{kind}"
     path = folder / f"{object_}.so"
     _check_headers(name, folder)
     inputs = build.inputs(name, folder, SHIPPED)

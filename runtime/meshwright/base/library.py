@@ -183,12 +183,29 @@ def proofs(name, places=None):
     """What of a drive proves many contacts at once, from an object of its own; ``places`` as of :func:`model`."""
     library()
     with _loading:
-        return _proofs(name, places or folders())
+        return _beside("proofs", name, places or folders())
+
+
+def model_in_lanes(name, places=None):
+    """The model table of a drive with its lane kernels, from an object of their own; ``places`` as of :func:`model`."""
+    library()
+    with _loading:
+        return _joined(name, places or folders())[0]
 
 
 @cache
-def _proofs(name, places):
-    return ffi.cast("const struct mw_proofs *", _table(object_of(name, places, proofs=True), "mw_proofs", name))
+def _joined(name, places):
+    """The table, and the room that it is in."""
+    room = ffi.new("double[]", -(-_loaded().mw_joined_size() // ffi.sizeof("double")))
+    lanes = _beside("in_lanes", name, places)
+    return _loaded().mw_joined(_model(name, places), lanes, ffi.NULL, room), room
+
+
+@cache
+def _beside(kind, name, places):
+    """What an object beside a drive's own holds."""
+    table = _table(object_of(name, places, f"_{kind}"), f"mw_{kind}", name)
+    return ffi.cast(f"const struct mw_{kind} *", table)
 
 
 def _table(path, kind, name):

@@ -15,7 +15,7 @@ import numpy as np
 
 from meshwright.base.drives import folders
 from meshwright.base.errors import DesignError
-from meshwright.base.library import ffi, library, model, pointer, text
+from meshwright.base.library import ffi, library, model, model_in_lanes, pointer, text
 from meshwright.design import description as metadata
 from meshwright.design import expression, schema
 from meshwright.design.mirror import Mirror
@@ -124,6 +124,11 @@ class Design:
     def model(self):
         """The compiled model table of the drive, as a cffi pointer."""
         return model(self.description["name"], self.places)
+
+    @property
+    def model_in_lanes(self):
+        """The same with its lane kernels, which a checkout compiles when they are first asked for."""
+        return model_in_lanes(self.description["name"], self.places)
 
     @property
     def label(self):

@@ -49,7 +49,7 @@ class Batch:
 
     def points(self, angles):
         """:class:`Points` at pinion angles (N,) of the right-hand drive, rad."""
-        m, count, n = self.drive.model, len(self.parameters), len(angles)
+        m, count, n = _in_lanes(self.drive), len(self.parameters), len(angles)
         angles = np.ascontiguousarray(angles, dtype=float)
         start = np.ascontiguousarray(self.drive.trace(angles[:1])[0])
         x, work = np.empty((count, n, m.nx)), np.empty(library().mw_lanes_work(self.lanes, m, n))
@@ -101,6 +101,11 @@ def solve(drive, keys, values, angles, portable=False):
             found.error[k], found.points[k] = np.nan, np.nan
     found.flags[:] |= _bits(drive, flags.ON_EDGE) * _on_an_edge(batch, found, angles, drive_of)
     return found
+
+
+def _in_lanes(drive):
+    """The model table, with its lane kernels where compiled arithmetic solves the drive."""
+    return drive.design.model_in_lanes if drive.backend == "c" else drive.model
 
 
 def _with_keys(drive, keys, values):
