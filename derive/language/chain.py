@@ -211,8 +211,8 @@ def _normal_form(factors: Iterable[Factor]) -> tuple[Factor, ...]:
 #: operations to turn the three axes of the body once and to write every vector by them.
 LONG = 6
 
-#: How many rotations turn the axes: those further out act on fewer vectors, which they turn one by one, and sums of large
-#: lengths, which round off, come after fewer of them.
+#: How many rotations turn the axes: those further out act on fewer vectors, which they turn one by one, and sums of
+#: large lengths, which round off, come after fewer of them.
 INNER = 4
 
 

@@ -27,8 +27,8 @@ def reciprocals(routine: Routine) -> Routine:
 
 
 def by_reciprocal(tape: Tape, computed: Iterable[int], known: Iterable[int]) -> dict[int, tuple[int, int]]:
-    """Quotient → its dividend and the reciprocal of its divisor, in a function that computes these nodes from those that
-    it is given.
+    """Quotient → its dividend and the reciprocal of its divisor, in a function that computes these nodes from those
+    that it is given.
     """
     one, order = tape.constant(1), {*computed}
     at_hand = order.union(known)

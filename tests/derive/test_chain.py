@@ -36,8 +36,8 @@ CHAINS = [
     Rz(-a) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3)) @ Rx(b),
     station(p, q, 1) @ Ry(sp.pi / 2) @ Rz(a * b) @ translation(y=b**2) @ swing("x", b, (q, 2, p)) @ station(y=t),
     Rz(b + t) @ Ry(p) @ translation(q, 1, b * p) @ Rz(q + b) @ translation(x=p) @ Rx(q) @ Ry(t) @ Rz(a),
-    Rx(t) @ Rz(a * b) @ Ry(q) @ swing("x", b**2, (q, 2, p)) @ Rz(p) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3))
-    @ Ry(a) @ Rx(b) @ translation(z=p) @ Ry(q),
+    Rx(t) @ Rz(a * b) @ Ry(q) @ swing("x", b**2, (q, 2, p)) @ Rz(p)
+    @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3)) @ Ry(a) @ Rx(b) @ translation(z=p) @ Ry(q),
 ]
 
 
