@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import reduce
 from typing import ClassVar, TypeAlias, TypeVar
 
 import sympy as sp
@@ -137,7 +136,7 @@ class Placement:
     rests_on: ClassVar[tuple[str, ...]] = ("derivation/placement",)
 
     def direction(self, a: v.Vector) -> v.Vector:
-        return reduce(v.add, (v.scale(c, column) for c, column in zip(a, self.columns, strict=True)))
+        return v.combined(a, self.columns)
 
     point = direction
 
@@ -208,6 +207,19 @@ def _normal_form(factors: Iterable[Factor]) -> tuple[Factor, ...]:
     return tuple(left)
 
 
+#: Rotations of a long motion. Where so many act on point, normal, tangents and all their derivatives, it takes fewer
+#: operations to turn the three axes of the body once and to write every vector by them.
+LONG = 6
+
+#: How many rotations turn the axes: those further out act on fewer vectors, which they turn one by one, and sums of
+#: large lengths, which round off, come after fewer of them.
+INNER = 4
+
+
+def _moved_by(factor: Factor, variable: sp.Symbol) -> bool:
+    return any(sp.sympify(e).has(variable) for e in factor.expressions())
+
+
 @dataclass(frozen=True)
 class Motion:
     """A product of elementary motions, leftmost acting last."""
@@ -227,15 +239,43 @@ class Motion:
 
     def point(self, a: v.Vector) -> v.Vector:
         """Parent coordinates of a point given in body coordinates."""
+        if not self.is_long:
+            return self._through(a)
+        outer, inner = self._parts()
+        return outer._through(v.add(inner._through(v.ORIGIN), v.combined(a, inner._axes())))
+
+    def _through(self, a: v.Vector) -> v.Vector:
+        """The same, carried from factor to factor."""
         for factor in reversed(self.factors):
             a = factor.point(a)
         return a
 
     def direction(self, a: v.Vector) -> v.Vector:
         """Parent components of a free vector given in body components."""
+        if not self.is_long:
+            return self._turned(a)
+        outer, inner = self._parts()
+        return outer._turned(v.combined(a, inner._axes()))
+
+    @property
+    def is_long(self) -> bool:
+        """Whether vectors are written by the turned axes of the body, not turned one by one: see :data:`LONG`."""
+        return sum(isinstance(f, Rotation) for f in self.factors) >= LONG
+
+    def _parts(self) -> tuple[Motion, Motion]:
+        """The factors further out, and those from the body on that turn its axes: see :data:`INNER`."""
+        rotations = [k for k, f in enumerate(self.factors) if isinstance(f, Rotation)]
+        return Motion(self.factors[: rotations[-INNER]]), Motion(self.factors[rotations[-INNER] :])
+
+    def _turned(self, a: v.Vector) -> v.Vector:
+        """A free vector turned by one factor after the other."""
         for factor in reversed(self.factors):
             a = factor.direction(a)
         return a
+
+    def _axes(self) -> list[v.Vector]:
+        """The axes of the body in the parent frame: the columns of the rotation."""
+        return [self._turned(axis) for axis in (v.I, v.J, v.K)]
 
     def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         """∂(parent coordinates)/∂variable of a body-fixed point, as components in the body frame."""
@@ -251,13 +291,40 @@ class Motion:
         """normal · velocity, each term formed in the frame of the factor that causes it.
 
         Scalar products do not change under rotation, so this is the meshing equation of a chain as a sum of
-        n·(axis × r), free of every angle that does not matter.
+        n·(axis × r), free of every angle that does not matter. Of a long motion it is formed in the body frame.
         """
+        if self.is_long:
+            return v.dot(normal, self._velocity(variable, point))
         total: sp.Expr = sp.Integer(0)
         for factor in reversed(self.factors):
             total += v.dot(normal, factor.local_velocity(variable, point))
             point, normal = factor.point(point), factor.direction(normal)
         return total
+
+    def _velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
+        """∂(parent coordinates)/∂variable of a body-fixed point, as components in the body frame, by the screw of the
+        velocities.
+
+        The screw is that of all factors in the frame next to the innermost one that the variable moves, where the axes
+        of those further out stand still or nearly so; only its components turn with the body.
+        """
+        moving = [k for k, factor in enumerate(self.factors) if _moved_by(factor, variable)]
+        if not moving:
+            return v.ORIGIN
+        inner = Motion(self.factors[moving[-1] :])
+        turning, moved = v.ORIGIN, v.ORIGIN  # of the frame's origin
+        for k in moving:
+            factor, back = self.factors[k], Motion(self.factors[k + 1 : moving[-1]]).inverse()
+            if isinstance(factor, Translation):
+                moved = v.add(moved, back.direction(factor.local_velocity(variable, v.ORIGIN)))
+            elif isinstance(factor, Rotation | Swing):
+                centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN
+                rate = back.direction(v.scale(sp.diff(factor.angle, variable), v.AXES[factor.axis]))
+                moved = v.sub(moved, v.cross(rate, back.point(centre)))
+                turning = v.add(turning, rate)
+        moved = v.add(moved, v.cross(turning, inner._through(v.ORIGIN)))
+        spin, shift = (tuple(v.dot(a, axis) for axis in inner._axes()) for a in (turning, moved))
+        return v.add(shift, v.cross(spin, point))
 
     def axis(self, variable: sp.Symbol) -> tuple[v.Vector, v.Vector]:
         """Unit direction and a point of the axis about which the body turns with ``variable``, parent frame.
@@ -265,7 +332,7 @@ class Motion:
         The sense of the direction is that in which a growing variable turns the body. Raises ValueError for a motion
         that is not one rotation by it.
         """
-        moving = [k for k, f in enumerate(self.factors) if any(sp.sympify(e).has(variable) for e in f.expressions())]
+        moving = [k for k, factor in enumerate(self.factors) if _moved_by(factor, variable)]
         factor, outer = self.factors[moving[0] if moving else 0], Motion(self.factors[: moving[0] if moving else 0])
         if len(moving) != 1 or not isinstance(factor, Rotation | Swing):
             raise ValueError(f"{variable} does not turn the body about one axis")

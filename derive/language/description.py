@@ -5,7 +5,7 @@ the steps by which they were made. ``derive/README.md`` documents the form; noth
 """
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import TypeAlias
 
@@ -190,13 +190,19 @@ def sources(drive: Drive) -> list[dict[str, Data]]:
     return [{"author": s.author, "title": s.title, "year": s.year, "where": s.where} for s in drive.sources]
 
 
-def _words(data: Data) -> Iterator[str]:
+def _words(data: Data) -> set[str]:
     """Every text in plain data."""
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, Mapping | Sequence):
-        for part in data.values() if isinstance(data, Mapping) else data:
-            yield from _words(part)
+    found: set[str] = set()
+    left = [data]
+    while left:
+        part = left.pop()
+        if isinstance(part, str):
+            found.add(part)
+        elif isinstance(part, Mapping):
+            left.extend(part.values())
+        elif isinstance(part, Sequence):
+            left.extend(part)
+    return found
 
 
 def _definitions(drive: Drive, described: dict[str, Data]) -> list[dict[str, Data]]:
@@ -206,7 +212,7 @@ def _definitions(drive: Drive, described: dict[str, Data]) -> list[dict[str, Dat
     wanted: list[Data] = [described]
     found: dict[str, dict[str, Data]] = {}
     while wanted:
-        new = named.keys() & {*_words(wanted)} - found.keys()
+        new = named.keys() & _words(wanted) - found.keys()
         found |= {name: named[name] for name in new}
         wanted = [named[name]["value"] for name in new]
     return [entry for name, entry in named.items() if name in found]

@@ -113,10 +113,12 @@ def _constant_slope(surface: Surface, condition: sp.Expr, parameter: Quantity) -
     What shows only then is for the record to prove: a surface that relies on it names its statement.
     """
     definitions = surface.definitions
+    if _angle_of(condition, parameter):
+        return None
     slope = definitions.derivative(condition, parameter)
     if slope == 0 or not definitions.depends(slope, parameter):
         return None if slope == 0 else slope
-    if parameter not in slope.free_symbols or _angle_of(condition, parameter):
+    if parameter not in slope.free_symbols:
         return None
     if not vanishes(definitions.resolve(definitions.derivative(slope, parameter))):
         return None

@@ -4,6 +4,8 @@ Roots and arcs are built here without the questions that SymPy asks (is it zero,
 parameters they have no answer, and the search for one takes longer than a derivation.
 """
 
+from collections.abc import Iterable
+from functools import reduce
 from typing import TypeAlias
 
 import sympy as sp
@@ -35,6 +37,11 @@ def sub(a: Vector, b: Vector) -> Vector:
 
 def scale(factor: Number, a: Vector) -> Vector:
     return tuple(_times(factor, p) for p in a)
+
+
+def combined(factors: Vector, vectors: Iterable[Vector]) -> Vector:
+    """The sum of vectors, each times its factor."""
+    return reduce(add, (scale(c, a) for c, a in zip(factors, vectors, strict=True)))
 
 
 def signed(sign: Number, a: Vector) -> Vector:

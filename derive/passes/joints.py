@@ -99,14 +99,15 @@ def _joining(margins: Sequence[Margin], name: str) -> int | None:
 def _samples(plan: Schedule) -> Iterator[tuple[str, Mapping[sp.Symbol, float]]]:
     """Flanks and inputs close to a contact on them: of the sample design, its blank and tools of usual proportions."""
     drive = plan.drive
-    complete = Completion(drive)
+    complete = Completion(drive, plan.systems)
     which = next(p for p in drive.parameters if p.table is Table.FLANK)
     for word, number in which.choices:
         try:
             with mpmath.workdps(DIGITS):
-                design = complete({**drive.sample, which.key: number})
+                own = plan.sample[which.symbol] == number
+                design = dict(plan.sample) if own else complete({**drive.sample, which.key: number})
                 _fill(drive, design)
-                yield word, in_double(_contact(plan, design))
+                yield word, in_double(design if own else _contact(plan, design))
         except ArithmeticError:  # the other flank may need a design of its own
             continue
 

@@ -40,11 +40,17 @@ def linearise(
     What is held as a variable, and which way each row is differentiated, is what needs the fewest operations.
     """
     best = _assembled(tape, residual, unknowns, {})
-    equations = {solution: (equation, slope) for solution, equation, slope in solutions}
+    equations = dict(_positive(tape, *solved) for solved in solutions)
     if equations:
         held = _assembled(tape, residual, unknowns, equations)
-        best = min(best, held, key=lambda linear: _operations(tape, residual, linear.matrix))
+        best = min(best, held, key=lambda linear: _operations(tape, residual, linear))
     return best
+
+
+def _positive(tape: Tape, solution: int, equation: int, slope: int) -> tuple[int, tuple[int, int]]:
+    """A solution and what it solves; of a negative the positive, whose sign its users take up and which they read."""
+    node = tape.nodes[solution]
+    return (node.args[0], (equation, tape.neg(slope))) if node.op == "neg" else (solution, (equation, slope))
 
 
 def forward(tape: Tape, residual: Sequence[int], unknowns: Sequence[int]) -> Linear:
@@ -124,9 +130,18 @@ def _counted(own: frozenset[int], equations: int, rows: Sequence[_Cost]) -> int:
     return len(own.union(*(row.behind for row in rows))) + sum(row.eliminated for row in rows[equations:])
 
 
-def _operations(tape: Tape, residual: Sequence[int], rows: Sequence[Sequence[int]]) -> int:
-    """:func:`_counted` of rows as they are."""
-    return _counted(_iterated(tape, residual), len(residual), [_Cost.of(tape, row) for row in rows])
+def _operations(tape: Tape, residual: Sequence[int], linear: Linear) -> int:
+    """Operations of a Newton step but for the solution of the system in the unknowns: those behind its numbers, and two
+    for each entry of a variable's row wherever that variable is put in.
+    """
+    rows, at = linear.matrix, linear.unknowns
+    present = [[tape.const_value(e) != 0 for e in row] for row in rows]
+    entries = [e for row in rows for e in row if tape.const_value(e) is None]
+    put_in = (
+        2 * (sum(own) - 1) * (sum(row[at + k] for row in present) - 1)
+        for k, own in enumerate(present[linear.equations :])
+    )
+    return len(_iterated(tape, [*residual, *entries])) + sum(put_in)
 
 
 def jacobian(tape: Tape, linear: Linear) -> Rows:

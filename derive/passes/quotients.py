@@ -13,7 +13,9 @@ from derive.program.tape import Tape
 def reciprocals(routine: Routine) -> Routine:
     """The routine with products for quotients whose divisor's reciprocal is at hand."""
     tape, readable = routine.tape, routine.known
-    factors = by_reciprocal(tape, [*routine.outputs, *routine.later], readable)
+    computed = [i for i, _ in routine.steps]
+    further = tape.needed(routine.later, {*readable, *computed}) if routine.later else []
+    factors = by_reciprocal(tape, [*computed, *further], readable)
     if not factors:
         return routine
     steps: list[tuple[int, Operation]] = []
@@ -24,10 +26,12 @@ def reciprocals(routine: Routine) -> Routine:
     return check.same("reciprocals", routine, after)
 
 
-def by_reciprocal(tape: Tape, outputs: Iterable[int], known: Iterable[int]) -> dict[int, tuple[int, int]]:
-    """Quotient → its dividend and the reciprocal of its divisor, in a function that is given ``known``."""
-    one, order = tape.constant(1), tape.needed(outputs, known)
-    at_hand = {*known, *order}
+def by_reciprocal(tape: Tape, computed: Iterable[int], known: Iterable[int]) -> dict[int, tuple[int, int]]:
+    """Quotient → its dividend and the reciprocal of its divisor, in a function that computes these nodes from those
+    that it is given.
+    """
+    one, order = tape.constant(1), {*computed}
+    at_hand = order.union(known)
     factors: dict[int, tuple[int, int]] = {}
     for i in order:
         node = tape.nodes[i]

@@ -1,7 +1,8 @@
 """A small Newton iteration on the tape itself, used at generation time only: sample solutions and self-tests."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import mpmath
 import sympy as sp
@@ -33,11 +34,12 @@ ON_PATH = 1e-4
 class Completion:
     """What completes the designs of a drive: its rules and its design systems, on tapes."""
 
-    def __init__(self, drive: Drive) -> None:
+    def __init__(self, drive: Drive, systems: Sequence[SystemTape] | None = None) -> None:
+        """``systems`` are the drive's design systems where they are on tapes already."""
         lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
         self._parameters = drive.parameters
         self._rules = [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
-        self._systems = [lower_system(system, drive.parameters) for system in drive.systems]
+        self._systems = [lower_system(s, drive.parameters) for s in drive.systems] if systems is None else systems
 
     def __call__(self, design: Mapping[str, float | int | str]) -> Values:
         """Parameter values by symbol for a ``design`` (key → number), complete; parameters left open are NaN."""
@@ -60,20 +62,25 @@ class Completion:
                 values[target] = tape.evaluate([node], values, mpmath)[0]
 
 
-def sample_parameters(drive: Drive) -> Values:
+def sample_parameters(drive: Drive, systems: Sequence[SystemTape] | None = None) -> Values:
     """The drive's sample design as parameter values by symbol: see :class:`Completion`."""
-    return Completion(drive)(drive.sample)
+    return Completion(drive, systems)(drive.sample)
 
 
 def _complete(plan: SystemTape, values: Values) -> None:
-    """Fill in what a design system gives, following its path in equal steps, exactly only at its end."""
+    """Fill in what a design system gives, following its path in equal steps and double precision, exactly only at its
+    end.
+    """
     unknowns = plan.unknowns
     inputs = dict(values)
     inputs.update(zip(unknowns, plan.tape.evaluate(plan.guess, inputs, mpmath), strict=True))
-    iterate = _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)
-    for step in range(PATH_STEPS + 1):
-        inputs[PATH] = mpmath.mpf(step) / PATH_STEPS
-        iterate(inputs, ON_PATH if step < PATH_STEPS else None)
+    on_path = _iteration(plan.tape, plan.residual, plan.jacobian, unknowns, math)
+    near = dict[sp.Symbol, Any](in_double(inputs))
+    for step in range(PATH_STEPS):
+        near[PATH] = step / PATH_STEPS
+        on_path(near, ON_PATH)
+    inputs.update({symbol: mpmath.mpf(near[symbol]) for symbol in unknowns} | {PATH: mpmath.mpf(1)})
+    _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)(inputs)
     for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
         if mpmath.isnan(values[target]):
             values[target] = value
@@ -86,7 +93,7 @@ def _number(expression: sp.Expr) -> mpmath.mpf:
 def sample_contact(plan: Schedule) -> Values:
     """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS):
-        return solve(plan, sample_parameters(plan.drive), plan.drive.sample_angle)
+        return solve(plan, sample_parameters(plan.drive, plan.systems), plan.drive.sample_angle)
 
 
 def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
@@ -137,20 +144,24 @@ def near(plan: Schedule, parameters: Values, angle: float) -> Values:
 
 
 def _iteration(
-    tape: Tape, residual: Sequence[int], jacobian: Sequence[Sequence[int]], unknowns: Sequence[sp.Symbol]
+    tape: Tape,
+    residual: Sequence[int],
+    jacobian: Sequence[Sequence[int]],
+    unknowns: Sequence[sp.Symbol],
+    arithmetic: Any = mpmath,  # noqa: ANN401  a module or alike
 ) -> Callable[..., None]:
     """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes, or until a
     change is below the tolerance given.
     """
     n = len(unknowns)
-    evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], mpmath)
+    evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], arithmetic)
     exact = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
 
     def iterate(inputs: Values, tolerance: float | None = None) -> None:
         for _ in range(60):
             try:
                 numbers = evaluate(inputs)
-            except (AttributeError, TypeError) as error:  # what mpmath's real functions say to complex numbers
+            except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
                 raise ArithmeticError(f"the sample of {unknowns} leaves the real numbers; choose another") from error
             change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):

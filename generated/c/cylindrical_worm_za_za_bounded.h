@@ -2791,7 +2791,7 @@ static inline void cylindrical_worm_za_za_slopes_fillet_wheel(const double *s, c
     const double t268 = s[7] * t212;
     const double t269 = MW_FMA(t77, t268, t267);
     const double t270 = MW_FMA(t268, t89, t196);
-    const double t271 = t227 * s[72];
+    const double t271 = s[72] * t227;
     const double t272 = t63 * t271;
     const double t273 = s[12] * t266;
     const double t274 = t232 * t212;
@@ -2805,7 +2805,7 @@ static inline void cylindrical_worm_za_za_slopes_fillet_wheel(const double *s, c
     const double t282 = MW_FNMA(t232, t227, t273);
     const double t283 = t277 + t249;
     const double t284 = MW_FMS(s[12], t276, t274);
-    const double t285 = t212 * s[72];
+    const double t285 = s[72] * t212;
     const double t286 = MW_FMA(t63, t285, t278);
     const double t287 = t93 * t231;
     const double t288 = t231 * t89;

@@ -1148,7 +1148,7 @@ static inline int cylindrical_worm_za_za_certify_setup(const mw_wide *p, double 
     const mw_wide w149 = mwc_wide_mul(w105, w148);
     const mw_wide w150 = mwc_wide_mul(w147, w109);
     const mw_wide w151 = mwc_wide_mul(w15, w30);
-    const mw_wide w152 = mwc_wide_mul(w107, w151);
+    const mw_wide w152 = mwc_wide_mul(w151, w107);
     const mw_wide w153 = mwc_wide_add(w150, w152);
     const mw_wide w154 = mwc_wide_sub(w149, w153);
     const mw_wide w155 = mwc_wide_mul(w47, w154);

@@ -147,7 +147,7 @@ static inline void MW_LANE_NAME(cylindrical_worm_za_za_setup_lanes)(const double
         const double t51 = t23 + t46;
         const double t52 = t33 * t37;
         const double t53 = t15 * t37;
-        const double t54 = t44 * t53;
+        const double t54 = t53 * t44;
         const double t55 = MW_FMA(t44, t50, t48);
         const double t56 = t52 * t44;
         const double t57 = t9 * t40;

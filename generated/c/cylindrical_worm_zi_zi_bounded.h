@@ -3696,7 +3696,7 @@ static inline void cylindrical_worm_zi_zi_slopes_fillet_wheel(const double *s, c
     const double t442 = s[9] * t386;
     const double t443 = MW_FMA(t238, t442, t441);
     const double t444 = MW_FMA(t442, t251, t370);
-    const double t445 = t401 * s[63];
+    const double t445 = s[63] * t401;
     const double t446 = t224 * t445;
     const double t447 = s[13] * t440;
     const double t448 = t406 * t386;
@@ -3710,7 +3710,7 @@ static inline void cylindrical_worm_zi_zi_slopes_fillet_wheel(const double *s, c
     const double t456 = MW_FNMA(t406, t401, t447);
     const double t457 = t451 + t423;
     const double t458 = MW_FMS(s[13], t450, t448);
-    const double t459 = t386 * s[63];
+    const double t459 = s[63] * t386;
     const double t460 = MW_FMA(t224, t459, t452);
     const double t461 = t254 * t405;
     const double t462 = t405 * t251;

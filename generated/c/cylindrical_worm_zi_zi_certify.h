@@ -1384,7 +1384,7 @@ static inline int cylindrical_worm_zi_zi_certify_setup(const mw_wide *p, double 
     const mw_wide w237 = mwc_wide_mul(w150, w236);
     const mw_wide w238 = mwc_wide_mul(w235, w166);
     const mw_wide w239 = mwc_wide_mul(w13, w33);
-    const mw_wide w240 = mwc_wide_mul(w156, w239);
+    const mw_wide w240 = mwc_wide_mul(w239, w156);
     const mw_wide w241 = mwc_wide_add(w238, w240);
     const mw_wide w242 = mwc_wide_sub(w237, w241);
     const mw_wide w243 = mwc_wide_mul(w64, w242);

@@ -413,7 +413,7 @@ static inline void MW_LANE_NAME(cylindrical_worm_zi_zi_setup_lanes)(const double
         const double t278 = t59 * t273;
         const double t279 = MW_FMA(t272, t273, t56);
         const double t280 = MW_FMA(t22, t275, t267);
-        const double t281 = MW_FMA(t272, t61, t278);
+        const double t281 = MW_FMA(t61, t272, t278);
         const double t282 = MW_FMA(p[10 * MW_LANES + l], t25, t279);
         const double t283 = t46 * t280;
         const double t284 = MW_FMS(t50, t276, t281);

@@ -29,6 +29,8 @@ CASES = (
     ("spherical-table-2-3", -0.1, 1e-5),
     ("face-worm-cylindrical-convex", -1.0, 1e-4),
     ("helical-crowned", -0.1, 1e-5),
+    ("bevel-crowned-both", -0.1, 1e-5),
+    ("bevel-hypoid", 0.6, 1e-5),
 )
 POINTS = 20000
 

@@ -6,6 +6,8 @@ import sympy as sp
 
 from derive.language import vectors as v
 from derive.language.chain import Motion, Rotation, Rx, Ry, Rz, placement, screw, station, swing, translation
+from derive.language.differentiate import partial
+from derive.language.replace import replaced
 
 a, b, p, q, t = sp.symbols("a b p q t", real=True)
 POINT = sp.symbols("x y z", real=True)
@@ -18,9 +20,12 @@ NUMBERS = dict(
 )
 
 
+DIGITS = {symbol: sp.Float(number, 40) for symbol, number in NUMBERS.items()}
+
+
 def _close(left, right):
     for lhs, rhs in zip(left, right, strict=True):
-        difference = sp.sympify(lhs).subs(NUMBERS) - sp.sympify(rhs).subs(NUMBERS)
+        difference = replaced(lhs, DIGITS) - replaced(rhs, DIGITS)
         assert abs(sp.N(difference, 30, chop=1e-28)) < 1e-25
 
 
@@ -30,6 +35,9 @@ CHAINS = [
     translation(x=-p) @ swing("y", a * b, (p, 0, q)) @ Rz(b),
     Rz(-a) @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3)) @ Rx(b),
     station(p, q, 1) @ Ry(sp.pi / 2) @ Rz(a * b) @ translation(y=b**2) @ swing("x", b, (q, 2, p)) @ station(y=t),
+    Rz(b + t) @ Ry(p) @ translation(q, 1, b * p) @ Rz(q + b) @ translation(x=p) @ Rx(q) @ Ry(t) @ Rz(a),
+    Rx(t) @ Rz(a * b) @ Ry(q) @ swing("x", b**2, (q, 2, p)) @ Rz(p)
+    @ placement((0, 1, 0), (-1, 0, 0), (0, 0, 1), (p, q, 3)) @ Ry(a) @ Rx(b) @ translation(z=p) @ Ry(q),
 ]
 
 
@@ -37,15 +45,28 @@ CHAINS = [
 @pytest.mark.parametrize("variable", [a, b])
 def test_local_velocity_is_the_derivative_turned_into_the_body(motion, variable):
     moved = motion.point(POINT)
-    derivative = tuple(sp.diff(c, variable) for c in moved)
+    derivative = tuple(partial(c, variable) for c in moved)
     _close(motion.direction(motion.local_velocity(variable, POINT)), derivative)
 
 
 @pytest.mark.parametrize("motion", CHAINS)
 def test_power_is_the_normal_component_of_the_velocity(motion):
     normal = (sp.Rational(1, 3), q, sp.Integer(2))
-    derivative = tuple(sp.diff(c, b) for c in motion.point(POINT))
+    derivative = tuple(partial(c, b) for c in motion.point(POINT))
     _close([motion.power(b, POINT, normal)], [v.dot(motion.direction(normal), derivative)])
+
+
+@pytest.mark.parametrize("motion", CHAINS)
+def test_a_motion_is_one_factor_after_the_other(motion):
+    point, direction = POINT, POINT
+    for factor in reversed(motion.factors):
+        point, direction = factor.point(point), factor.direction(direction)
+    _close(motion.point(POINT), point)
+    _close(motion.direction(POINT), direction)
+
+
+def test_a_motion_has_no_power_in_what_does_not_move_it():
+    assert [motion.power(sp.Symbol("c"), POINT, v.I) for motion in CHAINS] == [0] * len(CHAINS)
 
 
 @pytest.mark.parametrize("motion", CHAINS)

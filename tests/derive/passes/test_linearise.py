@@ -37,3 +37,16 @@ def test_the_solution_of_an_equation_is_differentiated_by_its_slope():
     rows = jacobian(tape, linearise(tape, residual, [lower(x), lower(y)], [(w, equation, slope)]))
     exact = [sp.diff(sp.sqrt(x + y + 10) * sp.cos(x), v).subs(VALUES) for v in (x, y)]
     assert values(tape, rows)[0] == pytest.approx([float(e) for e in exact], rel=1e-13)
+
+
+def test_of_a_negative_solution_the_positive_is_held():
+    """−n/d from w·d + n = 0, where all that is read is n/d."""
+    n, d = sp.cos(x) * y + sp.sin(y) * x, x**2 + p * sp.sin(y) + 5
+    tape, lower, (solution, slope) = lowered(-n / d, d)
+    equation = tape.add(tape.mul(solution, slope), lower(n))
+    residual = [tape.sub(lower(q), tape.mul(solution, tape.mul(solution, lower(sp.cos(q))))) for q in (x, y)]
+    linear = linearise(tape, residual, [lower(x), lower(y)], [(solution, equation, slope)])
+    exact = sp.Matrix([q - (n / d) ** 2 * sp.cos(q) for q in (x, y)]).jacobian([x, y]).subs(VALUES)
+    assert tape.nodes[solution].op == "neg"
+    assert linear.variables == 1
+    assert values(tape, jacobian(tape, linear)) == [pytest.approx([float(e) for e in exact.row(k)]) for k in range(2)]
