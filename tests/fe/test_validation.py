@@ -1,4 +1,4 @@
-"""Finite elements at length (``make test-fe``): order of the spherical mates, bending, load share, the worm drives.
+"""Finite elements at length (``make test-fe``): spherical mates, bevel, hypoid and helical pairs, the worm drives.
 
 Absolute stresses of the spherical report are not compared: its torque is lost and its pressures depend on its mesh.
 """
@@ -10,6 +10,8 @@ from meshwright import Drive
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, prepare
 from meshwright.fe.compliance import neighbours_of, tooth_compliance
+from meshwright.fe.hertz import elliptic_contact
+from meshwright.fe.material import contact_modulus
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
 
@@ -80,6 +82,37 @@ def test_bending_falls_with_the_sphere_radii(ccx, mates, tmp_path):
 def test_semi_analytic_contact_agrees(ccx, tmp_path, angle):
     """At the ends and in the middle of the contact of one pair, three pairs modelled."""
     agrees(*solve(ccx, Drive.load("spherical-table-4-4-concave"), tmp_path, angle, pairs=3))
+
+
+def in_closed_form(drive, gear, angle, torque):
+    """(lever arm, Hertz contact) of the tangency at an angle in rad under a torque in N mm on the pinion."""
+    tca = drive.tca([angle])
+    origin, axis = gear.pinion.axis
+    arm = abs(axis @ np.cross(tca.points[0] - origin, tca.normals[0]))
+    modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
+    return arm, elliptic_contact(torque / arm, *tca.curvatures[0], modulus, gear.pinion.material.poisson_ratio)
+
+
+@pytest.mark.parametrize(
+    ("design", "torque"),
+    [("bevel-hypoid", 20e3), ("bevel-crowned-both", 10e3), ("bevel-formate", 10e3), ("helical-crowned", 20e3)],
+)
+def test_teeth_curved_along_the_face(ccx, tmp_path, design, torque):
+    """Long thin ellipses oblique to the sections, on spirals that bend 20 times as much as the gap: one pair in the
+    middle of its path has the pressure and, below the surface, the stress of Hertz under the force that balances the
+    torque.
+    """
+    drive = Drive.load(design)
+    window = drive.contact_ratio()
+    angle = 0.5 * (window.begin.angle + window.end.angle)
+    arm, hertz = in_closed_form(drive, gear_pair(drive), angle, torque)
+    document, loaded = solve(ccx, drive, tmp_path, np.degrees(angle), 1, Load(torque, "pinion"))
+    agrees(document, loaded)
+    (pair,) = document["pairs"]
+    assert document["elements"] <= 13_000
+    assert pair["force_n"] * arm == pytest.approx(torque, rel=3e-3)
+    assert pair["peak_pressure_mpa"] == pytest.approx(hertz.peak_pressure, rel=0.05)
+    assert pair["subsurface_von_mises_mpa"] == pytest.approx(hertz.subsurface_von_mises, rel=0.05)
 
 
 def test_face_worm(ccx, tmp_path):

@@ -18,6 +18,9 @@ from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
 from meshwright.contact.flags import OVERLAP
 
+# What is asked for has so much to spare over what the gate wants.
+_SPARE = 1.1
+
 
 def add_arguments(parser):
     loading.add_arguments(parser)
@@ -120,7 +123,7 @@ def _picture_of_cycle(fe, positions, folder):
 
 
 def _write(options, gear, positions):
-    positions = [position | {"assumed_blank": gear.assumed} for position in positions]
+    positions = [position | {"assumed_blank": gear.assumed, "refine": options.refine} for position in positions]
     whole = {"schema": positions[0]["schema"], "torque_nm": options.torque_nm, "points": positions}
     if options.json:
         write_json(options.json, positions[0] if len(positions) == 1 else whole)
@@ -130,6 +133,18 @@ def _write(options, gear, positions):
 
 def _or_none(value):
     return "–" if value is None else f"{value:.5g}"
+
+
+def _remedy(position):
+    """What a run that misses its gate needs: as many elements as its ellipse asks for, or finer ones to see more."""
+    rows, refine = position["gate"]["elements_per_semi_minor"], position["refine"]
+    if rows["held"] or not rows["value"]:
+        return f"--refine {1.3 * refine:.3g} divides the contact zone more finely"
+    finer = _SPARE * rows["limit"] / rows["value"]
+    return (
+        f"the contact zone needs elements {finer:.2g} times smaller: --refine {finer * refine:.3g}, which makes about "
+        f"{finer**2 * position['elements']:.2g} of them"
+    )
 
 
 def page(position):
@@ -147,7 +162,7 @@ def page(position):
     if position.get("message"):  # one kept by an earlier version has none
         lines.append(f"  {position['message']}")
     if position["gate"]["finished"]["held"] and not _accepted(position):
-        lines.append("  no stress is given; --refine 1.3 divides the contact zone more finely")
+        lines.append(f"  no stress is given; {_remedy(position)}")
     for pair in position["pairs"]:
         lines.append(
             f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, "
