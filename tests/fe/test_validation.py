@@ -99,8 +99,8 @@ def in_closed_form(drive, gear, angle, torque):
 )
 def test_teeth_curved_along_the_face(ccx, tmp_path, design, torque):
     """Long thin ellipses oblique to the sections, on spirals that bend 20 times as much as the gap: one pair in the
-    middle of its path has the pressure and, below the surface, the stress of Hertz under the force that balances the
-    torque.
+    middle of its path has the pressure of Hertz under the force that balances the torque, and below the surface the
+    part of it that an ellipse so thin has.
     """
     drive = Drive.load(design)
     window = drive.contact_ratio()
@@ -112,7 +112,8 @@ def test_teeth_curved_along_the_face(ccx, tmp_path, design, torque):
     assert document["elements"] <= 13_000
     assert pair["force_n"] * arm == pytest.approx(torque, rel=3e-3)
     assert pair["peak_pressure_mpa"] == pytest.approx(hertz.peak_pressure, rel=0.05)
-    assert pair["subsurface_von_mises_mpa"] == pytest.approx(hertz.subsurface_von_mises, rel=0.05)
+    below = hertz.subsurface_von_mises / hertz.peak_pressure
+    assert pair["subsurface_von_mises_mpa"] / pair["peak_pressure_mpa"] == pytest.approx(below, rel=0.03)
 
 
 def test_face_worm(ccx, tmp_path):

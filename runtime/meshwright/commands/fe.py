@@ -123,7 +123,7 @@ def _picture_of_cycle(fe, positions, folder):
 
 
 def _write(options, gear, positions):
-    positions = [position | {"assumed_blank": gear.assumed, "refine": options.refine} for position in positions]
+    positions = [position | {"assumed_blank": gear.assumed} for position in positions]
     whole = {"schema": positions[0]["schema"], "torque_nm": options.torque_nm, "points": positions}
     if options.json:
         write_json(options.json, positions[0] if len(positions) == 1 else whole)
@@ -136,14 +136,14 @@ def _or_none(value):
 
 
 def _remedy(position):
-    """What a run that misses its gate needs: as many elements as its ellipse asks for, or finer ones to see more."""
+    """What a run that misses its gate needs: as many elements as its ellipse asks for, else finer ones to see more."""
     rows, refine = position["gate"]["elements_per_semi_minor"], position["refine"]
     if rows["held"] or not rows["value"]:
         return f"--refine {1.3 * refine:.3g} divides the contact zone more finely"
     finer = _SPARE * rows["limit"] / rows["value"]
     return (
-        f"the contact zone needs elements {finer:.2g} times smaller: --refine {finer * refine:.3g}, which makes about "
-        f"{finer**2 * position['elements']:.2g} of them"
+        f"--refine {finer * refine:.3g} makes elements {finer:.2g} times smaller, as the contact ellipse needs, about "
+        f"{finer**2 * position['elements']:.2g} in all"
     )
 
 

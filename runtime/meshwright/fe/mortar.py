@@ -90,8 +90,8 @@ def pressed(
     local, weights = _gauss(_FORCE_POINTS)
     places = _shape(local) @ slave
     covered = np.isfinite(_heights(flat[1], ((places - origin) @ axes[:2].T).reshape(-1, 2))).reshape(places.shape[:2])
-    along = np.einsum("pnk,fni->kfpi", _slopes(local), slave)
-    forces = np.cross(*along) * (weights * covered * (pressures @ _shape(local).T))[..., None]
+    along, across = np.einsum("pnk,fni->kfpi", _slopes(local), slave)
+    forces = np.cross(along, across) * (weights * covered * (pressures @ _shape(local).T))[..., None]
     return places.reshape(-1, 3), forces.reshape(-1, 3)
 
 
