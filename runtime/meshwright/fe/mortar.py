@@ -47,7 +47,8 @@ def fitted_nodes(
     point (3,) of contact.  Where the flanks are further apart than ``closing`` mm, more than the load closes, it is
     enough that the facets are so too.
     """
-    nodes, of_facets = _gap_of_facets(*((corners - origin) @ axes.T for corners in (slave, master)), quads)
+    below, above = ((corners - origin) @ axes.T for corners in (slave, master))
+    nodes, of_facets = _gap_of_facets(below, above, quads)
     corners = np.empty((quads.max() + 1, 3))
     corners[quads] = slave
     of_flanks, inside = gap(corners[nodes])
@@ -81,15 +82,15 @@ def pressed(
 
     pressures (F, 4) in MPa; slave, master, origin and axes as above.
     """
-    flat = [(corners - origin) @ axes.T for corners in (slave, master)]
-    bare = np.isnan(_heights(flat[1], flat[0][..., :2].reshape(-1, 2))).reshape(pressures.shape)
+    above = (master - origin) @ axes.T
+    bare = np.isnan(_heights(above, ((slave - origin) @ axes[:2].T).reshape(-1, 2))).reshape(pressures.shape)
     others = np.sum(pressures * ~bare, axis=1) / np.maximum(np.sum(~bare, axis=1), 1)
     pressures = np.where(bare, others[:, None], pressures)
     loaded = pressures.any(axis=1)
     slave, pressures = slave[loaded], pressures[loaded]
     local, weights = _gauss(_FORCE_POINTS)
     places = _shape(local) @ slave
-    covered = np.isfinite(_heights(flat[1], ((places - origin) @ axes[:2].T).reshape(-1, 2))).reshape(places.shape[:2])
+    covered = np.isfinite(_heights(above, ((places - origin) @ axes[:2].T).reshape(-1, 2))).reshape(places.shape[:2])
     along, across = np.einsum("pnk,fni->kfpi", _slopes(local), slave)
     forces = np.cross(along, across) * (weights * covered * (pressures @ _shape(local).T))[..., None]
     return places.reshape(-1, 3), forces.reshape(-1, 3)
