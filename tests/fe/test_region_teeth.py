@@ -14,6 +14,7 @@ from meshwright.fe.closed_body import gear_tooth
 from meshwright.fe.compliance import tooth_compliance
 from meshwright.fe.elastic import assemble
 from meshwright.fe.grading import MeshDensity
+from meshwright.fe.hertz import elliptic_contact
 from meshwright.fe.loaded import loaded_contact
 from meshwright.fe.model import Load
 from meshwright.fe.region_teeth import region_teeth
@@ -177,6 +178,23 @@ def test_compliance_of_bevel_teeth_is_that_of_finer_meshes(pair):
     for member in (gear.pinion, gear.wheel):
         usual, finer = (tooth_compliance(member, 0, per_patch).own for per_patch in (1, 2))
         assert np.abs(usual - finer).max() < 0.04 * np.abs(finer).max()
+
+
+@pytest.mark.validate
+def test_a_low_torque_has_the_pressure_of_hertz(pair, middle):
+    """Elastic teeth, an ellipse well inside the flanks: peak and force in closed form, from the drive's tangency."""
+    drive, gear = pair
+    torque, steel = 2e3, gear.wheel.material
+    tca = drive.tca([middle])
+    origin, axis = gear.wheel.axis
+    force = torque / abs(axis @ np.cross(tca.points[0] - origin, tca.normals[0]))
+    modulus = 0.5 * steel.youngs_modulus / (1.0 - steel.poisson_ratio**2)
+    hertz = elliptic_contact(force, *tca.curvatures[0], modulus, steel.poisson_ratio)
+    teeth = {name: tooth_compliance(getattr(gear, name)) for name in ("pinion", "wheel")}
+    (found,) = loaded_contact(gear, middle, 1, Load(torque, "wheel"), teeth).pairs
+    assert not found.cut_off
+    assert found.force == pytest.approx(force, rel=1e-3)
+    assert found.peak_pressure == pytest.approx(hertz.peak_pressure, rel=3e-3)
 
 
 @pytest.mark.validate

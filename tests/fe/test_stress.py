@@ -105,7 +105,7 @@ def turned(model, angle):
 
 
 def test_gate_refuses_a_recorded_run_with_wrong_pressures(concave, compliance, tmp_path):
-    """Converged, "Job finished", return code 0, and pressures that carry 2.1 times the torque."""
+    """Converged, "Job finished", return code 0, and pressures that carry twice the torque."""
     prepared, _ = prepared_at(concave, compliance, tmp_path, COARSE)
     results = prepared.input_file.with_suffix(".frd")
     results.write_bytes(gzip.decompress((RECORDED / "model.frd.gz").read_bytes()))

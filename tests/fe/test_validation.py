@@ -1,4 +1,4 @@
-"""Finite elements at length (``make test-fe``): order of the spherical mates, bending, load share, the worm drives.
+"""Finite elements at length (``make test-fe``): spherical mates, bevel, hypoid and helical pairs, the worm drives.
 
 Absolute stresses of the spherical report are not compared: its torque is lost and its pressures depend on its mesh.
 """
@@ -10,6 +10,8 @@ from meshwright import Drive
 from meshwright.fe import analysis
 from meshwright.fe.analysis import Settings, prepare
 from meshwright.fe.compliance import neighbours_of, tooth_compliance
+from meshwright.fe.hertz import elliptic_contact
+from meshwright.fe.material import contact_modulus
 from meshwright.fe.model import Load
 from meshwright.fe.solids import gear_pair
 
@@ -80,6 +82,45 @@ def test_bending_falls_with_the_sphere_radii(ccx, mates, tmp_path):
 def test_semi_analytic_contact_agrees(ccx, tmp_path, angle):
     """At the ends and in the middle of the contact of one pair, three pairs modelled."""
     agrees(*solve(ccx, Drive.load("spherical-table-4-4-concave"), tmp_path, angle, pairs=3))
+
+
+def in_closed_form(drive, gear, angle, torque):
+    """(lever arm, Hertz contact) of the tangency at an angle in rad under a torque in N mm on the pinion."""
+    tca = drive.tca([angle])
+    origin, axis = gear.pinion.axis
+    arm = abs(axis @ np.cross(tca.points[0] - origin, tca.normals[0]))
+    modulus = contact_modulus(gear.pinion.material, gear.wheel.material)
+    return arm, elliptic_contact(torque / arm, *tca.curvatures[0], modulus, gear.pinion.material.poisson_ratio)
+
+
+@pytest.mark.parametrize(
+    ("design", "torque", "least"),
+    [
+        ("bevel-hypoid", 20e3, 0.95),
+        ("bevel-crowned-both", 10e3, 0.95),
+        ("bevel-formate", 10e3, 0.95),
+        ("helical-crowned", 20e3, 0.9),
+    ],
+)
+def test_teeth_with_long_oblique_ellipses(ccx, tmp_path, design, torque, least):
+    """Ellipses 25 to 74 times as long as wide, oblique to the sections, on spirals that bend far more than the gap.
+
+    One pair in the middle of its path: force in balance with the torque; pressure that of Hertz under it, or as much
+    less as the teeth give way more in the middle of the load than at its ends; below the surface the part of it that an
+    ellipse so thin has.
+    """
+    drive = Drive.load(design)
+    window = drive.contact_ratio()
+    angle = 0.5 * (window.begin.angle + window.end.angle)
+    arm, hertz = in_closed_form(drive, gear_pair(drive), angle, torque)
+    document, loaded = solve(ccx, drive, tmp_path, np.degrees(angle), 1, Load(torque, "pinion"))
+    agrees(document, loaded)
+    (pair,) = document["pairs"]
+    assert document["elements"] <= 13_000
+    assert pair["force_n"] * arm == pytest.approx(torque, rel=5e-3)
+    assert least < pair["peak_pressure_mpa"] / hertz.peak_pressure < 1.0
+    below = hertz.subsurface_von_mises / hertz.peak_pressure
+    assert pair["subsurface_von_mises_mpa"] / pair["peak_pressure_mpa"] == pytest.approx(below, rel=0.03)
 
 
 def test_face_worm(ccx, tmp_path):

@@ -18,6 +18,9 @@ from meshwright.commands.progress import progress
 from meshwright.commands.shown import blank_note
 from meshwright.contact.flags import OVERLAP
 
+# What is asked for has so much to spare over what the gate wants.
+_SPARE = 1.1
+
 
 def add_arguments(parser):
     loading.add_arguments(parser)
@@ -132,6 +135,18 @@ def _or_none(value):
     return "–" if value is None else f"{value:.5g}"
 
 
+def _remedy(position):
+    """What a run that misses its gate needs: as many elements as its ellipse asks for, else finer ones to see more."""
+    rows, refine = position["gate"]["elements_per_semi_minor"], position["refine"]
+    if rows["held"] or not rows["value"]:
+        return f"--refine {1.3 * refine:.3g} divides the contact zone more finely"
+    finer = _SPARE * rows["limit"] / rows["value"]
+    return (
+        f"--refine {finer * refine:.3g} makes elements {finer:.2g} times smaller, as the contact ellipse needs, about "
+        f"{finer**2 * position['elements']:.2g} in all"
+    )
+
+
 def page(position):
     """What the command prints of one position."""
     lines = [
@@ -147,7 +162,7 @@ def page(position):
     if position.get("message"):  # one kept by an earlier version has none
         lines.append(f"  {position['message']}")
     if position["gate"]["finished"]["held"] and not _accepted(position):
-        lines.append("  no stress is given; --refine 1.3 divides the contact zone more finely")
+        lines.append(f"  no stress is given; {_remedy(position)}")
     for pair in position["pairs"]:
         lines.append(
             f"  pair {pair['pairs_later']:+d}: force {pair['force_n']:.5g} N, "

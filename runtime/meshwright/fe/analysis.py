@@ -45,11 +45,15 @@ class Settings:
 
 @dataclass(frozen=True)
 class Prepared:
-    """A position whose input is written: semi-analytic contact, model, folder and fingerprint of the input."""
+    """A position whose input is written: semi-analytic contact, model, folder and fingerprint of the input.
+
+    refine: how many times as many elements to a semi-minor axis the mesh has as it has by default.
+    """
 
     gear: GearPair
     loaded: LoadedContact
     model: PairModel
+    refine: float
     folder: Path
     fingerprint: str
 
@@ -83,7 +87,8 @@ def prepare(
     text = write(model.deck)
     folder.mkdir(parents=True, exist_ok=True)
     remove_parts(folder)
-    prepared = Prepared(gear, loaded, model, folder, hashlib.sha256(text.encode()).hexdigest())
+    refine = settings.density.per_semi_minor / MeshDensity().per_semi_minor
+    prepared = Prepared(gear, loaded, model, refine, folder, hashlib.sha256(text.encode()).hexdigest())
     write_text(prepared.input_file, text)
     return prepared
 
@@ -183,6 +188,7 @@ def _document(prepared: Prepared, checks: dict[str, Check], solution: Solution |
         "pinion_angle_deg": float(np.degrees(prepared.loaded.pinion_angle)),
         "elements": deck.element_count,
         "nodes": deck.node_count,
+        "refine": prepared.refine,
         "gate": {name: {"value": c.value, "limit": c.limit, "held": c.held} for name, c in checks.items()},
         "pairs": [],
         "bending": None,

@@ -58,7 +58,7 @@ def tooth_order(member: Member, angle: float, numbers: Sequence[int]) -> list[in
 def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     """Mesh neighbouring teeth from left to right, each graded to its own zone."""
     rows = max(face_rows(tooth.form, tooth.zone, density) for tooth in teeth)
-    stations = Stations.between([section_values(tooth.form, tooth.zone, density, rows) for tooth in teeth])
+    stations = Stations.between(_sections(teeth, density, rows))
     single: list[ToothMesh] = []
     for k, (tooth, at) in enumerate(zip(teeth, stations, strict=True)):
         same = k > 0 and tooth.form is teeth[k - 1].form and tooth.zone is teeth[k - 1].zone
@@ -75,6 +75,19 @@ def mesh_body(teeth: Sequence[PlacedTooth], density: MeshDensity) -> BodyMesh:
     rim_faces += [faces[k]["ends"] for k, tooth in enumerate(teeth) if tooth.form.cut_ends]
     rim = np.unique(np.concatenate([mesh.face_nodes(f).ravel() for f in rim_faces]))
     return BodyMesh(mesh, faces, rim, rows)
+
+
+def _sections(teeth: Sequence[PlacedTooth], density: MeshDensity, rows: int) -> list[Floats]:
+    """Section coordinates (rows + 1,) of each tooth; one without a zone takes its shares of the face from the next that
+    has one: between sections far apart the rim of a tooth along a spiral would fold.
+    """
+    values = [section_values(tooth.form, tooth.zone, density, rows) for tooth in teeth]
+    zones = [k for k, tooth in enumerate(teeth) if tooth.zone is not None]
+    for k, tooth in enumerate(teeth):
+        if zones and tooth.zone is None:
+            near = min(zones, key=lambda other: abs(other - k))
+            values[k] = np.interp(values[near], teeth[near].form.faces, tooth.form.faces)
+    return values
 
 
 def _shifted(tooth: ToothMesh, offset: int) -> dict[str, FaceSet]:

@@ -62,20 +62,44 @@ def contact_grid(
     middle = np.zeros(2) if centre is None else centre
     along = (middle[k] + ticks * reach[k] for k in (0, 1))
     x, y = (axis.ravel() for axis in np.meshgrid(*along, indexing="ij"))
-    minor = np.cross(touch.normal, touch.major_direction)
-    plane = np.stack([touch.major_direction, minor, touch.normal])
-    feet = touch.point + np.outer(x, touch.major_direction) + np.outer(y, minor)
-    surfaces = {}
-    for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1])):
-        own_angle = angle - contact.pairs_later * member.pitch
-        surfaces[name] = _Footprint.of(member, own_angle, feet, plane, gear.deviations.get(name))
-    gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ touch.normal
-    gap = gap + surfaces["wheel"].excess - surfaces["pinion"].excess
+    plane = contact_axes(contact)
+    feet = touch.point + np.stack([x, y], axis=1) @ plane[:2]
+    surfaces = _footprints(gear, contact, angles, feet, plane)
+    gap = _gap(surfaces, touch.normal)
     inside = surfaces["pinion"].inside & surfaces["wheel"].inside
     beyond = {f"{edge} of the {name}": cells for name, f in surfaces.items() for edge, cells in f.beyond.items()}
     place = {name: footprint.place for name, footprint in surfaces.items()}
     half = (reach[0] / cells, reach[1] / cells)
     return ContactGrid(np.stack([x, y], axis=1), *half, gap, surfaces["pinion"].points, inside, beyond, place)
+
+
+def gap_at(gear: GearPair, contact: PairTouch, angles: tuple[float, float], feet: Floats) -> tuple[Floats, Bools]:
+    """Gap (N,) in mm of the flanks along the contact normal through points (N, 3), and where both flanks are (N,)."""
+    surfaces = _footprints(gear, contact, angles, feet, contact_axes(contact))
+    return _gap(surfaces, contact.touch.normal), surfaces["pinion"].inside & surfaces["wheel"].inside
+
+
+def contact_axes(contact: PairTouch) -> Floats:
+    """Rows (3, 3) major axis, minor axis and normal of a contact, fixed frame."""
+    touch = contact.touch
+    return np.stack([touch.major_direction, np.cross(touch.normal, touch.major_direction), touch.normal])
+
+
+def _footprints(
+    gear: GearPair, contact: PairTouch, angles: tuple[float, float], feet: Floats, plane: Floats
+) -> dict[str, _Footprint]:
+    """Both flanks of a pair as the normals through the feet (N, 3) meet them, with the members at their angles."""
+    return {
+        name: _Footprint.of(
+            member, angle - contact.pairs_later * member.pitch, feet, plane, gear.deviations.get(name)
+        )
+        for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1]))
+    }
+
+
+def _gap(surfaces: dict[str, _Footprint], normal: Floats) -> Floats:
+    gap = (surfaces["wheel"].points - surfaces["pinion"].points) @ normal
+    return gap + surfaces["wheel"].excess - surfaces["pinion"].excess
 
 
 @dataclass(frozen=True)

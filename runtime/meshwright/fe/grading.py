@@ -18,10 +18,9 @@ from meshwright.fe.profile import Rail, SectionCurves
 
 # Rows follow the ellipse so many semi-axes beyond its end, and keep their place further out.
 _FOLLOWED = 1.5
-# Rows that make way for those of the ellipse keep this part of their spacing.
-_LEAST_SPACING = 0.35
 # The ellipse's diameter is held so far, in parts of the arc length, from either end of the flank.
-_END_MARGIN = 0.05
+_END_MARGIN = 0.02
+_BISECTIONS = 60
 
 
 @dataclass(frozen=True)
@@ -117,21 +116,30 @@ def profile_rows(rail: Rail, zone: ContactZone, density: MeshDensity) -> Floats:
     length, centre = float(rail.total[middle]), float(centres[middle])
     chord = _half_chord(rail.table[middle], zone)
     fine = FineZone(centre * length, density.profile_reach * chord, chord / density.per_semi_minor)
-    base = graded(length, fine, density.growth) / length
-    return _followed(base, centre, chord / length, centres)
+    base = graded(length, fine, density.growth)
+    at = int(np.argmin(np.abs(base - centre * length)))
+    at_centre = (centres * rail.total)[:, None]
+    below = _led(base[at] - base[at::-1], chord, centres * rail.total, density.growth)
+    above = _led(base[at:] - base[at], chord, (1.0 - centres) * rail.total, density.growth)
+    rows = np.concatenate([at_centre - below[:, :0:-1], at_centre + above], axis=1)
+    return rows / rail.total[:, None]
 
 
-def _followed(base: Floats, centre: float, half_chord: float, centres: Floats) -> Floats:
-    """Fractions (K, J): rows ``base`` (J,), fine about ``centre``, led along with the diameter (K,).
+def _led(base: Floats, kept: float, room: Floats, growth: float) -> Floats:
+    """Distances (K, J) of rows from the diameter that fill the ``room`` (K,) as ``base`` (J,) fills its own, mm.
 
-    Rows of the ellipse keep their spacing, those beyond yield, but not to less than a part of theirs: where the way
-    to the end of the flank is too short for that, fewer rows keep it.
+    Rows up to ``kept`` mm keep their spacing; each further one gives way, or stretches, by the same factor more than
+    the one before it. Where even rows as fine as the first have no room all of them give way alike.
     """
-    moved = (centres - centre)[:, None]
-    room = np.where(moved > 0.0, 1.0 - centre, centre) - np.abs(moved) / (1.0 - _LEAST_SPACING)
-    kept = np.clip(half_chord, 0.0, np.maximum(room, 0.0))
-    below, above = base / (centre - kept), (1.0 - base) / (1.0 - centre - kept)
-    return base + moved * np.minimum(1.0, np.minimum(below, above))
+    spacing = np.diff(base)
+    beyond = np.maximum(np.arange(1, len(base)) - np.count_nonzero(base[1:] <= kept), 0)
+    low, high = np.full((len(room), 1), 1.0 / growth), np.full((len(room), 1), growth)
+    for _ in range(_BISECTIONS):
+        factor = np.sqrt(low * high)
+        short = (spacing * factor**beyond).sum(axis=1, keepdims=True) < room[:, None]
+        low, high = np.where(short, factor, low), np.where(short, high, factor)
+    led = np.cumsum(spacing * low**beyond, axis=1)
+    return np.concatenate([np.zeros((len(room), 1)), led * (room / led[:, -1])[:, None]], axis=1)
 
 
 def _scaled(points: Floats, zone: ContactZone) -> Floats:

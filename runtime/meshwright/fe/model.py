@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -10,14 +11,19 @@ import numpy as np
 from meshwright.contact.placement import about_z
 from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
+from meshwright.fe.gap import contact_axes, gap_at
 from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hertz import HertzContact, elliptic_contact
 from meshwright.fe.hexahedra import Floats, HexMesh
 from meshwright.fe.material import contact_modulus
+from meshwright.fe.mortar import fitted_nodes
 from meshwright.fe.pair import GearPair, Member, PairTouch, lever_arm, pair_numbers, touches, unloaded_wheel_angle
+from meshwright.fe.tooth import moved
 
 # The contact starts from an overlap of this part of the Hertz approach: from a gap the solver diverges.
 _START_OVERLAP = 0.5
+# Facets have the gap of the flanks as far as that is less than so many Hertz approaches.
+_CLOSING = 5.0
 # Teeth without a pair beyond the outermost ones, so that no loaded tooth stands beside a held cut.
 _IDLE_TEETH = 1
 # A pair without load is meshed as if it carried this part of the largest force.
@@ -106,6 +112,9 @@ def build_model(
     bodies: dict[BodyName, BodyMesh] = {
         name: mesh_body(_teeth(gear, name, angles[name], orders[name], carrying), density) for name in _members(gear)
     }
+    pairs_in_mesh = _contact_pairs(bodies, gear, contacts, orders)
+    closing = _CLOSING * max(one.approach for one in hertz)
+    bodies["pinion"] = _with_true_gaps(gear, bodies, contacts, angles, pairs_in_mesh, closing)
     lead = int(np.argmax(forces))
     start = direction * _START_OVERLAP * hertz[lead].approach / arms[lead]
     frame = np.linalg.inv(loaded.pose(0.0))
@@ -120,7 +129,7 @@ def build_model(
         f"meshwright: {len(contacts)} tooth pairs, pinion at {np.degrees(pinion_angle):.6f} deg",
         tuple(parts),
         rims=_rims(bodies, load, direction),
-        contacts=_contact_pairs(bodies, gear, contacts, orders),
+        contacts=pairs_in_mesh,
         remarks=(
             f"{load.torque / 1000.0:g} N m about z of the {load.member}; the rim of the other member is held.",
             f"The {load.member} starts {abs(start):.3e} rad past the first touch.",
@@ -168,6 +177,28 @@ def _contact_pairs(
         ContactPair(f"PAIR{number}", "PINION", faces["pinion"][c.pairs_later], "WHEEL", faces["wheel"][c.pairs_later])
         for number, c in enumerate(contacts, start=1)
     )
+
+
+def _with_true_gaps(
+    gear: GearPair,
+    bodies: dict[BodyName, BodyMesh],
+    contacts: tuple[PairTouch, ...],
+    angles: dict[BodyName, float],
+    pairs: tuple[ContactPair, ...],
+    closing: float,
+) -> BodyMesh:
+    """The pinion with the nodes of its flanks moved so that facets have the gap of the flanks up to ``closing`` mm."""
+    nodes = bodies["pinion"].mesh.nodes.copy()
+    members = _members(gear).items()
+    placed = {name: moved(member.pose(angles[name]), bodies[name].mesh.nodes) for name, member in members}
+    to_body = gear.pinion.pose(angles["pinion"])[:3, :3]
+    for contact, pair in zip(contacts, pairs, strict=True):
+        gap = partial(gap_at, gear, contact, (angles["pinion"], angles["wheel"]))
+        quads = bodies["pinion"].mesh.face_nodes(pair.slave)
+        slave, master = placed["pinion"][quads], placed["wheel"][bodies["wheel"].mesh.face_nodes(pair.master)]
+        found, shifts = fitted_nodes(contact.touch.point, contact_axes(contact), gap, slave, master, quads, closing)
+        nodes[found] += shifts @ to_body
+    return replace(bodies["pinion"], mesh=HexMesh(nodes, bodies["pinion"].mesh.elements))
 
 
 def _rims(bodies: dict[BodyName, BodyMesh], load: Load, direction: int) -> tuple[RigidRim, ...]:

@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from meshwright.fe.hertz import HertzContact
-from meshwright.fe.hexahedra import Floats, Ints, nodal_areas
+from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.material import max_principal, von_mises
 from meshwright.fe.model import BodyName, PairModel
+from meshwright.fe.mortar import pressed
 from meshwright.fe.results import DatTable, NodalField, read_dat, read_frd
 
 # The zone below a contact in which its largest stress lies: (major, minor, least and largest depth) in semi-axes.
@@ -98,10 +99,12 @@ def _pair(model: PairModel, number: int, pressure: tuple[Ints, Floats], stresses
     pair, hertz = model.deck.contacts[number], model.hertz[number]
     mesh = model.deck.part(pair.slave_part).mesh
     quads = mesh.face_nodes(pair.slave)
-    nodes, areas = nodal_areas(mesh.nodes, quads)
-    forces = areas * pressure[1][:, None]
-    moment = np.cross(mesh.nodes[nodes], forces).sum(axis=0)[2]
     axes = _zone_axes(model, number)
+    corners = np.zeros(len(mesh.nodes))
+    corners[pressure[0]] = pressure[1]
+    other = model.deck.part(pair.master_part).mesh
+    places, forces = pressed(*axes, mesh.nodes[quads], corners[quads], other.nodes[other.face_nodes(pair.master)])
+    moment = np.cross(places, forces).sum(axis=0)[2]
     found = [_subsurface(model, name, axes, hertz, stresses[name]) for name in model.bodies]
     carries = bool(pressure[1].max() > 0.0)
     deepest = [stress for stress in found if stress is not None and carries]
