@@ -14,9 +14,10 @@ from meshwright.contact.certified_path import CertifiedPath, certified_path
 from meshwright.contact.model import DriveModel
 from meshwright.cycle import certified_first as single
 
-#: First and shortest range of angles looked at at once, in pinion pitches, the former also where flanks overlap; the
-#: path is certified beyond both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
-FIRST, SHORTEST, BESIDE, TUBE = 2.0**-4, 2.0**-8, 1e-6, 0.02
+#: First and shortest range of angles looked at at once, in pinion pitches, and the longest of which an overlap at one
+#: angle is said; the path is certified beyond both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of
+#: the slack.
+FIRST, SHORTEST, NAMED, BESIDE, TUBE = 1.0, 2.0**-8, 2.0**-4, 1e-6, 0.02
 
 #: Parts of the wheel's flank that a first range takes at most; those of a longer one as a multiple of the last one's.
 MOST, FEWER = 4000, 3
@@ -34,6 +35,7 @@ class Span:
     end: float
     outcome: str
     reason: str
+    throughout: bool
     parts: int
     angle: float
     wheel: tuple[float, float]
@@ -106,16 +108,17 @@ class _Search:
     def spans(self, piece, begin, end, later):
         """Spans of a pair without a gap over a part of a piece."""
         pitch, found, angle = self.drive.pitch(), [], begin
+        longest = {"first": math.inf, "not_first": NAMED, "unknown": SHORTEST}
         step, self.parts = FIRST * pitch, None
         while angle < end:
             to = end if end - angle < 1.5 * step else angle + step
             span = self._span(piece, angle, to, later)
-            if to - angle > pitch * {"first": math.inf, "not_first": FIRST, "unknown": SHORTEST}[span.outcome]:
+            if to - angle > pitch * longest[span.outcome] and not span.throughout:
                 step = 0.5 * (to - angle)
                 continue
             found.append(span)
             self.parts = max(span.parts, 16) if span.outcome == "first" else None
-            angle, step = to, to - angle if span.outcome == "not_first" else 2.0 * (to - angle)
+            angle, step = to, 2.0 * (to - angle)
         return _joined(found)
 
     def _span(self, piece, begin, end, later):
@@ -130,7 +133,7 @@ class _Search:
         overlap = -float(entry["apart"]["mid"] + entry["apart"]["radius"])
         return Span(
             later, begin, end, single.OUTCOMES[entry["outcome"]], text(library().mw_reason_word(int(entry["reason"]))),
-            int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
+            bool(entry["throughout"]), int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
         )  # fmt: skip
 
     def _turn(self, member, later):
@@ -146,7 +149,7 @@ def _joined(spans):
     joined = spans[:1]
     for span in spans[1:]:
         last = joined[-1]
-        if (span.outcome, span.reason) == (last.outcome, last.reason):
+        if (span.outcome, span.reason, span.throughout) == (last.outcome, last.reason, last.throughout):
             joined[-1] = replace(last, end=span.end, parts=last.parts + span.parts)
         else:
             joined.append(span)
