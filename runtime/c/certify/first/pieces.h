@@ -175,8 +175,9 @@ static int settled(search *h, const range *box, int from, int to, const met *of,
             if (last == to) return SETTLED;
             from = to;
             to = last;
-            if (to - from > MOST_MET) break;
-            if (found_within(h, &w, &square, h->list + from, to - from, &at)) verdict = looked_at(h, box, &w, &square, &at);
+            if (to - from <= MOST_MET && found_within(h, &w, &square, h->list + from, to - from, &at))
+                verdict = looked_at(h, box, &w, &square, &at);
+            if (to - from > FEW_MET) break;
         }
     }
     if (verdict == SETTLED || verdict == REFUTED) return verdict;

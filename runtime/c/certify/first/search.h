@@ -16,7 +16,7 @@ enum {
     DEEPEST = 32, DEEPEST_EDGE = 14,          /* halvings */
     MOST_OPEN = 64,                           /* parts of the wheel's flank that may stay open, in search of an overlap */
     CELLS = 48, BLOCK = 8,                    /* across the wheel's flank and along it, where its pieces are told apart; in one */
-    MOST_MET = 160,                           /* parts of the pinion's flank whose box is looked at as one */
+    MOST_MET = 160, FEW_MET = 6,              /* parts of the pinion's flank whose box is looked at as one; and once more, finer */
     NARROWEST = 12,                           /* steps in which one is narrowed, at most */
     PROBES = 5,                               /* places along a side of a part, and of the range of angles, tried for an overlap */
     NEWTON_STEPS = 12, NARROWING_STEPS = 40,
