@@ -217,7 +217,7 @@ static int searched(search *h)
     mark_piece(h, q);
     memcpy(h->list[0].box, h->pinion, sizeof h->pinion);
     if (looked_up(h, h->list) != KEPT) return c->outcome;
-    if (!resolved(h)) {
+    if (h->own && !resolved(h)) {
         remember(h, h->whole[1]);
         c->reason = MW_REASON_EFFORT;
         return c->outcome;
@@ -287,6 +287,7 @@ int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *
     *angle = NAN;
     if (begun(m, known, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
     set_contact(h, piece, from, to, pinion_turn, wheel_turn);
+    h->own = pinion_turn.hi == 0.0;
     searched(h);
     if (c->wheel[0] == c->wheel[0]) *angle = 0.5 * from + 0.5 * to + h->share * (0.5 * to - 0.5 * from);
     return c->outcome;

@@ -64,7 +64,8 @@ typedef struct search {
     mw_ball cosine, sine;                     /* of the wheel's, body frame */
     double sense, slack, reach, view[4];
     range whole[2][2], pinion[2];             /* parameters of both flanks; the pinion's as they follow the contact */
-    int looks, effort, open, cubes;            /* looks: at parts of the pinion's flank */
+    int looks, effort, open, cubes;           /* looks: at parts of the pinion's flank */
+    int own;                                  /* whether the range of angles is looked at for the pair of the contact itself */
     unsigned char cell[CELLS][CELLS];         /* 0: outside or of another piece */
     part *list;
     mw_first_certificate *found;
