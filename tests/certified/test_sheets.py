@@ -15,8 +15,8 @@ from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outsid
 
 COUNT, TERMS = 25, [(d - j, j, k) for k in range(5) for d in range(5 - k) for j in range(d + 1)]
 
-#: Coefficients in a row; places after these and one that is zero: radius; what of the coefficients occurs, highest degree in
-#: s and t and highest power of u.
+#: Coefficients in a row; places after these and one that is zero: radius; what of the coefficients occurs, highest
+#: degree in s and t and highest power of u.
 HELD, RADIUS, WIDTH = len(TERMS), len(TERMS) + 1, len(TERMS) + 3
 
 _LOOP = """

@@ -33,7 +33,7 @@ class CertifiedCycle:
 
     @property
     def clear(self):
-        """Ranges (begin, end), rad, ascending, of the right-hand drive, at each angle of which nothing touches first."""
+        """Ranges (begin, end), rad, ascending, right-hand drive, at no angle of which something touches first."""
         return tuple(found for part in self.parts for found in _clear(part))
 
     def plain(self, sign):

@@ -15,13 +15,13 @@ from meshwright.contact.certified_path import CertifiedPath, certified_path
 from meshwright.contact.model import DriveModel
 from meshwright.cycle import certified_first as single
 
-#: Longest range of angles in pinion pitches of which each outcome is said: an overlap at one of its angles, or that nothing
-#: is shown. Where the contact leaves the flanks is told to ``LEAVING`` pitches. The path is certified beyond both ends by
-#: ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
+#: Longest range of angles in pinion pitches of which each outcome is said: an overlap at one of its angles, or that
+#: nothing is shown. Where the contact leaves the flanks is told to ``LEAVING`` pitches. The path is certified beyond
+#: both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
 LONGEST = {"first": math.inf, "not_first": 2.0**-4, "unknown": 2.0**-8}
 LEAVING, BESIDE, TUBE = 2.0**-14, 1e-6, 0.02
 
-#: Parts of the wheel's flank that a pitch of angles takes at most, half a pitch twice as many, and so on; a pair in all.
+#: Parts of the wheel's flank that a pitch of angles takes at most, half a pitch twice as many …; a pair in all.
 LEAST, BUDGET = 600, 12_000
 
 
@@ -29,8 +29,8 @@ LEAST, BUDGET = 600, 12_000
 class Span:
     """What is shown from one angle to another, rad, of a pair so many ``later``: outcome and reason as of
     :class:`~meshwright.cycle.certified_first.FirstCertificates`. ``angle`` and ``wheel`` (2,), parameters of its flank:
-    where it fails, NaN where it does not; ``overlap``: by how much the flanks surely overlap there, rad; ``throughout``:
-    they do so at every angle of the span.
+    where it fails, NaN where it does not; ``overlap``: by how much the flanks surely overlap there, rad, and with
+    ``throughout`` at every angle of the span.
     """
 
     later: int
@@ -109,8 +109,8 @@ class _Search:
         self.work, self.state = np.empty(library().mw_certify_first_work()), drive.enclosed.state.copy()
 
     def spans(self, ranges, later):
-        """Spans of a pair without a gap over parts (piece, begin, end) of a path, until the budget is spent: the longest
-        that are open first, halved where nothing is shown.
+        """Spans of a pair without a gap over parts (piece, begin, end) of a path, until the budget is spent: the
+        longest first, halved where nothing is shown.
         """
         pitch, left, found = self.drive.pitch(), BUDGET, []
         waiting = [(begin - end, begin, end, k) for k, (_, begin, end) in enumerate(ranges)]

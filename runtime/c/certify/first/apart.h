@@ -127,7 +127,9 @@ typedef struct overlapping {
     int found, throughout;
 } overlapping;
 
-static void try_overlap(const search *h, const line *away, const line *limits, int count, const double *at, int probe, overlapping *o)
+/* Take an overlap at a place if it is deeper: at every u, probe < 0, or at one of some. */
+static void try_overlap(const search *h, const line *away, const line *limits, int count, const double *at, int probe,
+                        overlapping *o)
 {
     const double u = probe < 0 ? 0.0 : (double)(2 * probe + 1 - PROBES) / (double)PROBES;
     const mw_ball apart = probe < 0 ? line_range(away) : line_value(away, u);
