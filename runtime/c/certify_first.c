@@ -6,7 +6,7 @@
  * part of the wheel's flank and a range of pinion angles that angle is a polynomial with an error bound: the pinion's
  * parameters are polynomials from Newton's method, and Krawczyk's operator bounds how far from them anything within a box lies
  * that meets the part. The box holds every part of the pinion's flank whose distance, place and angle may be those of the
- * wheel's part. Whether the polynomial keeps its sign where the limits do is told by dividing the polynomials; parts of the
+ * wheel's part, cut to where its own polynomials let them be; of a half of a part it is what is known of the whole. Whether the polynomial keeps its sign where the limits do is told by dividing the polynomials; parts of the
  * flank are halved where these are not close enough.
  *
  * Variables of the sheets: s and t are the wheel's parameters over a part, or the pinion's; u is the angle. The frame of the
@@ -216,7 +216,11 @@ static int searched(search *h)
     for (int i = 0; i < 2; i++) q[i] = h->at.x[m->bodies[1].unknowns[i]];
     mark_piece(h, q);
     memcpy(h->list[0].box, h->pinion, sizeof h->pinion);
-    if (looked_up(h, h->list) != KEPT) return c->outcome;
+    const int whole = looked_up(h, h->list);
+    if (whole != KEPT) {
+        c->reason = whole == NOTHING ? MW_REASON_OFF_FLANK : MW_REASON_EFFORT;
+        return c->outcome;
+    }
     if (h->own && !resolved(h)) {
         remember(h, h->whole[1]);
         c->reason = MW_REASON_EFFORT;

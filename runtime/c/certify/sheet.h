@@ -12,7 +12,7 @@
 #include <string.h>
 #include "ball.h"
 
-enum { MWC_DEGREE = 4, MWC_COEFFICIENTS = 35, MWC_ROOM = 36 };
+enum { MWC_DEGREE = 4, MWC_ROOM = 36 };
 
 /* The last place of c is zero: loops over all of it have a constant length, which compilers do at once. */
 typedef struct mwc_sheet {

@@ -113,14 +113,14 @@ static int looked_up(search *h, part *p)
 static int narrowed(search *h, part *p, const bounds *w, double times, int *side)
 {
     for (int step = 0;; step++) {
-        mwc_sheet free[2];
+        mwc_sheet whole[2];
         range at[2], *const own = p->within;
         double off[2] = { 0.0, 0.0 }, by[2] = { 0.0, 0.0 }, left = 1.0;
         if (!may_meet(h, &p->at, w)) return NOTHING;
         const int told = where_met(p->across, w, at, off, by);
-        over(free, p->box);
+        over(whole, p->box);
         for (int i = 0; told && i < 2; i++) {
-            if (!cut(own + i, free + i, i, at[i])) return NOTHING;
+            if (!cut(own + i, whole + i, i, at[i])) return NOTHING;
             left *= width(own[i]) / width(p->box[i]);
         }
         if (left < WORTH && step < NARROWEST) {

@@ -28,9 +28,13 @@ enum {
 typedef mwc_range range;
 
 /* How much larger than the wheel's part parts of the pinion's flank may be that cannot be narrowed; the largest share of a
- * part's half-width by which it may be off its tangent plane to be taken whole; a step of narrowing that is worth another; by how
- * much a box of parts is widened. */
-static const double COARSE = 3.0, STRAIGHT = 0.25, WORTH = 0.6, BESIDE = 0.0625, NEARLY = 0.004, FULL = 0.5;
+ * part's half-width by which it may be off its tangent plane to be taken whole; the share that a step of narrowing leaves if it
+ * is worth another; the share of a side that may meet the wheel's part above which halving that side tells nothing. */
+static const double COARSE = 3.0, STRAIGHT = 0.25, WORTH = 0.6, FULL = 0.5;
+
+/* By what share of itself a box of parts is widened; the share of the box within which bounds are close enough for halves to
+ * start from them. */
+static const double BESIDE = 0.0625, NEARLY = 0.004;
 
 /* How large a share of what a limit varies by its error may be where polynomials tell the cells. */
 static const double CLOSE = 0.003;
