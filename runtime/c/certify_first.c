@@ -6,7 +6,7 @@
  * part of the wheel's flank and a range of pinion angles that angle is a polynomial with an error bound: the pinion's
  * parameters are polynomials from Newton's method, and Krawczyk's operator bounds how far from them anything within a box lies
  * that meets the part. The box holds every part of the pinion's flank whose distance, place and angle may be those of the
- * wheel's part. Whether the polynomial keeps its sign where the limits do is told by dividing the polynomials; parts of the
+ * wheel's part, cut to where its own polynomials let them be; of a half of a part it is what is known of the whole. Whether the polynomial keeps its sign where the limits do is told by dividing the polynomials; parts of the
  * flank are halved where these are not close enough.
  *
  * Variables of the sheets: s and t are the wheel's parameters over a part, or the pinion's; u is the angle. The frame of the
@@ -125,7 +125,7 @@ static int possible(const mw_model *m, int known)
 
 size_t mw_certify_first_work(void)
 {
-    return (sizeof(search) + MOST_PARTS * sizeof(part) + MOST_LISTED * sizeof(int)) / sizeof(double) + 4;
+    return (sizeof(search) + MOST_LISTED * sizeof(part)) / sizeof(double) + 4;
 }
 
 /* Begin a search in `work`; known: why nothing can be asked of the contact, if so. Returns a reason. */
@@ -149,8 +149,7 @@ static int begun(const mw_model *m, int known, const mw_wide *s, const double *f
     if (!(slack > 0.0 && reach > slack && reach < 1.0)) c->reason = MW_REASON_BOX;
     h->model = m;
     h->tables = m->kernels->certified();
-    h->part = (part *)(h + 1);
-    h->list = (int *)(h->part + MOST_PARTS);
+    h->list = (part *)(h + 1);
     h->slack = slack;
     h->reach = reach;
     h->effort = effort;
@@ -164,6 +163,31 @@ static int begun(const mw_model *m, int known, const mw_wide *s, const double *f
         for (int k = 0; k < h->tables->design_slots; k++) h->arguments[i][k] = mwc_sheet_of_wide(s[k]);
     }
     return c->reason;
+}
+
+/* Whether the range of angles is short enough for polynomials: where the pinion meets one place of the wheel's flank, that of
+ * the contact in the middle of the range, how far it is apart there is known to the slack. */
+static int resolved(search *h)
+{
+    met at;
+    place w, p;
+    range box[2], about[2];
+    mwc_sheet q[2];
+    double from[2];
+    int exists;
+    for (int i = 0; i < 2; i++) {
+        box[i].low = box[i].high = h->at.x[h->model->bodies[1].unknowns[i]].c[0];
+        about[i].high = width(h->pinion[i]);
+        about[i].low = -about[i].high;
+    }
+    over(q, box);
+    on_flank(h, 1, q, POINT, &w, NULL);
+    const mwc_sheet square = squared(w.x);
+    memset(&at, 0, sizeof at);
+    if (!centred(h, &w, square.c[0], about, from, at.C) || !sought(h, &w, &square, from, &at)) return 1;
+    bounded(h, &w, &square, &at, &p, &exists);
+    const mwc_sheet away = apart(h, &p, &w);
+    return away.radius < h->slack;
 }
 
 /* Search for what comes before the contact that is set. Returns the outcome. */
@@ -189,11 +213,20 @@ static int searched(search *h)
         h->pinion[i].high = (whole.high - at.low) + 4.0 * MWC_U * (mwc_abs(whole.high) + mwc_abs(at.low));
     }
     for (int i = 0; i < 2; i++) c->ends[i] = ends_within(h, i, h->whole[i]);
-    if (!measured(h, h->pinion)) return c->outcome;
     for (int i = 0; i < 2; i++) q[i] = h->at.x[m->bodies[1].unknowns[i]];
     mark_piece(h, q);
-    h->list[0] = 0;
-    const int verdict = settled(h, h->whole[1], 0, 1, 0);
+    memcpy(h->list[0].box, h->pinion, sizeof h->pinion);
+    const int whole = looked_up(h, h->list);
+    if (whole != KEPT) {
+        c->reason = whole == NOTHING ? MW_REASON_OFF_FLANK : MW_REASON_EFFORT;
+        return c->outcome;
+    }
+    if (h->own && !resolved(h)) {
+        remember(h, h->whole[1]);
+        c->reason = MW_REASON_EFFORT;
+        return c->outcome;
+    }
+    const int verdict = settled(h, h->whole[1], 0, 1, NULL, 0, 0.0, 0);
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
     if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED;
     if (verdict != OPEN) c->reason = MW_REASON_NONE;
@@ -258,6 +291,7 @@ int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *
     *angle = NAN;
     if (begun(m, known, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
     set_contact(h, piece, from, to, pinion_turn, wheel_turn);
+    h->own = pinion_turn.hi == 0.0;
     searched(h);
     if (c->wheel[0] == c->wheel[0]) *angle = 0.5 * from + 0.5 * to + h->share * (0.5 * to - 0.5 * from);
     return c->outcome;

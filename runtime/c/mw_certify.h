@@ -126,13 +126,13 @@ void mw_piece_range(const mw_piece *piece, const mw_polynomial *of, double from,
  * the gap is open, by any angle above slack and up to reach, no place of the one flank within the given parameters and its
  * limits, of the wheel's on the piece that holds the contact, is one of the other's.
  * REFUTED: they have one in common, surely: the parameters wheel[2] and pinion[2], nearly, and how far it is apart, rad,
- * negative. Else the part of the wheel's flank that was looked at last, and why no more is known. ends, of pinion and wheel:
+ * negative; throughout: over a range of angles, at each of them, apart then holding it at all. Else the part of the wheel's flank that was looked at last, and why no more is known. ends, of pinion and wheel:
  * whether limits surely end the flank within the given parameters, or it goes on beyond them. parts: of the wheel's flank
  * that were looked at. */
 enum { MW_FIRST_UNKNOWN, MW_FIRST_PROVED, MW_FIRST_REFUTED };
 
 typedef struct mw_first_certificate {
-    int outcome, reason, parts, ends[2];
+    int outcome, reason, parts, throughout, ends[2];
     double wheel[2], pinion[2];
     mw_ball apart;
 } mw_first_certificate;

@@ -1,6 +1,7 @@
 """First contact with a proof: shown where nothing else touches, refuted where something does, never shown wrongly."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from meshwright.base.library import ffi
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle import certified_first_path
+from meshwright.cycle.certified_cycle import leading
 from tests.independent.first_touch import FirstTouch
 from tests.test_first_contact import EDGE_FIRST
 
@@ -30,17 +32,21 @@ def proved(drive, degrees, neighbours=0):
     return contacts, certificates, drive.certify_first(contacts.angles, contacts, certificates, neighbours=neighbours)
 
 
-def met(drive, contacts, q, starts=9):
-    """How far places q (N, 2) of the wheel's flank are apart, rad, by the wheel's turn alone, with the pinion's place;
-    by Newton's method on positions from several places of the pinion, the nearest to a contact of them.
+def met(drive, contacts, q, starts=9, later=0, along=None):
+    """How far places q (N, 2) of the wheel's flank are apart, rad, by the wheel's turn alone, with the pinion's place,
+    of a pair so many later; by Newton's method on positions from several places of the pinion, if given from ``along``
+    (lowest, highest) of its second parameter, the nearest to a contact of them.
     """
-    search = FirstTouch(drive, drive.design.mirror.sign * contacts.angles[0], contacts.solutions[0], 1.0)
+    angle = drive.design.mirror.sign * (contacts.angles[0] - later * drive.pitch())
+    search = FirstTouch(drive, angle, contacts.solutions[0], 1.0)
     best = np.full((len(q), len(search.start)), np.nan)
-    for shift in np.linspace(-1.0, 1.0, starts):
+    middle, size = search.start[1], search.sizes[1]
+    for place in np.linspace(*(along or (middle - size, middle + size)), starts):
         start = np.tile(search.start, (len(q), 1))
-        start[:, 1] += shift * search.sizes[1]
+        start[:, 1] = place
         found = search.meet(q, start)
         nearer = ~(np.abs(found[:, -1] - search.start[-1]) >= np.abs(best[:, -1] - search.start[-1]))
+        nearer &= np.isfinite(found[:, -1])
         best[nearer] = found[nearer]
     side = np.sign(drive.design.mirror.sign * drive.first_contact(contacts.angles, contacts).levers[0])
     side = side if np.isfinite(side) else _opening(drive, contacts)
@@ -189,6 +195,81 @@ def test_where_the_contact_leaves_the_flanks_nothing_is_shown():
     found = drive.certify_first_path(*np.radians([48.0, 52.0]), neighbours=0)  # the contact begins at 49.32
     assert found.outcome == "unknown" and {s.reason for s in found.failures} == {"off_flank"}
     assert found.spans[-1].outcome == "first" and 49.3 < np.degrees(found.spans[-1].begin) < 51.0
+
+
+def test_what_overlaps_at_every_angle_of_a_range_does_so_at_its_named_place():
+    drive = Drive.load("recess-action-full")
+    found = drive.certify_first_path(*np.radians([2400.0, 2410.0]), neighbours=1)
+    (span,) = found.of(-1)  # beyond the end of its tangency an edge of the pair before still touches
+    assert span.outcome == "not_first" and span.throughout and span.overlap > found.slack
+    for angle in (span.begin, span.angle, span.end):
+        along = list(found.boxes["pinion"].values())[1]
+        away, p = met(drive, drive.tca([angle]), np.array([span.wheel]), starts=41, later=-1, along=along)
+        assert _inside(drive, "wheel", np.array([span.wheel]))[0] and _inside(drive, "pinion", p)[0]
+        assert -found.reach < away[0] <= -span.overlap * (1.0 - 1e-6)
+
+
+def test_work_is_bounded_and_what_is_left_is_said_to_be(monkeypatch):
+    drive = Drive.load("plain-zn")
+    begin, end = np.radians([-30.0, 30.0])
+    monkeypatch.setattr(certified_first_path, "BUDGET", 50)
+    found = drive.certify_first_path(begin, end, neighbours=0)
+    assert {(span.outcome, span.reason) for span in found.spans} == {("unknown", "effort")}
+    assert [found.spans[0].begin, found.spans[-1].end] == [begin, end]
+    assert sum(span.parts for span in found.spans) <= 52
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "plain-zn", "spherical-table-4-4-concave"])
+def test_the_pairs_that_lead_share_one_pitch(name):
+    drive = Drive.load(name)
+    mesh = drive.contact_ratio().mesh
+    ranges = leading(mesh)
+    assert sum(b - a for a, b in ranges) == pytest.approx(drive.pitch(), abs=1e-6)
+    for begin, end in ranges:
+        angle = begin + 0.3 * (end - begin)
+        assert mesh.pairs(angle)[0].number == 0 or mesh.pairs(angle)[0].separation < 1e-6
+
+
+def certified_cycle_of(drive, capsys):
+    """What ``ratio --certify`` says of first contact over the mesh cycle."""
+    assert main(["ratio", drive.design.tables["name"], "--certify", "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)["certificate"]["first_contact"]
+    assert found["outcome"] == "not_first" and found["overlap_below_mm"] == 1e-6
+    assert sum(b - a for a, b in found["cycle_deg"]) == pytest.approx(math.degrees(drive.pitch()), abs=0.01)
+    overlaps = [span for span in found["spans"] if span["outcome"] == "not_first"]
+    assert all(span["overlap_arcsec"] > 0.0 for span in overlaps)
+    assert not any(
+        max(a, span["pinion_angle_deg"][0]) < min(b, span["pinion_angle_deg"][1])
+        for a, b in found["first_deg"] for span in found["spans"] if span["outcome"] != "first"
+    )  # fmt: skip
+    return found, overlaps
+
+
+def test_of_a_drive_that_rides_on_an_edge_that_is_said_over_its_whole_mesh_cycle(capsys):
+    found, overlaps = certified_cycle_of(Drive.load("recess-action-full"), capsys)
+    assert found["first_deg"] == [] and {span["pairs_later"] for span in overlaps} == {-1}
+    ends = sorted(span["pinion_angle_deg"] for span in overlaps)
+    assert [ends[0][0], ends[-1][1]] == found["cycle_deg"][0]
+    assert all(a[1] >= b[0] for a, b in zip(ends, ends[1:], strict=False))
+    assert any(span["at_every_angle"] for span in overlaps)
+
+
+@pytest.mark.validate
+def test_of_a_mesh_cycle_it_is_said_where_nothing_touches_first(capsys):
+    drive = Drive.load("plain-zn")
+    found, overlaps = certified_cycle_of(drive, capsys)
+    mesh = drive.contact_ratio().mesh
+    clear = [a + share * (b - a) for a, b in found["first_deg"] for share in (0.1, 0.9)]
+    for angle, later in [(angle, k) for angle in clear for k in (-1, 0, 1)]:
+        assert _ahead(mesh, math.radians(angle), later) < 1e-8
+    for span in overlaps[:3]:
+        angle = math.radians(span["at_pinion_angle_deg"])
+        assert _ahead(mesh, angle, span["pairs_later"]) >= span["overlap_arcsec"] * ARCSEC * (1.0 - 1e-6)
+
+
+def _ahead(mesh, angle, later):
+    """How far before the tangency of the pair 0 a pair touches first, rad, by the search of floating point."""
+    return mesh.rigid.ahead(later, angle) - mesh.sense * mesh.errors(np.array([angle]))[0]
 
 
 @pytest.mark.validate

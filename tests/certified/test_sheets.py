@@ -15,8 +15,9 @@ from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outsid
 
 COUNT, TERMS = 25, [(d - j, j, k) for k in range(5) for d in range(5 - k) for j in range(d + 1)]
 
-#: Places in a row: radius; what of the coefficients occurs, highest degree in s and t and highest power of u.
-RADIUS, WIDTH = len(TERMS), len(TERMS) + 2
+#: Coefficients in a row; places after these and one that is zero: radius; what of the coefficients occurs, highest
+#: degree in s and t and highest power of u.
+HELD, RADIUS, WIDTH = len(TERMS), len(TERMS) + 1, len(TERMS) + 3
 
 _LOOP = """
 void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_sheet *s)
@@ -29,12 +30,14 @@ void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_s
 #: Error terms, halved: as of the polynomials of one variable. The bound of a sum of rounded products is twice what its
 #: terms come to at their worst, so it is left out, as are the tails of series.
 _TERMS = {
-    "add": ("a.radius = ((a.radius + b->radius) + ", "MWC_U * rounded)"),
-    "add, radii": ("a.radius = (", "(a.radius + b->radius) + MWC_U"),
+    "add": ("r->radius = (radii + ", "MWC_U * mwc_sheet_size(r->c))"),
+    "add, radii": ("r->radius = (", "radii + MWC_U"),
     "mul, degrees beyond the last": ("spread + ", "beyond +"),
     "mul, first": ("spread = ", "size * b->radius"),
     "mul, second": ("a->radius * (", "other + b->radius)"),
     "mul, radii": ("a->radius * (other + ", "b->radius)"),
+    "mul, by a number": ("spread = mwc_sheet_part(a, 0) * radius + ", "a->radius * (mwc_abs(by) + radius)"),
+    "mul, by a number within a radius": ("spread = ", "mwc_sheet_part(a, 0) * radius"),
     "div": ("q.radius = least > 0.0 ? ", "mwc_sheet_most(&left)"),
     "sqrt": ("s.radius = defined ? ", "mwc_sheet_most(&left)"),
     "sincos, sine": ("sine->radius = (sine->radius + ", "radius)"),
@@ -70,7 +73,7 @@ def compiled(folder, replaced=None):
 
 
 def run(loaded, op, a, b):
-    """Results (N, 37) of one operation; of ``sincos`` both."""
+    """Results (N, WIDTH) of one operation; of ``sincos`` both."""
     arrays = [_marked(x) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
     getattr(loaded, f"run_{op}")(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in arrays))
     return arrays[2:] if op == "sincos" else arrays[2:3]
@@ -79,7 +82,7 @@ def run(loaded, op, a, b):
 def _marked(rows):
     """Rows with the degrees that occur in them, as the structure holds them."""
     rows = np.array(rows, dtype=float)
-    occurs = rows[:, :RADIUS] != 0.0
+    occurs = rows[:, :HELD] != 0.0
     degrees = [(i + j, k) for i, j, k in TERMS]
     highest = np.where(occurs[..., None], degrees, 0).max(axis=1).astype(np.int32)
     rows[:, -1] = np.ascontiguousarray(highest).view(float)[:, 0]
@@ -110,11 +113,11 @@ def misses(loaded, op, a, b):
     return count
 
 
-def sheets(rng, count, radii, kept=slice(0, RADIUS)):
+def sheets(rng, count, radii, kept=slice(0, HELD)):
     """Coefficients that fall with the degree, the first of size 1; radius in shares of it."""
     rows = np.zeros((count, WIDTH))
     size = np.array([0.1 ** sum(term) for term in TERMS])
-    rows[:, :RADIUS][:, kept] = (rng.uniform(-1, 1, (count, RADIUS)) * size)[:, kept]
+    rows[:, :HELD][:, kept] = (rng.uniform(-1, 1, (count, HELD)) * size)[:, kept]
     rows[:, 0] = rng.uniform(1.0, 2.0, count)
     rows[:, RADIUS] = radii * rows[:, 0]
     return rows

@@ -1,7 +1,12 @@
 /* Runs a function's table of operations in one arithmetic.  SPDX-License-Identifier: MIT-0
  *
  * The including file defines MWC_RUN, the name of the function; MWC_NUMBER, the type of its numbers; MWC_DO(operation), the
- * name of an operation of that arithmetic; MWC_CONSTANT(c), a constant of the table in it. These are undefined again. */
+ * name of an operation of that arithmetic; MWC_CONSTANT(c), a constant of the table in it; and, where numbers are too large to
+ * be handed over by value, MWC_TO(operation, r, a, b), which puts a sum, difference or product of a and b into r, maybe one of
+ * them. These are undefined again. */
+#ifndef MWC_TO
+#define MWC_TO(operation, r, a, b) (*(r) = MWC_DO(operation)(*(a), *(b)))
+#endif
 
 /* Runs `count` operations of code with its arguments in a row; results stay in their registers. */
 static void MWC_RUN(const mw_code *code, int count, const MWC_NUMBER *arguments, MWC_NUMBER *registers)
@@ -14,9 +19,9 @@ static void MWC_RUN(const mw_code *code, int count, const MWC_NUMBER *arguments,
         MWC_NUMBER *const result = registers + i[1];
         const MWC_NUMBER *const a = registers + i[2], *const b = registers + i[3];
         switch (i[0]) {
-        case MW_OP_ADD: *result = MWC_DO(add)(*a, *b); break;
-        case MW_OP_SUB: *result = MWC_DO(sub)(*a, *b); break;
-        case MW_OP_MUL: *result = MWC_DO(mul)(*a, *b); break;
+        case MW_OP_ADD: MWC_TO(add, result, a, b); break;
+        case MW_OP_SUB: MWC_TO(sub, result, a, b); break;
+        case MW_OP_MUL: MWC_TO(mul, result, a, b); break;
         case MW_OP_SQR: *result = MWC_DO(sqr)(*a); break;
         case MW_OP_DIV: *result = MWC_DO(div)(*a, *b); break;
         case MW_OP_NEG: *result = MWC_DO(neg)(*a); break;
@@ -30,6 +35,7 @@ static void MWC_RUN(const mw_code *code, int count, const MWC_NUMBER *arguments,
 }
 
 #undef MWC_RUN
+#undef MWC_TO
 #undef MWC_NUMBER
 #undef MWC_DO
 #undef MWC_CONSTANT

@@ -4,7 +4,7 @@
  * c[d (d + 1)/2 + j] to s^(d - j) t^j. across: the highest degree in s and t that occurs; along: the highest power of u; what
  * is beyond these is zero, and products leave it out. What a product has beyond the fourth degree joins the radius. A sum of n
  * rounded products is off by n MWC_U at most of what the sizes of its terms sum up to (Higham, "Accuracy and Stability of
- * Numerical Algorithms", 2nd ed., 3.1); no coefficient has more than 13. Series have no
+ * Numerical Algorithms", 2nd ed., 3.1); no coefficient has more than 12. Series have no
  * more terms than the degree lets be seen. */
 #ifndef MWC_SHEET_H
 #define MWC_SHEET_H
@@ -12,10 +12,11 @@
 #include <string.h>
 #include "ball.h"
 
-enum { MWC_DEGREE = 4, MWC_COEFFICIENTS = 35, MWC_SHEET_TERMS = 3 };
+enum { MWC_DEGREE = 4, MWC_ROOM = 36 };
 
+/* The last place of c is zero: loops over all of it have a constant length, which compilers do at once. */
 typedef struct mwc_sheet {
-    double c[MWC_COEFFICIENTS];
+    double c[MWC_ROOM];
     double radius;
     int across, along;
 } mwc_sheet;
@@ -26,8 +27,8 @@ static const unsigned char MWC_BLOCK[] = { 0, 15, 25, 31, 34, 35 };
 /* Makes good what up to 2^10 roundings of one operation's radius lose. Most roundings of a coefficient. */
 static const double MWC_SHEET_SUMMED = 1.0000000000002274, MWC_ROUNDINGS = 17.0;
 
-/* Beyond this range sine and cosine are not expanded; a tail of a series that is small enough. */
-static const double MWC_SHEET_BENDING = 4.0, MWC_SHEET_TAIL = 1e-20;
+/* Beyond this range sine and cosine are not expanded. */
+static const double MWC_SHEET_BENDING = 4.0;
 
 static inline mwc_sheet mwc_sheet_of_ball(mw_ball b)
 {
@@ -49,18 +50,22 @@ static inline mwc_sheet mwc_sheet_undefined(mwc_sheet p)
     return p;
 }
 
-/* Coefficients up to the last that occurs. */
-static inline int mwc_sheet_count(const mwc_sheet *a)
+/* Sum of the sizes of the terms, in four sums so that none waits for the last. */
+static inline double mwc_sheet_size(const double *c)
 {
-    return a->along ? MWC_BLOCK[a->along + 1] : (a->across + 1) * (a->across + 2) / 2;
+    double sum[4] = { 0.0, 0.0, 0.0, 0.0 };
+    for (int k = 0; k < MWC_ROOM; k += 4)
+        for (int i = 0; i < 4; i++) sum[i] += mwc_abs(c[k + i]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Largest size of the terms, with or without the constant one, and of all with the radius. */
+/* Largest size of the terms, with (0) or without (1) the constant one, and of all with the radius. */
 static inline double mwc_sheet_part(const mwc_sheet *a, int from)
 {
-    double sum = 0.0;
-    for (int k = from, count = mwc_sheet_count(a); k < count; k++) sum += mwc_abs(a->c[k]);
-    return sum * MWC_SHEET_SUMMED;
+    double sum[4] = { from ? 0.0 : mwc_abs(a->c[0]), mwc_abs(a->c[1]), mwc_abs(a->c[2]), mwc_abs(a->c[3]) };
+    for (int k = 4; k < MWC_ROOM; k += 4)
+        for (int i = 0; i < 4; i++) sum[i] += mwc_abs(a->c[k + i]);
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) * MWC_SHEET_SUMMED;
 }
 
 static inline double mwc_sheet_most(const mwc_sheet *a)
@@ -74,58 +79,62 @@ static inline double mwc_sheet_least(const mwc_sheet *a)
     return (mwc_abs(a->c[0]) - (mwc_sheet_part(a, 1) + a->radius) * MWC_SHEET_SUMMED) * (1.0 - 8.0 * MWC_U);
 }
 
-/* a + b or, with sign -1, a - b */
-static inline mwc_sheet mwc_sheet_sum(mwc_sheet a, const mwc_sheet *b, double sign)
+/* r = a + b or, with sign -1, a - b; r may be either. */
+static inline void mwc_sheet_sum(mwc_sheet *r, const mwc_sheet *a, const mwc_sheet *b, double sign)
 {
-    double rounded = 0.0;
-    if (b->across > a.across) a.across = b->across;
-    if (b->along > a.along) a.along = b->along;
-    for (int k = 0, count = mwc_sheet_count(&a); k < count; k++) {
-        a.c[k] += sign * b->c[k];
-        rounded += mwc_abs(a.c[k]);
-    }
-    a.radius = ((a.radius + b->radius) + MWC_U * rounded) * MWC_SHEET_SUMMED;
-    return a;
+    const double radii = a->radius + b->radius;
+    r->across = b->across > a->across ? b->across : a->across;
+    r->along = b->along > a->along ? b->along : a->along;
+    for (int k = 0; k < MWC_ROOM; k++) r->c[k] = a->c[k] + sign * b->c[k];
+    r->radius = (radii + MWC_U * mwc_sheet_size(r->c)) * MWC_SHEET_SUMMED;
 }
 
 static inline mwc_sheet mwc_sheet_add(mwc_sheet a, mwc_sheet b)
 {
-    return mwc_sheet_sum(a, &b, 1.0);
+    mwc_sheet_sum(&a, &a, &b, 1.0);
+    return a;
 }
 
 static inline mwc_sheet mwc_sheet_sub(mwc_sheet a, mwc_sheet b)
 {
-    return mwc_sheet_sum(a, &b, -1.0);
+    mwc_sheet_sum(&a, &a, &b, -1.0);
+    return a;
 }
 
 static inline mwc_sheet mwc_sheet_neg(mwc_sheet a)
 {
-    for (int k = 0, count = mwc_sheet_count(&a); k < count; k++) a.c[k] = -a.c[k];
+    for (int k = 0; k < MWC_ROOM; k++) a.c[k] = -a.c[k];
     return a;
+}
+
+/* r = a times a number within `radius` of `by`; r may be a. */
+static inline void mwc_sheet_scaled(mwc_sheet *r, const mwc_sheet *a, double by, double radius)
+{
+    const double spread = mwc_sheet_part(a, 0) * radius + a->radius * (mwc_abs(by) + radius);
+    r->across = a->across;
+    r->along = a->along;
+    for (int k = 0; k < MWC_ROOM; k++) r->c[k] = by * a->c[k];
+    r->radius = (spread + (MWC_U * mwc_sheet_size(r->c) + 100.0 * MWC_TINY)) * MWC_SHEET_SUMMED;
 }
 
 /* a times a number */
 static inline mwc_sheet mwc_sheet_times(mwc_sheet a, mw_ball b)
 {
-    const double most = mwc_abs(b.mid) + mwc_reach(b);
-    double rounded = 0.0, size = 0.0;
-    for (int k = 0, count = mwc_sheet_count(&a); k < count; k++) {
-        size += mwc_abs(a.c[k]);
-        a.c[k] *= b.mid;
-        rounded += mwc_abs(a.c[k]);
-    }
-    size *= MWC_SHEET_SUMMED;
-    a.radius = ((size * mwc_reach(b) + a.radius * most) + (MWC_U * rounded + 100.0 * MWC_TINY)) * MWC_SHEET_SUMMED;
+    mwc_sheet_scaled(&a, &a, b.mid, mwc_reach(b));
     return a;
 }
 
 /* Sums of the sizes of the terms of each degree in all variables. */
 static inline void mwc_sheet_degrees(const mwc_sheet *a, double *sums)
 {
-    for (int d = 0; d <= MWC_DEGREE; d++) sums[d] = 0.0;
-    for (int n = 0; n <= a->along; n++)
-        for (int d = 0, k = MWC_BLOCK[n]; d <= MWC_DEGREE - n && d <= a->across; d++)
-            for (int j = 0; j <= d; j++, k++) sums[n + d] += mwc_abs(a->c[k]);
+    double s[MWC_ROOM];
+    for (int k = 0; k < MWC_ROOM; k++) s[k] = mwc_abs(a->c[k]);
+    sums[0] = s[0];
+    sums[1] = (s[1] + s[2]) + s[15];
+    sums[2] = ((s[3] + s[4]) + s[5]) + ((s[16] + s[17]) + s[25]);
+    sums[3] = ((s[6] + s[7]) + (s[8] + s[9])) + (((s[18] + s[19]) + s[20]) + ((s[26] + s[27]) + s[31]));
+    sums[4] = ((s[10] + s[11]) + (s[12] + s[13])) + (s[14] + (s[21] + s[22]));
+    sums[4] += ((s[23] + s[24]) + (s[28] + s[29])) + ((s[30] + s[32]) + (s[33] + s[34]));
 }
 
 /* What products of degrees beyond the last come to; the sum of all sizes of each factor. */
@@ -145,39 +154,38 @@ static inline double mwc_sheet_beyond(const double *a, const double *b, double *
     return beyond;
 }
 
-/* Add the products of degree d of one block with those of another of degrees up to `last`, in s and t. */
-static inline void mwc_sheet_row(double *p, const double *a, const double *b, int d, int last)
+/* Add the product of two blocks, up to degree `most` in s and t. */
+static inline void mwc_sheet_blocks(double *p, const double *a, const double *b, int most)
 {
-    for (int i = 0; i <= d; i++) {
-        const double factor = a[d * (d + 1) / 2 + i];
-        for (int e = 0; e <= last; e++)
-            for (int j = 0; j <= e; j++) p[(d + e) * (d + e + 1) / 2 + i + j] += factor * b[e * (e + 1) / 2 + j];
-    }
+    p[0] += a[0] * b[0];
+    if (most < 1) return;
+    p[1] += a[0] * b[1] + a[1] * b[0];
+    p[2] += a[0] * b[2] + a[2] * b[0];
+    if (most < 2) return;
+    p[3] += (a[0] * b[3] + a[3] * b[0]) + a[1] * b[1];
+    p[4] += (a[0] * b[4] + a[4] * b[0]) + (a[1] * b[2] + a[2] * b[1]);
+    p[5] += (a[0] * b[5] + a[5] * b[0]) + a[2] * b[2];
+    if (most < 3) return;
+    p[6] += (a[0] * b[6] + a[6] * b[0]) + (a[1] * b[3] + a[3] * b[1]);
+    p[7] += ((a[0] * b[7] + a[7] * b[0]) + (a[1] * b[4] + a[4] * b[1])) + (a[2] * b[3] + a[3] * b[2]);
+    p[8] += ((a[0] * b[8] + a[8] * b[0]) + (a[1] * b[5] + a[5] * b[1])) + (a[2] * b[4] + a[4] * b[2]);
+    p[9] += (a[0] * b[9] + a[9] * b[0]) + (a[2] * b[5] + a[5] * b[2]);
+    if (most < 4) return;
+    p[10] += ((a[0] * b[10] + a[10] * b[0]) + (a[1] * b[6] + a[6] * b[1])) + a[3] * b[3];
+    p[11] += ((a[0] * b[11] + a[11] * b[0]) + (a[1] * b[7] + a[7] * b[1]))
+             + ((a[2] * b[6] + a[6] * b[2]) + (a[3] * b[4] + a[4] * b[3]));
+    p[12] += (((a[0] * b[12] + a[12] * b[0]) + (a[1] * b[8] + a[8] * b[1]))
+              + ((a[2] * b[7] + a[7] * b[2]) + (a[3] * b[5] + a[5] * b[3]))) + a[4] * b[4];
+    p[13] += ((a[0] * b[13] + a[13] * b[0]) + (a[1] * b[9] + a[9] * b[1]))
+             + ((a[2] * b[8] + a[8] * b[2]) + (a[4] * b[5] + a[5] * b[4]));
+    p[14] += ((a[0] * b[14] + a[14] * b[0]) + (a[2] * b[9] + a[9] * b[2])) + a[5] * b[5];
 }
 
-/* Add the product of two blocks, up to `most` in s and t. Written out, for the compiler, by what is left of the degree. */
-static inline void mwc_sheet_blocks(double *p, const double *a, const double *b, int across, int other, int most)
+/* Add a block times a number, up to degree `most`. */
+static inline void mwc_sheet_more(double *p, const double *a, double by, int most)
 {
-    for (int d = 0; d <= across && d <= most; d++) {
-        const int left = most - d < other ? most - d : other;
-        switch (8 * d + left) {
-        case 0: mwc_sheet_row(p, a, b, 0, 0); break;
-        case 1: mwc_sheet_row(p, a, b, 0, 1); break;
-        case 2: mwc_sheet_row(p, a, b, 0, 2); break;
-        case 3: mwc_sheet_row(p, a, b, 0, 3); break;
-        case 4: mwc_sheet_row(p, a, b, 0, 4); break;
-        case 8: mwc_sheet_row(p, a, b, 1, 0); break;
-        case 9: mwc_sheet_row(p, a, b, 1, 1); break;
-        case 10: mwc_sheet_row(p, a, b, 1, 2); break;
-        case 11: mwc_sheet_row(p, a, b, 1, 3); break;
-        case 16: mwc_sheet_row(p, a, b, 2, 0); break;
-        case 17: mwc_sheet_row(p, a, b, 2, 1); break;
-        case 18: mwc_sheet_row(p, a, b, 2, 2); break;
-        case 24: mwc_sheet_row(p, a, b, 3, 0); break;
-        case 25: mwc_sheet_row(p, a, b, 3, 1); break;
-        default: mwc_sheet_row(p, a, b, 4, 0); break;
-        }
-    }
+    const int count = (most + 1) * (most + 2) / 2;
+    for (int k = 0; k < count; k++) p[k] += by * a[k];
 }
 
 static inline int mwc_sheet_less(int a, int b)
@@ -185,15 +193,30 @@ static inline int mwc_sheet_less(int a, int b)
     return a < b ? a : b;
 }
 
+/* p = a b; p is neither. */
 static void mwc_sheet_product(mwc_sheet *p, const mwc_sheet *a, const mwc_sheet *b)
 {
     double sums[MWC_DEGREE + 1], others[MWC_DEGREE + 1], size, other;
+    if (!a->across && !a->along) {
+        mwc_sheet_scaled(p, b, a->c[0], a->radius);
+        return;
+    }
+    if (!b->across && !b->along) {
+        mwc_sheet_scaled(p, a, b->c[0], b->radius);
+        return;
+    }
     p->across = mwc_sheet_less(a->across + b->across, MWC_DEGREE);
     p->along = mwc_sheet_less(a->along + b->along, MWC_DEGREE);
-    for (int k = 0; k < MWC_COEFFICIENTS; k++) p->c[k] = 0.0;
+    for (int k = 0; k < MWC_ROOM; k++) p->c[k] = 0.0;
     for (int n = 0; n <= a->along; n++)
-        for (int k = 0; k <= b->along && n + k <= MWC_DEGREE; k++)
-            mwc_sheet_blocks(p->c + MWC_BLOCK[n + k], a->c + MWC_BLOCK[n], b->c + MWC_BLOCK[k], a->across, b->across, MWC_DEGREE - n - k);
+        for (int k = 0; k <= b->along && n + k <= MWC_DEGREE; k++) {
+            double *const to = p->c + MWC_BLOCK[n + k];
+            const double *const from = a->c + MWC_BLOCK[n], *const by = b->c + MWC_BLOCK[k];
+            const int most = MWC_DEGREE - n - k;
+            if (!a->across) mwc_sheet_more(to, by, from[0], most);
+            else if (!b->across) mwc_sheet_more(to, from, by[0], most);
+            else mwc_sheet_blocks(to, from, by, most);
+        }
     mwc_sheet_degrees(a, sums);
     mwc_sheet_degrees(b, others);
     const double beyond = mwc_sheet_beyond(sums, others, &size, &other);
@@ -207,6 +230,24 @@ static inline mwc_sheet mwc_sheet_mul(mwc_sheet a, mwc_sheet b)
     mwc_sheet p;
     mwc_sheet_product(&p, &a, &b);
     return p;
+}
+
+/* Into r, which may be an argument. */
+static inline void mwc_sheet_to_add(mwc_sheet *r, const mwc_sheet *a, const mwc_sheet *b)
+{
+    mwc_sheet_sum(r, a, b, 1.0);
+}
+
+static inline void mwc_sheet_to_sub(mwc_sheet *r, const mwc_sheet *a, const mwc_sheet *b)
+{
+    mwc_sheet_sum(r, a, b, -1.0);
+}
+
+static inline void mwc_sheet_to_mul(mwc_sheet *r, const mwc_sheet *a, const mwc_sheet *b)
+{
+    mwc_sheet p;
+    mwc_sheet_product(&p, a, b);
+    *r = p;
 }
 
 static inline mwc_sheet mwc_sheet_sqr(mwc_sheet a)
@@ -231,7 +272,7 @@ static inline void mwc_sheet_rest(double *rest, const mwc_sheet *a, const mwc_sh
     double known[15] = { 0.0 };
     const int count = MWC_BLOCK[n + 1] - MWC_BLOCK[n];
     for (int k = 1; k <= n - from && k <= f->along; k++)
-        mwc_sheet_blocks(known, f->c + MWC_BLOCK[k], g->c + MWC_BLOCK[n - k], MWC_DEGREE, MWC_DEGREE, MWC_DEGREE - n);
+        mwc_sheet_blocks(known, f->c + MWC_BLOCK[k], g->c + MWC_BLOCK[n - k], MWC_DEGREE - n);
     for (int k = 0; k < count; k++) rest[k] = a->c[MWC_BLOCK[n] + k] - known[k];
 }
 
@@ -280,27 +321,11 @@ static mwc_sheet mwc_sheet_sqrt(mwc_sheet a)
     return s;
 }
 
-/* Divided by a whole number. */
-static inline mwc_sheet mwc_sheet_over(mwc_sheet a, double n)
-{
-    return mwc_sheet_times(a, mwc_div(mwc_make(1.0, 0.0), mwc_make(n, 0.0)));
-}
-
-/* 1 - z/(n(n+1)) (1 - z/((n+2)(n+3)) (...)), of so many terms, and its tail */
-static inline mwc_sheet mwc_sheet_series(mwc_sheet z, int n, int terms, double tail)
-{
-    const mwc_sheet one = mwc_sheet_of_ball(mwc_make(1.0, 0.0));
-    mwc_sheet sum = one;
-    for (int k = n + 2 * (terms - 1); k >= n; k -= 2)
-        sum = mwc_sheet_sub(one, mwc_sheet_over(mwc_sheet_mul(z, sum), (double)(k * (k + 1))));
-    sum.radius += tail;
-    return sum;
-}
-
-/* As mwc_poly_sincos. The first term left out is the largest: range^(2 terms + 2)/(2 terms + 2)! and less. */
+/* As mwc_poly_sincos: with d = a without its constant term, sin d = d - d^3/6 + ... and cos d = 1 - d^2/2 + d^4/24 - ..., the
+ * first term left out being the largest. */
 static void mwc_sheet_sincos(mwc_sheet a, mwc_sheet *sine, mwc_sheet *cosine)
 {
-    const double range = mwc_sheet_part(&a, 1), radius = a.radius;
+    const double range = mwc_sheet_part(&a, 1), radius = a.radius, square = range * range;
     mw_ball s, c;
     mwc_sincos(mwc_make(a.c[0], 0.0), &s, &c);
     if (range == 0.0) {
@@ -312,13 +337,14 @@ static void mwc_sheet_sincos(mwc_sheet a, mwc_sheet *sine, mwc_sheet *cosine)
     }
     a.c[0] = 0.0;
     a.radius = 0.0;
-    int terms = 2;
-    double tail = range < MWC_SHEET_BENDING ? range * range * range * range * range * range / 720.0 : HUGE_VAL;
-    for (; tail > MWC_SHEET_TAIL && terms < MWC_SHEET_TERMS; terms++)
-        tail *= range * range / (double)((2 * terms + 3) * (2 * terms + 4));
-    tail *= 1.0 + 1e-9;
-    const mwc_sheet z = mwc_sheet_sqr(a), straight = mwc_sheet_series(z, 1, terms, tail);
-    const mwc_sheet bent = mwc_sheet_mul(a, mwc_sheet_series(z, 2, terms, tail));
+    const double fifth = range < MWC_SHEET_BENDING ? square * square * range / 120.0 * (1.0 + 1e-9) : HUGE_VAL;
+    const mwc_sheet two = mwc_sheet_sqr(a), three = mwc_sheet_mul(two, a), four = mwc_sheet_sqr(two);
+    mwc_sheet bent = mwc_sheet_sub(a, mwc_sheet_times(three, mwc_div(mwc_make(1.0, 0.0), mwc_make(6.0, 0.0))));
+    mwc_sheet straight = mwc_sheet_times(four, mwc_div(mwc_make(1.0, 0.0), mwc_make(24.0, 0.0)));
+    straight = mwc_sheet_sub(straight, mwc_sheet_times(two, mwc_make(0.5, 0.0)));
+    straight = mwc_sheet_add(mwc_sheet_of_ball(mwc_make(1.0, 0.0)), straight);
+    bent.radius += fifth;
+    straight.radius += fifth * range / 6.0 * (1.0 + 1e-9);
     *sine = mwc_sheet_add(mwc_sheet_times(straight, s), mwc_sheet_times(bent, c));
     *cosine = mwc_sheet_sub(mwc_sheet_times(straight, c), mwc_sheet_times(bent, s));
     sine->radius = (sine->radius + radius) * MWC_SHEET_SUMMED;
@@ -335,17 +361,12 @@ static mwc_sheet mwc_sheet_atan2(mwc_sheet y, mwc_sheet x)
     mwc_sincos(mwc_make(t, 0.0), &s, &c);
     const mwc_sheet along = mwc_sheet_add(mwc_sheet_times(x, c), mwc_sheet_times(y, s));
     const mwc_sheet d = mwc_sheet_div(mwc_sheet_sub(mwc_sheet_times(y, c), mwc_sheet_times(x, s)), along);
-    const mwc_sheet z = mwc_sheet_sqr(d);
     const double most = mwc_sheet_most(&d);
     const int near = most < 0.5 && along.c[0] > 0.0 && mwc_sheet_least(&along) > 0.0;
-    int terms = 2;
-    double tail = near ? most * most * most * most * most : HUGE_VAL;
-    for (; tail > MWC_SHEET_TAIL && terms < MWC_SHEET_TERMS; terms++) tail *= most * most;
-    mwc_sheet sum = mwc_sheet_of_ball(mwc_make(0.0, 0.0));
-    for (int k = terms - 1; k >= 0; k--)
-        sum = mwc_sheet_sub(mwc_sheet_of_ball(mwc_div(mwc_make(1.0, 0.0), mwc_make((double)(2 * k + 1), 0.0))), mwc_sheet_mul(z, sum));
-    sum = mwc_sheet_add(mwc_sheet_of_ball(mwc_make(t, 0.0)), mwc_sheet_mul(d, sum));
-    sum.radius += tail * (1.0 + 1e-9);
+    const mwc_sheet three = mwc_sheet_mul(mwc_sheet_sqr(d), d);
+    mwc_sheet sum = mwc_sheet_sub(d, mwc_sheet_times(three, mwc_div(mwc_make(1.0, 0.0), mwc_make(3.0, 0.0))));
+    sum = mwc_sheet_add(mwc_sheet_of_ball(mwc_make(t, 0.0)), sum);
+    sum.radius += most * most * most * most * most * 0.2 * (1.0 + 1e-9);
     return uncut && right && near ? sum : mwc_sheet_undefined(sum);
 }
 

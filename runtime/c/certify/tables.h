@@ -40,6 +40,7 @@ enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 #define MWC_NUMBER mwc_sheet
 #define MWC_DO(operation) mwc_sheet_##operation
 #define MWC_CONSTANT(c) mwc_sheet_of_wide(c)
+#define MWC_TO(operation, r, a, b) mwc_sheet_to_##operation(r, a, b)
 #include "run.h"
 #endif
 

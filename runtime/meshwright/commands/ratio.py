@@ -18,11 +18,12 @@ from meshwright.contact.friction import mean_efficiency
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.certified import certified_window
+from meshwright.cycle.certified_cycle import certified_cycle
 from meshwright.cycle.ends import why_open
 from meshwright.cycle.transmission import ROUND_OFF, fourier
 
-#: Tooth orders of the Fourier components that are written.
-ORDERS = 8
+#: Tooth orders of the Fourier components that are written; ranges of angles that a line names.
+ORDERS, MOST_RANGES = 8, 3
 
 
 def add_arguments(parser):
@@ -31,7 +32,8 @@ def add_arguments(parser):
     common.add_friction(parser)
     parser.add_argument(
         "--certify", action="store_true",
-        help="prove that the pair has one branch of contact over its window, and bound its ends and its error",
+        help="prove that the pair has one branch of contact over its window, bound its ends and its error, and prove"
+        " at which angles of the mesh cycle nothing else touches first",
     )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.ratio/1)")
 
@@ -39,14 +41,18 @@ def add_arguments(parser):
 def run(options):
     drive = common.drive_of(options)
     certify = options.certify or not options.json
-    with progress(3 if certify else 2) as step:
+    with progress(2 + certify + options.certify) as step:
         step("window, transmission error and backlash")
         found = drive.contact_ratio()
         step("teeth in contact and efficiency")
         contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
         if certify:
             step("proof of the branch")
-            contents["certificate"] = _certificate(drive, found)
+            window = certified_window(drive, found.mesh.window)
+            contents["certificate"] = None if window is None else window.plain(drive.design.mirror.sign)
+        if options.certify and window is not None:
+            step("proof of first contact")
+            contents["certificate"]["first_contact"] = _first_contact(found.mesh, window)
     if options.json:
         write_json(options.json, contents)
     else:
@@ -54,9 +60,9 @@ def run(options):
     return 0 if found.mesh.window.complete and not found.impossible else 1
 
 
-def _certificate(drive, found):
-    certified = certified_window(drive, found.mesh.window)
-    return None if certified is None else certified.plain(drive.design.mirror.sign)
+def _first_contact(mesh, window):
+    cycle = certified_cycle(mesh, window)
+    return None if cycle is None else cycle.plain(mesh.mirror)
 
 
 def document(drive, found, angles, friction=None):
@@ -172,6 +178,52 @@ def _certified(certificate):
         yield f"certified: contact ratio from {low:.12f} to {high:.12f}"
         low, high = certificate["pair_peak_to_peak_arcsec"]
         yield f"certified: peak to peak of the pair from {low:.9f} to {high:.9f} arcsec"
+    yield from _first(certificate.get("first_contact"))
+
+
+def _first(found):
+    """What is proved of first contact over the mesh cycle, if that was asked for."""
+    if found is None:
+        return
+    if found["outcome"] == "first":
+        yield f"certified: nothing else touches first at any angle of the mesh cycle, {_ranges(found['cycle_deg'])}"
+        return
+    yield f"certified: nothing else touches first {_ranges(found['first_deg']) or 'at no angle, as far as shown'}"
+    for pair in sorted({span["pairs_later"] for span in found["spans"]}, key=abs):
+        own = [span for span in found["spans"] if span["pairs_later"] == pair]
+        overlaps = [span for span in own if span["outcome"] == "not_first"]
+        if overlaps:
+            worst = max(overlaps, key=lambda span: span["overlap_arcsec"])
+            where = _ranges(_together(overlaps))
+            yield (
+                f"  not first: {_pair(pair)} touches before, {where}; overlap of more than"
+                f" {worst['overlap_arcsec']:.6g} arcsec at {worst['at_pinion_angle_deg']:.6f}°"
+            )
+        for message in dict.fromkeys(span["message"] for span in own if span["outcome"] == "unknown"):
+            open_ = [span for span in own if span["message"] == message]
+            yield f"  not shown of {_pair(pair)}, {_ranges(_together(open_))}: {message}"
+
+
+def _together(spans):
+    """Ranges of angles of spans, those that meet as one."""
+    joined = []
+    for low, high in sorted(span["pinion_angle_deg"] for span in spans):
+        if joined and low <= joined[-1][1]:
+            joined[-1][1] = max(joined[-1][1], high)
+        else:
+            joined.append([low, high])
+    return joined
+
+
+def _ranges(ranges):
+    more = f" and {len(ranges) - MOST_RANGES} more" if len(ranges) > MOST_RANGES else ""
+    return ", ".join(f"from {low:.4f}° to {high:.4f}°" for low, high in ranges[:MOST_RANGES]) + more
+
+
+def _pair(later):
+    if later == 0:
+        return "another place of the pair"
+    return f"the pair {abs(later)} {'later' if later > 0 else 'earlier'}"
 
 
 def _rows(found, contents):

@@ -3,6 +3,7 @@ place of the one bounded flank meets one of the other's, nor do those of neighbo
 where one does.
 """
 
+import heapq
 import math
 from dataclasses import dataclass, replace
 
@@ -14,19 +15,22 @@ from meshwright.contact.certified_path import CertifiedPath, certified_path
 from meshwright.contact.model import DriveModel
 from meshwright.cycle import certified_first as single
 
-#: First and shortest range of angles looked at at once, in pinion pitches, the former also where flanks overlap; the
-#: path is certified beyond both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
-FIRST, SHORTEST, BESIDE, TUBE = 2.0**-4, 2.0**-8, 1e-6, 0.02
+#: Longest range of angles in pinion pitches of which each outcome is said: an overlap at one of its angles, or that
+#: nothing is shown. Where the contact leaves the flanks is told to ``LEAVING`` pitches. The path is certified beyond
+#: both ends by ``BESIDE``, its transmission error to the share ``TUBE`` of the slack.
+LONGEST = {"first": math.inf, "not_first": 2.0**-4, "unknown": 2.0**-8}
+LEAVING, BESIDE, TUBE = 2.0**-14, 1e-6, 0.02
 
-#: Parts of the wheel's flank that a first range takes at most; those of a longer one as a multiple of the last one's.
-MOST, FEWER = 4000, 3
+#: Parts of the wheel's flank that a pitch of angles takes at most, half a pitch twice as many …; a pair in all.
+LEAST, BUDGET = 600, 12_000
 
 
 @dataclass(frozen=True)
 class Span:
     """What is shown from one angle to another, rad, of a pair so many ``later``: outcome and reason as of
     :class:`~meshwright.cycle.certified_first.FirstCertificates`. ``angle`` and ``wheel`` (2,), parameters of its flank:
-    where it fails, NaN where it does not; ``overlap``: by how much the flanks surely overlap there, rad.
+    where it fails, NaN where it does not; ``overlap``: by how much the flanks surely overlap there, rad, and with
+    ``throughout`` at every angle of the span.
     """
 
     later: int
@@ -34,6 +38,8 @@ class Span:
     end: float
     outcome: str
     reason: str
+    message: str
+    throughout: bool
     parts: int
     angle: float
     wheel: tuple[float, float]
@@ -87,10 +93,10 @@ def certify_first_path(drive, begin, end, neighbours=1):
     search = _Search(drive, boxes, slack, single.REACH * abs(drive.ratio) * pitch)
     pairs = sorted(range(-neighbours, neighbours + 1), key=abs)
     spans = []
+    whole = path.within(begin, end)
+    ranges = [(piece, *ends) for piece, ends in zip(whole.pieces, whole.ends, strict=True)]
     for later in pairs:
-        for piece, (low, high) in zip(path.pieces, path.ends, strict=True):
-            low, high = max(low, begin), min(high, end)
-            spans += search.spans(piece, low, high, later) if low < high else []
+        spans += search.spans(ranges, later)
     return FirstAlongPath(drive, begin, end, path, boxes, tuple(pairs), tuple(spans), slack, search.reach)
 
 
@@ -101,26 +107,60 @@ class _Search:
         self.drive, self.slack, self.reach = drive, slack, reach
         self.flat = np.array([end for box in boxes.values() for ends in box.values() for end in ends] or [0.0] * 8)
         self.work, self.state = np.empty(library().mw_certify_first_work()), drive.enclosed.state.copy()
-        self.parts = None
 
-    def spans(self, piece, begin, end, later):
-        """Spans of a pair without a gap over a part of a piece."""
-        pitch, found, angle = self.drive.pitch(), [], begin
-        step, self.parts = FIRST * pitch, None
-        while angle < end:
-            to = end if end - angle < 1.5 * step else angle + step
-            span = self._span(piece, angle, to, later)
-            if to - angle > pitch * {"first": math.inf, "not_first": FIRST, "unknown": SHORTEST}[span.outcome]:
-                step = 0.5 * (to - angle)
+    def spans(self, ranges, later):
+        """Spans of a pair without a gap over parts (piece, begin, end) of a path, until the budget is spent: the
+        longest first, halved where nothing is shown.
+        """
+        pitch, left, found = self.drive.pitch(), BUDGET, []
+        waiting = [(begin - end, begin, end, k) for k, (_, begin, end) in enumerate(ranges)]
+        heapq.heapify(waiting)
+        while waiting:
+            _, begin, end, k = heapq.heappop(waiting)
+            if left <= 0:
+                found.append((_spent(later, begin, end), k))
                 continue
-            found.append(span)
-            self.parts = max(span.parts, 16) if span.outcome == "first" else None
-            angle, step = to, to - angle if span.outcome == "not_first" else 2.0 * (to - angle)
-        return _joined(found)
+            effort = min(LEAST * max(1.0, pitch / (end - begin)), left, single.EFFORT)
+            span = self._span(ranges[k][0], begin, end, later, int(effort))
+            left -= span.parts
+            if span.throughout or end - begin <= LONGEST[span.outcome] * pitch:
+                found.append((span, k))
+                continue
+            middle = 0.5 * (begin + end)
+            for half in ((begin, middle), (middle, end)):
+                heapq.heappush(waiting, (half[0] - half[1], *half, k))
+        found.sort(key=lambda entry: entry[0].begin)
+        return _joined(self._sharpened(found, ranges, later))
 
-    def _span(self, piece, begin, end, later):
+    def _sharpened(self, found, ranges, later):
+        """The spans, with those at which the contact leaves the flanks divided where it does."""
+        sharp = []
+        for n, (span, k) in enumerate(found):
+            before, after = (found[m][0] if 0 <= m < len(found) else span for m in (n - 1, n + 1))
+            if span.reason != "off_flank" or before.reason == after.reason:
+                sharp.append(span)
+            elif before.reason != span.reason:
+                sharp += self._divided(ranges[k][0], span, span.begin, later)
+            else:
+                sharp += reversed(self._divided(ranges[k][0], span, span.end, later))
+        return sharp
+
+    def _divided(self, piece, span, end, later):
+        """What is shown from an end of a span on, and the rest of it."""
+        held, lost, shown = end, span.begin + span.end - end, []
+        while abs(lost - held) > LEAVING * self.drive.pitch():
+            middle = 0.5 * (held + lost)
+            half = self._span(piece, *sorted((held, middle)), later, single.EFFORT)
+            if half.outcome == "unknown":
+                lost = middle
+            else:
+                shown.append(half)
+                held = middle
+        low, high = sorted((held, span.begin + span.end - end))
+        return [*shown, replace(span, begin=low, end=high)]
+
+    def _span(self, piece, begin, end, later, effort):
         entry, angle = np.zeros(1, record("mw_first_certificate")), np.empty(1)
-        effort = MOST if self.parts is None else FEWER * self.parts
         library().mw_certify_first_along(
             self.drive.enclosed.model, pointer(self.state, "mw_wide[]"), piece, begin, end, self._turn("pinion", later),
             self._turn("wheel", later), pointer(self.flat), self.slack, self.reach, effort, pointer(self.work),
@@ -129,8 +169,8 @@ class _Search:
         (entry,) = entry
         overlap = -float(entry["apart"]["mid"] + entry["apart"]["radius"])
         return Span(
-            later, begin, end, single.OUTCOMES[entry["outcome"]], text(library().mw_reason_word(int(entry["reason"]))),
-            int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
+            later, begin, end, single.OUTCOMES[entry["outcome"]], *_said(int(entry["reason"])),
+            bool(entry["throughout"]), int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
         )  # fmt: skip
 
     def _turn(self, member, later):
@@ -141,12 +181,23 @@ class _Search:
         return ffi.new("mw_wide *", {"hi": high, "lo": low, "radius": radius})[0]
 
 
+def _said(reason):
+    """Word and sentence of a reason."""
+    return text(library().mw_reason_word(reason)), text(library().mw_reason_text(reason))
+
+
+def _spent(later, begin, end):
+    """What is left when the budget of a pair is spent."""
+    said = next(said for said in map(_said, range(256)) if said[0] == "effort")
+    return Span(later, begin, end, "unknown", *said, False, 0, math.nan, (math.nan, math.nan), math.nan)
+
+
 def _joined(spans):
     """Neighbours of which the same is shown as one; of failures what the first names."""
     joined = spans[:1]
     for span in spans[1:]:
         last = joined[-1]
-        if (span.outcome, span.reason) == (last.outcome, last.reason):
+        if (span.outcome, span.reason, span.throughout) == (last.outcome, last.reason, last.throughout):
             joined[-1] = replace(last, end=span.end, parts=last.parts + span.parts)
         else:
             joined.append(span)

@@ -11,7 +11,6 @@ enum { OPEN, SETTLED, REFUTED, WIDE };
 /* A cube of a part: how far the pinion is apart, and limits, beyond which nothing is of a flank; all: none was left out. */
 typedef struct cube {
     mwc_sheet away, limit[MOST_LIMITS];
-    double at[3], half[3];
     int limits, all;
 } cube;
 
@@ -37,42 +36,31 @@ static int steepest(const cube *c)
     return by[2] > by[0] && by[2] > by[1] ? 2 : by[1] > by[0];
 }
 
-/* Whether nothing in a cube overlaps deeper than the slack, or something in its middle does. */
-static int told(search *h, cube *c, int exists, double *witness, int depth)
+/* Whether nothing in a cube overlaps deeper than the slack. */
+static int told(search *h, cube *c, int depth)
 {
-    int kept = 0, held = 1, sure = c->all && exists;
+    int kept = 0, held = 1;
     if (mwc_cube_low(&c->away) > -h->slack || mwc_cube_range(&c->away).high < -h->reach) return SETTLED;
     for (int i = 0; i < c->limits; i++) {
         const range r = mwc_cube_range(&c->limit[i]);
         if (r.high < 0.0) return SETTLED;
         if (r.low > 0.0) continue;
         held = held && c->limit[i].c[0] + c->limit[i].radius >= 0.0;
-        sure = sure && c->limit[i].c[0] - c->limit[i].radius > 0.0;
         if (kept < i) c->limit[kept] = c->limit[i];
         kept++;
     }
     c->limits = kept;
     const double middle = c->away.c[0], off = c->away.radius * (1.0 + 4.0 * MWC_U) + 4.0 * MWC_U * mwc_abs(middle);
-    if (sure && middle + off < -h->slack && middle - off > -h->reach) {
-        memcpy(witness, c->at, sizeof c->at);
-        return REFUTED;
-    }
     if (held && middle - off <= -h->slack && middle + off >= -h->reach) return OPEN; /* and of no cube about its middle */
     if (depth == DEEPEST_CUBE || ++h->cubes > MOST_CUBES) return OPEN;
     const int side = steepest(c);
-    int verdict = SETTLED;
     for (double end = -1.0; end <= 1.0; end += 2.0) {
         cube half = *c;
-        half.half[side] *= 0.5;
-        half.at[side] += end * half.half[side];
         mwc_cube_half(&half.away, side, end);
         for (int i = 0; i < half.limits; i++) mwc_cube_half(&half.limit[i], side, end);
-        const int found = told(h, &half, exists, witness, depth + 1);
-        if (found == REFUTED) return found;
-        if (found == OPEN) verdict = OPEN;
-        if (found == OPEN && !(c->all && exists)) return OPEN; /* no overlap can be shown here */
+        if (told(h, &half, depth + 1) == OPEN) return OPEN;
     }
-    return verdict;
+    return SETTLED;
 }
 
 static void take_limits(const search *h, int member, const place *at, cube *c)
@@ -98,21 +86,84 @@ static void take_range(const mwc_sheet *q, range whole, cube *c)
     c->limit[c->limits++] = mwc_sheet_sub(number(whole.high), *q);
 }
 
-/* Value of a polynomial at a place of the cube, as it comes. */
-static double at_place(const mwc_sheet *a, const double *at)
+/* A polynomial at a place of the square, as one of u, and how far it is off: 128 roundings, with those of its value. */
+typedef struct line {
+    double c[MWC_DEGREE + 1], off;
+} line;
+
+static line line_at(const mwc_sheet *a, const double *at)
 {
-    mwc_sheet b = *a;
-    double sum = 0.0;
-    for (int k = 0; k <= b.along; k++)
-        for (int d = 0; d <= mwc_sheet_less(b.across, MWC_DEGREE - k); d++)
+    line l = { { 0.0 }, (a->radius + 128.0 * MWC_U * mwc_sheet_part(a, 0)) * MWC_SHEET_SUMMED };
+    for (int k = 0; k <= a->along; k++)
+        for (int d = 0; d <= mwc_sheet_less(a->across, MWC_DEGREE - k); d++)
             for (int j = 0; j <= d; j++) {
-                double term = b.c[mwc_cube_at(d - j, j, k)];
+                double term = a->c[mwc_cube_at(d - j, j, k)];
                 for (int n = 0; n < d - j; n++) term *= at[0];
                 for (int n = 0; n < j; n++) term *= at[1];
-                for (int n = 0; n < k; n++) term *= at[2];
-                sum += term;
+                l.c[k] += term;
             }
-    return sum;
+    return l;
+}
+
+static mw_ball line_value(const line *l, double u)
+{
+    double value = l->c[MWC_DEGREE];
+    for (int k = MWC_DEGREE - 1; k >= 0; k--) value = value * u + l->c[k];
+    return mwc_make(value, l->off);
+}
+
+/* Over all u. */
+static mw_ball line_range(const line *l)
+{
+    double side = 0.0;
+    for (int k = 1; k <= MWC_DEGREE; k++) side += mwc_abs(l->c[k]);
+    return mwc_make(l->c[0], (side + l->off) * MWC_SHEET_SUMMED);
+}
+
+/* An overlap: place of the cube, how far apart there, and whether it is one at every u. */
+typedef struct overlapping {
+    double at[3];
+    mw_ball apart;
+    int found, throughout;
+} overlapping;
+
+/* Take an overlap at a place if it is deeper: at every u, probe < 0, or at one of some. */
+static void try_overlap(const search *h, const line *away, const line *limits, int count, const double *at, int probe,
+                        overlapping *o)
+{
+    const double u = probe < 0 ? 0.0 : (double)(2 * probe + 1 - PROBES) / (double)PROBES;
+    const mw_ball apart = probe < 0 ? line_range(away) : line_value(away, u);
+    if (!(apart.mid + apart.radius < -h->slack && apart.mid - apart.radius > -h->reach)) return;
+    if (o->found && !(apart.mid + apart.radius < o->apart.mid + o->apart.radius)) return;
+    for (int i = 0; i < count; i++) {
+        const mw_ball limit = probe < 0 ? line_range(limits + i) : line_value(limits + i, u);
+        if (!(limit.mid - limit.radius > 0.0)) return;
+    }
+    o->at[0] = at[0];
+    o->at[1] = at[1];
+    o->at[2] = u;
+    o->apart = apart;
+    o->found = 1;
+    o->throughout = probe < 0;
+}
+
+/* Look for an overlap deeper than the slack at some places of a cube, at every u if there is one. */
+static overlapping overlaps(const search *h, const cube *c)
+{
+    overlapping o = { .found = 0, .throughout = 0 };
+    line limits[MOST_LIMITS];
+    if (!c->all || !(mwc_cube_range(&c->away).low < -h->slack)) return o;
+    for (int any = 0; any < 2 && !o.found; any++)
+        for (int n = 0; n < PROBES * PROBES; n++) {
+            const double at[2] = { (double)(2 * (n % PROBES) + 1 - PROBES) / (double)PROBES,
+                                   (double)(2 * (n / PROBES) + 1 - PROBES) / (double)PROBES };
+            const line away = line_at(&c->away, at);
+            if (!(away.c[0] - line_range(&away).radius < -h->slack)) continue;
+            for (int i = 0; i < c->limits; i++) limits[i] = line_at(&c->limit[i], at);
+            for (int probe = any ? 0 : -1; probe < (any ? PROBES : 0); probe++)
+                try_overlap(h, &away, limits, c->limits, at, probe, &o);
+        }
+    return o;
 }
 
 /* Remember the middle of a part of the wheel's flank. */

@@ -71,25 +71,42 @@ static int centred(search *h, const place *w, double square, const range *hull, 
     return 0;
 }
 
-/* Polynomials q[2] that nearly meet the wheel's part, whichever, from parameters that meet its middle: two steps of Newton's
- * method and one with the last Jacobian. */
-static int sought(search *h, const place *w, const mwc_sheet *square, const double *at, mwc_sheet *q, place *p)
+/* Where the pinion meets a part of the wheel's flank: parameters, the inverse of the Jacobian there, nearly, and a box that
+ * follows the contact, in which nothing but these meets it, with C and M = |I - C J| over it. */
+typedef struct met {
+    mwc_sheet q[2], inverse[4];
+    range hull[2];
+    double C[4], M[4];
+    int close; /* whether the parameters are close enough to be those of a half of the part, nearly */
+} met;
+
+/* A step of Newton's method on polynomials, with the inverse Jacobian there if J is given, else the last one. */
+static int step_on(met *at, const mwc_sheet *R, const mwc_sheet *J)
 {
-    mwc_sheet R[2], J[4], inverse[4];
-    for (int i = 0; i < 2; i++) q[i] = h->follow[i], q[i].c[0] = at[i];
+    if (J) {
+        const mwc_sheet det = mwc_sheet_sub(mwc_sheet_mul(J[0], J[3]), mwc_sheet_mul(J[1], J[2]));
+        const mwc_sheet over = mwc_sheet_div(number(1.0), det);
+        if (!(mwc_abs(det.c[0]) > 0.0)) return 0;
+        for (int k = 0; k < 4; k++) at->inverse[k] = mwc_sheet_mul(J[k == 0 ? 3 : k == 3 ? 0 : k], over);
+    }
+    for (int i = 0; i < 2; i++) {
+        const mwc_sheet first = mwc_sheet_mul(at->inverse[3 * i], R[i]), second = mwc_sheet_mul(at->inverse[1 + i], R[1 - i]);
+        at->q[i] = mwc_sheet_sub(at->q[i], mwc_sheet_sub(first, second));
+        at->q[i].radius = 0.0;
+    }
+    return 1;
+}
+
+/* Polynomials that nearly meet the wheel's part, whichever, from parameters that meet its middle: two steps of Newton's method
+ * and one with the last Jacobian. */
+static int sought(search *h, const place *w, const mwc_sheet *square, const double *from, met *at)
+{
+    mwc_sheet R[2], J[4];
+    place p;
+    for (int i = 0; i < 2; i++) at->q[i] = h->follow[i], at->q[i].c[0] = from[i];
     for (int step = 0; step < 3; step++) {
-        against(h, q, w, square, p, R, step < 2 ? J : NULL);
-        if (step < 2) {
-            const mwc_sheet det = mwc_sheet_sub(mwc_sheet_mul(J[0], J[3]), mwc_sheet_mul(J[1], J[2]));
-            const mwc_sheet over = mwc_sheet_div(number(1.0), det);
-            if (!(mwc_abs(det.c[0]) > 0.0)) return 0;
-            for (int k = 0; k < 4; k++) inverse[k] = mwc_sheet_mul(J[k == 0 ? 3 : k == 3 ? 0 : k], over);
-        }
-        for (int i = 0; i < 2; i++) {
-            const mwc_sheet first = mwc_sheet_mul(inverse[3 * i], R[i]), second = mwc_sheet_mul(inverse[1 + i], R[1 - i]);
-            q[i] = mwc_sheet_sub(q[i], mwc_sheet_sub(first, second));
-            q[i].radius = 0.0;
-        }
+        against(h, at->q, w, square, &p, R, step < 2 ? J : NULL);
+        if (!step_on(at, R, step < 2 ? J : NULL)) return 0;
     }
     return 1;
 }
@@ -110,57 +127,101 @@ static void defect(search *h, const range *box, const place *w, const mwc_sheet 
         }
 }
 
-/* The pinion's parameters q[2] that meet the wheel's part, as polynomials with error bounds: whatever of the parts listed
- * meets it lies within them, and where `exists` something does. q is any polynomial, C any matrix, and J, which does not
- * depend on the wheel, is over a box that holds q and the parts: what meets the wheel is apart from q by |C R| + |I - C J|
- * times as much at most, over and over again. 0 where the box is too large for that, or Newton's method leads out of it. */
-static int meeting(search *h, const place *w, const int *list, int count, mwc_sheet *q, place *p, int *exists)
+/* Whether the steps e = |C R| + M e come to an end. */
+static int shrinks(const double *M)
 {
-    const mwc_sheet square = squared(w->x);
-    mwc_sheet R[2];
-    mw_ball z[2];
-    double C[4], M[4], K[2], at[2], within[2], wider[2], far[2];
-    range hull[2];
-    int beyond = 0;
-    memcpy(hull, h->part[list[0]].box, sizeof hull);
+    return M[0] < 1.0 && M[3] < 1.0 && (1.0 - M[0]) * (1.0 - M[3]) > M[1] * M[2];
+}
+
+/* Parameters that nearly meet the wheel's part, from the parts of the pinion's flank that may. 0 where their box is too large,
+ * or Newton's method leads out of it. */
+static int found_within(search *h, const place *w, const mwc_sheet *square, const part *list, int count, met *at)
+{
+    double from[2];
+    memcpy(at->hull, list[0].within, sizeof at->hull);
     for (int k = 1; k < count; k++)
         for (int i = 0; i < 2; i++) {
-            hull[i].low = fmin(hull[i].low, h->part[list[k]].box[i].low);
-            hull[i].high = fmax(hull[i].high, h->part[list[k]].box[i].high);
+            at->hull[i].low = fmin(at->hull[i].low, list[k].within[i].low);
+            at->hull[i].high = fmax(at->hull[i].high, list[k].within[i].high);
         }
-    if (!centred(h, w, square.c[0], hull, at, C)) return 0;
-    defect(h, hull, w, &square, C, M);
-    if (!(M[0] < 1.0 && M[3] < 1.0 && (1.0 - M[0]) * (1.0 - M[3]) > M[1] * M[2])) return 0;
-    if (!sought(h, w, &square, at, q, p)) return 0;
-    against(h, q, w, &square, p, R, NULL);
-    for (int i = 0; i < 2; i++) {
-        const mwc_sheet shift = mwc_sheet_add(mwc_sheet_times(R[0], mwc_make(C[2 * i], 0.0)),
-                                              mwc_sheet_times(R[1], mwc_make(C[2 * i + 1], 0.0)));
-        const mwc_sheet beside = mwc_sheet_sub(q[i], h->follow[i]);
-        const range r = mwc_cube_range(&beside);
-        z[i] = mwc_make(0.0, mwc_sheet_most(&shift));
-        beyond = beyond || !(r.low >= hull[i].low && r.high <= hull[i].high);
-        hull[i].low = fmin(hull[i].low, r.low);
-        hull[i].high = fmax(hull[i].high, r.high);
-        far[i] = fmin(r.low - hull[i].low, hull[i].high - r.high);
-        within[i] = width(hull[i]) * (1.0 + 1e-9);
+    for (int i = 0; i < 2; i++) { /* that something meets it is shown inside the box alone */
+        const double beside = BESIDE * width(at->hull[i]);
+        at->hull[i].low -= beside;
+        at->hull[i].high += beside;
     }
-    if (beyond) defect(h, hull, w, &square, C, M);
+    if (!centred(h, w, square->c[0], at->hull, from, at->C)) return 0;
+    defect(h, at->hull, w, square, at->C, at->M);
+    if (!shrinks(at->M)) return 0;
+    return sought(h, w, square, from, at);
+}
+
+/* The same from those of a part of which the wheel's is half, within their bounds if these are closer than the box. */
+static int found_of_whole(search *h, const place *w, const mwc_sheet *square, int side, double end, met *at)
+{
+    mwc_sheet R[2], J[4];
+    range about[2];
+    double C[4], M[4], from[2];
+    place p;
+    for (int i = 0; i < 2; i++) {
+        mwc_cube_half(at->q + i, side, end);
+        const mwc_sheet beside = mwc_sheet_sub(at->q[i], h->follow[i]);
+        const range r = mwc_cube_range(&beside);
+        const double more = BESIDE * width(r);
+        about[i].low = fmax(at->hull[i].low, r.low - more);
+        about[i].high = fmin(at->hull[i].high, r.high + more);
+        if (!(about[i].low < about[i].high)) return 0;
+        at->q[i].radius = 0.0;
+    }
+    if (!centred(h, w, square->c[0], about, from, C)) return 0;
+    defect(h, about, w, square, C, M);
+    if (shrinks(M)) {
+        memcpy(at->hull, about, sizeof about);
+        memcpy(at->C, C, sizeof C);
+        memcpy(at->M, M, sizeof M);
+    }
+    against(h, at->q, w, square, &p, R, J);
+    return step_on(at, R, J);
+}
+
+/* Bounds of how far the parameters are off: whatever within the box meets the wheel's part lies within them, and where `exists`
+ * something does. They may be any polynomials, C any matrix, and J, which does not depend on the wheel, is over a box that
+ * holds them: what meets the wheel is apart from them by |C R| + |I - C J| times as much at most, over and over again. */
+static void bounded(search *h, const place *w, const mwc_sheet *square, met *at, place *p, int *exists)
+{
+    mwc_sheet R[2];
+    mw_ball z[2];
+    double K[2], within[2], wider[2], far[2];
+    int beyond = 0;
+    against(h, at->q, w, square, p, R, NULL);
+    for (int i = 0; i < 2; i++) {
+        const mwc_sheet shift = mwc_sheet_add(mwc_sheet_times(R[0], mwc_make(at->C[2 * i], 0.0)),
+                                              mwc_sheet_times(R[1], mwc_make(at->C[2 * i + 1], 0.0)));
+        const mwc_sheet beside = mwc_sheet_sub(at->q[i], h->follow[i]);
+        const range r = mwc_cube_range(&beside);
+        range *hull = at->hull + i;
+        z[i] = mwc_make(0.0, mwc_sheet_most(&shift));
+        beyond = beyond || !(r.low >= hull->low && r.high <= hull->high);
+        hull->low = fmin(hull->low, r.low);
+        hull->high = fmax(hull->high, r.high);
+        far[i] = fmin(r.low - hull->low, hull->high - r.high);
+        within[i] = width(*hull) * (1.0 + 1e-9);
+    }
+    if (beyond) defect(h, at->hull, w, square, at->C, at->M);
     for (int step = 0; step < NARROWING_STEPS; step++) {
-        mwc_image(2, z, M, within, K);
+        mwc_image(2, z, at->M, within, K);
         for (int i = 0; i < 2; i++)
             if (K[i] < within[i]) within[i] = K[i];
     }
-    *exists = 1;
+    *exists = at->close = 1;
     for (int i = 0; i < 2; i++) {
-        wider[i] = 2.0 * within[i] + 4.0 * MWC_U * mwc_abs(q[i].c[0]);
+        at->close = at->close && within[i] < NEARLY * width(at->hull[i]);
+        wider[i] = 2.0 * within[i] + 4.0 * MWC_U * mwc_abs(at->q[i].c[0]);
         *exists = *exists && wider[i] < far[i] * (1.0 - 1e-9);
     }
-    mwc_image(2, z, M, wider, K);
+    mwc_image(2, z, at->M, wider, K);
     *exists = *exists && mwc_inside(2, K, wider);
-    for (int i = 0; i < 2; i++) q[i].radius = within[i];
-    on_flank(h, 0, q, LIMITS, p, NULL);
-    return 1;
+    for (int i = 0; i < 2; i++) at->q[i].radius = within[i];
+    on_flank(h, 0, at->q, LIMITS, p, NULL);
 }
 
 #endif

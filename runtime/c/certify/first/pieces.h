@@ -27,36 +27,39 @@ static int marked(const search *h, const range *box)
     return 0;
 }
 
-/* What parts of the pinion's flank, listed, do to a part of the wheel's. */
-static int looked_at(search *h, const range *box, const place *w, const int *list, int count)
+/* Whether the pinion, where it meets a part of the wheel's flank, is apart from it there. */
+static int looked_at(search *h, const range *box, const place *w, const mwc_sheet *square, met *at)
 {
-    mwc_sheet q[2];
     place p;
-    cube whole = { .at = { 0.0, 0.0, 0.0 }, .half = { 1.0, 1.0, 1.0 }, .all = 1 };
-    double witness[3];
+    cube whole;
+    const overlapping none = { .found = 0 };
     int exists = 0;
-    if (!meeting(h, w, list, count, q, &p, &exists)) return WIDE;
+    bounded(h, w, square, at, &p, &exists);
+    whole.limits = 0;
+    whole.all = 1;
     whole.away = apart(h, &p, w);
     take_limits(h, 0, &p, &whole);
     take_limits(h, 1, w, &whole);
-    for (int i = 0; i < 2; i++) take_range(q + i, h->whole[0][i], &whole);
-    const mwc_sheet away = whole.away;
+    for (int i = 0; i < 2; i++) take_range(at->q + i, h->whole[0][i], &whole);
     h->cubes = 0;
-    const int verdict = told(h, &whole, exists, witness, 0);
-    if (verdict == REFUTED) {
+    const overlapping o = exists ? overlaps(h, &whole) : none;
+    if (o.found) {
         mw_first_certificate *c = h->found;
         range there[2];
         for (int i = 0; i < 2; i++)
-            there[i].low = there[i].high = 0.5 * box[i].low + 0.5 * box[i].high + witness[i] * 0.5 * width(box[i]);
+            there[i].low = there[i].high = 0.5 * box[i].low + 0.5 * box[i].high + o.at[i] * 0.5 * width(box[i]);
         if (!marked(h, there)) return OPEN; /* on another piece */
         for (int i = 0; i < 2; i++) {
+            const line q = line_at(at->q + i, o.at);
             c->wheel[i] = there[i].low;
-            c->pinion[i] = at_place(q + i, witness);
+            c->pinion[i] = line_value(&q, o.at[2]).mid;
         }
-        c->apart = mwc_make(at_place(&away, witness), away.radius + 128.0 * MWC_U * mwc_sheet_part(&away, 0));
-        h->share = witness[2];
+        c->apart = o.apart;
+        c->throughout = o.throughout;
+        h->share = o.at[2];
+        return REFUTED;
     }
-    return verdict;
+    return told(h, &whole, 0);
 }
 
 /* Of cells from i, j on, `size` each way, which are not surely outside the limits: 2. */
@@ -112,7 +115,7 @@ static void look_for_cells(search *h, int i, int j, int size)
  * wheel's flank lies in others is no part of the piece on which the contact lies. */
 static void mark_piece(search *h, const mwc_sheet *q)
 {
-    int *const list = h->list, first[2], last[2], count = 0;
+    int list[CELLS * CELLS], first[2], last[2], count = 0;
     range at[2];
     memset(h->cell, 0, sizeof h->cell);
     for (int i = 0; i < CELLS; i += BLOCK)
@@ -145,36 +148,47 @@ static int left_open(search *h, const range *box, int last)
     return OPEN;
 }
 
-/* Settle a part of the wheel's flank, against the pinion's parts listed from `from` to `to`. */
-static int settled(search *h, const range *box, int from, int to, int depth)
+/* Settle a part of the wheel's flank, against the pinion's parts listed from `from` to `to`, or, unless NULL, from what is
+ * known of the part of which it is half, the end of a side. */
+static int settled(search *h, const range *box, int from, int to, const met *of, int side, double end, int depth)
 {
-    mwc_sheet q[2];
+    met at;
+    mwc_sheet q[2], across[2];
     place w;
+    int verdict = WIDE;
     if (++h->found->parts > h->effort || depth > DEEPEST) return left_open(h, box, h->found->parts > h->effort);
     if (!marked(h, box)) return SETTLED;
     over(q, box);
     on_flank(h, 1, q, LIMITS, &w, NULL);
     if (outside(h, 1, &w)) return SETTLED;
-    const bounds there = bounds_of(h, w.x);
-    int end = to;
-    for (int look = 0; look < 2; look++) { /* coarse parts first */
-        const int begin = end;
-        for (int k = look ? to : from; k < (look ? begin : to) && end >= 0; k++)
-            end = list_parts(h, h->list[k], &there, look ? 1.0 : COARSE, end);
-        if (end < 0) return left_open(h, box, 1);
-        if (end == begin) return SETTLED;
-        if (look) to = begin;
-        if (end - to > MOST_MET) break;
-        const int verdict = looked_at(h, box, &w, h->list + to, end - to);
-        if (verdict == SETTLED || verdict == REFUTED) return verdict;
-        if (verdict == OPEN) break; /* smaller parts of the pinion's flank would not help */
+    const mwc_sheet square = squared(w.x);
+    if (of) {
+        at = *of;
+        if (found_of_whole(h, &w, &square, side, end, &at)) verdict = looked_at(h, box, &w, &square, &at);
+    } else {
+        const bounds there = bounds_of(h, w.x, across);
+        for (int look = 0; look < 2 && verdict == WIDE; look++) { /* coarse parts first */
+            int last = to;
+            for (int k = from; k < to && last >= 0; k++)
+                last = list_parts(h, h->list + k, &there, look ? 1.0 : COARSE, last, 0);
+            if (last < 0) return left_open(h, box, 1);
+            if (last == to) return SETTLED;
+            from = to;
+            to = last;
+            if (to - from <= MOST_MET && found_within(h, &w, &square, h->list + from, to - from, &at))
+                verdict = looked_at(h, box, &w, &square, &at);
+            if (to - from > FEW_MET) break;
+        }
     }
+    if (verdict == SETTLED || verdict == REFUTED) return verdict;
     range first[2], second[2];
-    halved(box, longer(box, h->whole[1]), first, second);
-    const int verdict = settled(h, first, to, end, depth + 1);
+    const met *const known = verdict == OPEN && at.close ? &at : NULL;
+    const int longest = longer(box, h->whole[1]);
+    halved(box, longest, first, second);
+    verdict = settled(h, first, from, to, known, longest, -1.0, depth + 1);
     if (verdict == REFUTED) return verdict;
     if (h->open > MOST_OPEN) return OPEN;
-    const int other = settled(h, second, to, end, depth + 1);
+    const int other = settled(h, second, from, to, known, longest, 1.0, depth + 1);
     return other == SETTLED ? verdict : other;
 }
 
@@ -197,10 +211,10 @@ static int ends_within(search *h, int member, const range *box)
 {
     for (int side = 0; side < 2; side++)
         for (int end = 0; end < 2; end++) {
-            range line[2] = { box[0], box[1] };
-            if (end) line[1 - side].low = line[1 - side].high;
-            else line[1 - side].high = line[1 - side].low;
-            if (!line_outside(h, member, line, side, 0)) return 0;
+            range edge[2] = { box[0], box[1] };
+            if (end) edge[1 - side].low = edge[1 - side].high;
+            else edge[1 - side].high = edge[1 - side].low;
+            if (!line_outside(h, member, edge, side, 0)) return 0;
         }
     return 1;
 }

@@ -11,12 +11,14 @@
 #include "../tables.h"
 
 enum {
-    MOST_PARTS = 60000, MOST_LISTED = 120000, /* of the pinion's flank; that are kept in mind */
-    FEWEST = 2000, MANY = 16,                 /* of the pinion's flank, and for each of the wheel's, where few of these are allowed */
+    MOST_LISTED = 6000,                       /* parts of the pinion's flank that are kept in mind */
+    FEWEST = 2000, MANY = 16,                 /* that are looked at, and for each of the wheel's */
     DEEPEST = 32, DEEPEST_EDGE = 14,          /* halvings */
     MOST_OPEN = 64,                           /* parts of the wheel's flank that may stay open, in search of an overlap */
     CELLS = 48, BLOCK = 8,                    /* across the wheel's flank and along it, where its pieces are told apart; in one */
-    MOST_MET = 160,                           /* parts of the pinion's flank whose box is looked at as one */
+    MOST_MET = 160, FEW_MET = 6,              /* parts of the pinion's flank whose box is looked at as one; and once more, finer */
+    NARROWEST = 12,                           /* steps in which one is narrowed, at most */
+    PROBES = 5,                               /* places along a side of a part, and of the range of angles, tried for an overlap */
     NEWTON_STEPS = 12, NARROWING_STEPS = 40,
     DEEPEST_CUBE = 24, MOST_CUBES = 4000,     /* halvings of polynomials, and how many cubes in all */
     MOST_LIMITS = 12,                         /* that are looked at together with the distance */
@@ -25,8 +27,14 @@ enum {
 
 typedef mwc_range range;
 
-/* How much larger than the wheel's part parts of the pinion's flank may be, at first. */
-static const double COARSE = 3.0;
+/* How much larger than the wheel's part parts of the pinion's flank may be that cannot be narrowed; the largest share of a
+ * part's half-width by which it may be off its tangent plane to be taken whole; the share that a step of narrowing leaves if it
+ * is worth another; the share of a side that may meet the wheel's part above which halving that side tells nothing. */
+static const double COARSE = 3.0, STRAIGHT = 0.25, WORTH = 0.6, FULL = 0.5;
+
+/* By what share of itself a box of parts is widened; the share of the box within which bounds are close enough for halves to
+ * start from them. */
+static const double BESIDE = 0.0625, NEARLY = 0.004;
 
 /* How large a share of what a limit varies by its error may be where polynomials tell the cells. */
 static const double CLOSE = 0.003;
@@ -38,12 +46,11 @@ typedef struct bounds {
     double spread[2];
 } bounds;
 
-/* A part of the pinion's flank: its parameters, as they follow the contact, and where it is; number of the first of both
- * halves, 0 if it has none; whether it lies outside the blank. */
+/* A part of the pinion's flank: its parameters, as they follow the contact, and where it is; what of it may meet the wheel's. */
 typedef struct part {
-    range box[2];
+    range box[2], within[2];
     bounds at;
-    int halves, outside;
+    mwc_sheet across[2];
 } part;
 
 /* What a contact is, as sheets of the angle. x: unknowns. */
@@ -61,10 +68,10 @@ typedef struct search {
     mw_ball cosine, sine;                     /* of the wheel's, body frame */
     double sense, slack, reach, view[4];
     range whole[2][2], pinion[2];             /* parameters of both flanks; the pinion's as they follow the contact */
-    int parts, effort, open, cubes;
+    int looks, effort, open, cubes;           /* looks: at parts of the pinion's flank */
+    int own;                                  /* whether the range of angles is looked at for the pair of the contact itself */
     unsigned char cell[CELLS][CELLS];         /* 0: outside or of another piece */
-    part *part;
-    int *list;
+    part *list;
     mw_first_certificate *found;
     double share;                             /* of the range of angles, in [-1, 1], where the place found is */
     touching at;
@@ -100,17 +107,23 @@ static mwc_sheet squared(const mwc_sheet *x)
     return mwc_sheet_add(mwc_sheet_sqr(x[0]), mwc_sheet_sqr(x[1]));
 }
 
-static bounds bounds_of(const search *h, const mwc_sheet *x)
+/* What the terms in u alone come to. */
+static double turning(const mwc_sheet *a)
+{
+    double sum = 0.0;
+    for (int k = 1; k <= a->along; k++) sum += mwc_abs(a->c[MWC_BLOCK[k]]);
+    return sum;
+}
+
+static bounds bounds_of(const search *h, const mwc_sheet *x, mwc_sheet *across)
 {
     bounds b;
     const mwc_sheet square = squared(x), angle = mwc_sheet_atan2(x[1], x[0]);
     for (int i = 0; i < 2; i++) {
-        const mwc_sheet across = mwc_sheet_add(mwc_sheet_times(square, mwc_make(h->view[2 * i], 0.0)),
-                                               mwc_sheet_times(x[2], mwc_make(h->view[2 * i + 1], 0.0)));
-        double turning = 0.0;
-        for (int k = 1; k <= across.along; k++) turning += mwc_abs(across.c[MWC_BLOCK[k]]);
-        b.across[i] = mwc_cube_range(&across);
-        b.spread[i] = width(b.across[i]) - 2.0 * turning;
+        across[i] = mwc_sheet_add(mwc_sheet_times(square, mwc_make(h->view[2 * i], 0.0)),
+                                  mwc_sheet_times(x[2], mwc_make(h->view[2 * i + 1], 0.0)));
+        b.across[i] = mwc_cube_range(across + i);
+        b.spread[i] = width(b.across[i]) - 2.0 * turning(across + i);
     }
     b.angle = mwc_cube_range(&angle);
     return b;
