@@ -39,7 +39,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -191,7 +191,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -201,7 +201,7 @@ typedef struct mw_contact {
 #define bevel_generated_NO 61
 #define bevel_generated_ND 1
 #define bevel_generated_NSTART 0
-#define bevel_generated_ABI 4
+#define bevel_generated_ABI 5
 #define bevel_generated_SPEC_HASH "6b991fce0a40c8b0b863cccb6eabd1abc932810c20de48c6459bb250ef2b67e6"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

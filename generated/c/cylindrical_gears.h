@@ -42,7 +42,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -194,7 +194,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -204,7 +204,7 @@ typedef struct mw_contact {
 #define cylindrical_gears_NO 61
 #define cylindrical_gears_ND 23
 #define cylindrical_gears_NSTART 0
-#define cylindrical_gears_ABI 4
+#define cylindrical_gears_ABI 5
 #define cylindrical_gears_SPEC_HASH "4d8bfc3bb98d28432a97f65f70b02b8bcd5f2f4c90c202c6bb96a91cd95b7487"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

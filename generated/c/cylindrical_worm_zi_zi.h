@@ -59,7 +59,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -211,7 +211,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -221,7 +221,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zi_zi_NO 64
 #define cylindrical_worm_zi_zi_ND 7
 #define cylindrical_worm_zi_zi_NSTART 2
-#define cylindrical_worm_zi_zi_ABI 4
+#define cylindrical_worm_zi_zi_ABI 5
 #define cylindrical_worm_zi_zi_SPEC_HASH "09a95a71a34b3c710407bf481053815d72bfae87908edb0a7e32d883d7f91b59"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

@@ -60,7 +60,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -212,7 +212,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -222,7 +222,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zk_NO 64
 #define cylindrical_worm_zk_zk_ND 7
 #define cylindrical_worm_zk_zk_NSTART 2
-#define cylindrical_worm_zk_zk_ABI 4
+#define cylindrical_worm_zk_zk_ABI 5
 #define cylindrical_worm_zk_zk_SPEC_HASH "c94d6201b151ba04808f75a253d379a1943a8dde85d1a0c49c064c691f732370"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

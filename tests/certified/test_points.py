@@ -235,3 +235,19 @@ def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
         for k in range(len(angles)):
             low, high = narrow.error(k)
             assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])
+
+
+@pytest.mark.parametrize("width", [1, 0])
+def test_points_in_any_order_are_shown_beside_some_that_are_none(width):
+    """Points that share bounds may be anywhere; what is no solution, or no number, is never shown to be one."""
+    drive, rng = Drive.load("recess-action-full"), np.random.default_rng(5)
+    angles = drive.design.reference_angle + rng.permutation(np.linspace(-0.5, 0.5, 600)) * drive.pitch()
+    solutions = drive.trace(np.sort(angles))[0][np.argsort(np.argsort(angles))]
+    narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
+    solutions[7], solutions[300, 2], solutions[550, drive.design.description["error"]] = np.nan, np.inf, 0.5
+    unique, bounds = certify_many(drive, angles, solutions, width)
+    none = [7, 300, 550]
+    assert not unique[none].any() and np.delete(unique, none).all()
+    for k in np.flatnonzero(unique):
+        low, high = narrow.error(k)
+        assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])

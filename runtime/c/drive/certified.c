@@ -4,7 +4,7 @@
 #include MW_GENERATED(_certified)
 #include MW_GENERATED(_certify)
 
-static const mw_enclosing enclosing = { MW_OF(_enclose_instant1), MW_OF(_enclose1) };
+static const mw_enclosing enclosing = { MW_OF(_enclose_instant1), MW_OF(_enclose1), MW_OF(_enclose_point1) };
 
 const mw_certified *MW_OF(_part_certified)(void)
 {
