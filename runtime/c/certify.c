@@ -462,6 +462,22 @@ int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const doubl
     return c->outcome;
 }
 
+/* One point by printed code over its own box alone. */
+static int certify_one(const mw_model *m, const problem *p, double *own, const mw_wide *phi, const double *x, mw_ball *error)
+{
+    const mw_enclosing *by = m->kernels->enclosing();
+    const mw_ball angle = mwc_of_wide(*phi);
+    double R[2 * MWC_MAX], J[2 * MWC_MAX * MWC_MAX], d[MWC_MAX];
+    double proved[1], z[MWC_MAX][1], K[MWC_MAX][1], e[MWC_MAX][1];
+    for (int i = 0; i < m->nx; i++) d[i] = p->sizes[i] * MWC_FIRST_BOX;
+    by->instant(&p->balls[0].mid, &angle.mid, own);
+    by->linearise(&p->balls[0].mid, own, x, d, R, J);
+    mwc_prove1(m->nx, R, J, d, proved, z, K, e);
+    if (!(proved[0] > 0.0)) return 0;
+    error->radius = e[m->error][0];
+    return 1;
+}
+
 /* What doubles do not show, shown with all means if it can be. */
 static void certify_alone(const mw_model *m, problem *p, mw_wide phi, const double *x, unsigned char *unique, mw_ball *error)
 {
@@ -592,6 +608,7 @@ size_t mw_certify_many(const mw_lane_set *set, const mw_proofs *proofs, const mw
             mwc_decide1(&of, R + 2 * k * nx, J + k * nx * nx, at + k * nx, unique + begin + k, errors + begin + k);
     }
     for (size_t i = 0; i < n; i++) {
+        if (!unique[i]) unique[i] = certify_one(m, &p, own, phi + i, x + i * nx, errors + i) != 0;
         if (!unique[i]) certify_alone(m, &p, phi[i], x + i * nx, unique + i, errors + i);
         count += unique[i];
     }

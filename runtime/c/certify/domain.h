@@ -62,9 +62,17 @@ MWI_INLINE mwc_bound mwc_bound_root(mwc_bound a, double least)
     return mwc_bound_where(least - mwc_bound_reach(a) > 0.0, most, a.radius * (1.0 + 8.0 * MWC_U) / sqrt(least) + MWC_U * most);
 }
 
-MWI_INLINE mwc_bound mwc_bound_turned(mwc_bound a)
+/* |sin m| <= |m|, and |cos(m + d) - cos m| <= (|m| + |d|) |d| */
+MWI_INLINE mwc_bound mwc_bound_sine(mwc_bound a)
 {
-    return mwc_bound_where(a.most < MWC_FAR, 1.0 + MWC_SINE, a.radius + (MWC_SINE + MWC_TINY));
+    const double most = a.most < 1.0 ? a.most : 1.0;
+    return mwc_bound_where(a.most < MWC_FAR, most + MWC_SINE, a.radius + (MWC_SINE + MWC_TINY));
+}
+
+MWI_INLINE mwc_bound mwc_bound_cosine(mwc_bound a)
+{
+    const double slope = a.most + mwc_bound_reach(a);
+    return mwc_bound_where(a.most < MWC_FAR, 1.0 + MWC_SINE, a.radius * (slope < 1.0 ? slope : 1.0) + (MWC_SINE + MWC_TINY));
 }
 
 /* The same, of a size that is known to be at most so much. */
@@ -128,7 +136,7 @@ static inline int mwc_run_bounds(const mw_code *code, const mwc_bound *arguments
             case MW_OP_SQR: *result = mwc_bound_product(a, a); break;
             case MW_OP_DIV: *result = mwc_bound_quotient(mwc_bound_within(a, size), b, low); break;
             case MW_OP_SQRT: *result = mwc_bound_root(a, low); break;
-            case MW_OP_SINCOS: *result = registers[i[3]] = mwc_bound_turned(a); break;
+            case MW_OP_SINCOS: *result = mwc_bound_sine(a), registers[i[3]] = mwc_bound_cosine(a); break;
             case MW_OP_ATAN2: *result = mwc_bound_angle(a, b, low); break;
             case MW_OP_SIGN: *result = mwc_bound_sign(a, low); break;
             default: *result = a; break; /* the negative and the magnitude */
