@@ -235,13 +235,13 @@ HALVED = {
     ),
     "bound sine radius": (
         "domain.h",
-        "a.radius + (MWC_SINE + MWC_TINY)",
-        "0.5 * a.radius + (MWC_SINE + MWC_TINY)",
+        "a.radius + (MWC_SINE * size + MWC_TINY)",
+        "0.5 * a.radius + (MWC_SINE * size + MWC_TINY)",
     ),
     "bound sine rounding": (
         "domain.h",
-        "a.radius + (MWC_SINE + MWC_TINY)",
-        "a.radius + (0.5 * MWC_SINE + MWC_TINY)",
+        "a.radius + (MWC_SINE * size + MWC_TINY)",
+        "a.radius + (0.5 * MWC_SINE * size + MWC_TINY)",
     ),
     "bound sine, cosine": (
         "domain.h",

@@ -65,8 +65,8 @@ MWI_INLINE mwc_bound mwc_bound_root(mwc_bound a, double least)
 /* |sin m| <= |m|, and |cos(m + d) - cos m| <= (|m| + |d|) |d| */
 MWI_INLINE mwc_bound mwc_bound_sine(mwc_bound a)
 {
-    const double most = a.most < 1.0 ? a.most : 1.0;
-    return mwc_bound_where(a.most < MWC_FAR, most + MWC_SINE, a.radius + (MWC_SINE + MWC_TINY));
+    const double size = a.most < 0.78 ? a.most : 1.0; /* what the kernel's error is a share of: see MWC_SINE */
+    return mwc_bound_where(a.most < MWC_FAR, size * (1.0 + MWC_SINE) + MWC_TINY, a.radius + (MWC_SINE * size + MWC_TINY));
 }
 
 MWI_INLINE mwc_bound mwc_bound_cosine(mwc_bound a)
