@@ -4,7 +4,13 @@ The operations are those of :mod:`derive.emit.certified`, which writes them as t
 arithmetics. Residual at a point and Jacobian over a box are one function, so that the compiler finds what midpoints of
 both share; the same text serves one point and as many as there are lanes. The header needs ``sqrt`` only and has no
 heap and no writable data.
+
+Where the Jacobian's radii are known for a whole domain (``runtime/c/certify/domain.h``), residual and Jacobian take a
+function of midpoints, with radii only of what the residual reads. It has the operations of the table of both, one by
+one.
 """
+
+from collections import Counter
 
 from derive.emit import embedded
 from derive.emit.c99 import number
@@ -57,6 +63,118 @@ class _Text:
             self.statements.append(f"const mw_ball {sine} = turn_{sine}.sine, {cosine} = turn_{sine}.cosine;")
 
 
+class _Point:
+    """Statements of residual and Jacobian at a point.
+
+    Number k has the middle ``m<k>`` and, if the residual reads it and it is not exact, the radius ``r<k>`` in units of
+    2⁻⁵³. ``read`` maps leaves to what middle and radius are read by, ``most`` numbers of the design to what their
+    largest size is read by. ``guards`` are what ``domain.h`` looks at, in the order of the operations.
+    """
+
+    def __init__(self, tape, read, most, residual, jacobian):
+        self.tape, self.read, self.most = tape, read, most
+        self.steps = operations_of(tape, [*residual, *jacobian], read.keys())
+        self.wide = self._reached(residual)
+        self.factor = Counter(a for op, _, args in self.steps if op == "mul" for a in args)
+        self.names, self.radii, self.statements, self.guards = {}, {}, [], []
+        quotients = {results[0] for op, results, _ in self.steps if op == "div"}
+        for op, results, args in self.steps:
+            names = [self._operand(a) for a in args]
+            if op == "mul" and quotients & {*args}:
+                self.guards.append(f"-mwc_abs({names[args[0] in quotients]})")
+            self._write(op, results, names, args)
+        self.residual = [(self._operand(i), self.radii.get(i, "0.0")) for i in residual]
+        self.jacobian = [self._operand(i) for i in jacobian]
+
+    def _reached(self, outputs):
+        """What the outputs are computed from, and they themselves."""
+        found = {*outputs}
+        for _, results, args in reversed(self.steps):
+            if found & {*results}:
+                found |= {*args}
+        return found
+
+    def _say(self, node, middle, radius):
+        """A name for a node, with the text of its radius, None where it is exact."""
+        self.names[node] = name = f"m{len(self.names)}"
+        self.statements.append(f"const double {name} = {middle};")
+        if radius is not None and node in self.wide:
+            self.radii[node] = of = f"r{name[1:]}"
+            self.statements.append(f"const double {of} = {radius};")
+        return name
+
+    def _operand(self, i):
+        if i in self.names:
+            return self.names[i]
+        if self.tape.const_value(i) is None:
+            return self._say(i, *self.read[i])
+        high, low, radius = self.tape.enclosure(i).parts()
+        off = (abs(low) + radius) * 2.0**53 * (1.0 + 2.0**-40)
+        return self._say(i, number(high), number(off) if off else None)
+
+    def _write(self, op, results, names, args):
+        node, first, last = results[0], names[0], names[-1]
+        ra, rb = (self.radii.get(a) for a in (args[0], args[-1]))
+        m = f"m{len(self.names)}"
+        match op:
+            case "add" | "sub":
+                known = [r for r in (ra, rb) if r]
+                radius = {0: f"mwc_abs({m})", 1: f"{' + '.join(known)} + mwc_abs({m})"}.get(
+                    len(known), f"mwc_units_sum({ra}, {rb}, {m})"
+                )
+                self._say(node, f"{first} {'+' if op == 'add' else '-'} {last}", radius)
+            case "mul":
+                self._say(node, f"{first} * {last}", self._product(m, *zip(args, names, (ra, rb), strict=True)))
+            case "sqr":
+                radius = f"mwc_units_square({first}, {ra}, {m})" if ra else f"mwc_units_rounded({m})"
+                self._say(node, f"{first} * {first}", radius)
+            case "div":
+                self.guards += [f"mwc_abs({last})", f"-mwc_abs({first})"]
+                self._say(node, f"{first} / {last}", f"mwc_units_quotient({ra or 0.0}, {last}, {rb or 0.0}, {m})")
+            case "neg":
+                self._say(node, f"-{first}", ra)
+            case "sqrt":
+                self.guards.append(first)
+                self._say(node, f"sqrt({first})", f"mwc_units_root({ra or 0.0}, {m})")
+            case "sincos":
+                self._turn(results, first, ra or 0.0)
+            case "atan2":
+                self.guards.append(f"mwc_uncut({first}, {last})")
+                near = f"mwc_atan2(mwc_units_ball({first}, {ra or 0.0}), mwc_units_ball({last}, {rb or 0.0}))"
+                self.statements.append(f"const mw_ball near_{m} = {near};")
+                self._say(node, f"near_{m}.mid", f"MWC_UNITS * near_{m}.radius")
+            case "magnitude":
+                self._say(node, f"mwc_abs({first})", ra)
+            case _:  # the sign, known where what is looked at says so
+                self.guards.append(f"mwc_abs({first})")
+                self._say(node, f"mwc_units_sign({first})", None)
+
+    def _product(self, m, first, second):
+        """Text of a product's radius. The factor whose largest size is known, or else wanted most, goes second."""
+        (_, a, ra), (_, b, rb) = first, second
+        if not (ra and rb):
+            exact, other = (a, rb) if rb else (b, ra)
+            return f"mwc_units_share({exact}, {other}, {m})" if other else f"mwc_units_rounded({m})"
+        if max(first, second, key=self._rank) is first:
+            (_, a, ra), (of, b, rb) = second, first
+        else:
+            of = second[0]
+        if of in self.most:
+            return f"mwc_units_scaled({a}, {ra}, {self.most[of]}, {rb}, {m})"
+        return f"mwc_units_product({a}, {ra}, {b}, {rb}, {m})"
+
+    def _rank(self, factor):
+        return factor[0] in self.most, self.factor[factor[0]]
+
+    def _turn(self, results, angle, radius):
+        turn = f"turn_{angle}"
+        sine, cosine = f"{turn}.sine.mid", f"{turn}.cosine.mid"
+        self.statements.append(f"const mwc_turn {turn} = mwc_turned(mwc_make({angle}, 0.0));")
+        size = f"mwc_units_size({angle}, {sine})"
+        self._say(results[0], sine, f"mwc_units_turned({radius}, {cosine}, {size})")
+        self._say(results[1], cosine, f"mwc_units_turned({radius}, {sine}, 1.0)")
+
+
 def _balls(tape, suffix, read, outputs):
     text = _Text(tape, "mwc_", "mw_ball", suffix, read)
     return {"results": text.of(outputs), "statements": text.statements}
@@ -72,6 +190,10 @@ def header(plan, description, runtime):
     own = {n: f"MWC_OWN(t, {k - plan.design_slots})" for n, k in plan.state.items() if k >= plan.design_slots}
     at = {lower(u): f"mwc_make(x[{k} * MW_LANES + l], 0.0)" for k, u in enumerate(plan.unknowns)}
     about = {lower(u): f"mwc_make(x[{k} * MW_LANES + l], d[{k}])" for k, u in enumerate(plan.unknowns)}
+    shared_3 = {n: (f"s[{3 * k}]", f"s[{3 * k + 1}]") for n, k in plan.state.items() if k < plan.design_slots}
+    most = {n: f"s[{3 * k + 2}]" for n, k in plan.state.items() if k < plan.design_slots}
+    turned = {n: (f"({ball}).mid", f"MWC_UNITS * ({ball}).radius") for n, ball in own.items()}
+    point = {lower(u): (f"x[{k} * MW_LANES + l]", None) for k, u in enumerate(plan.unknowns)}
     given = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)}
     setup = _Text(tape, "mwc_wide_", "mw_wide", "w", given)
     return render(
@@ -89,5 +211,7 @@ def header(plan, description, runtime):
         instant=_balls(tape, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}, slots[plan.design_slots :]),
         residual=_balls(tape, "p", shared | own | at, plan.residual),
         jacobian=_balls(tape, "b", shared | own | about, [e for row in plan.jacobian for e in row]),
+        point=_Point(tape, shared_3 | turned | point, most, plan.residual, [e for row in plan.jacobian for e in row]),
+        columns=[*(k for k in range(len(plan.unknowns)) if k != description["error"]), description["error"]],
         scales=_balls(tape, "b", shared | own, plan.scales),
     )

@@ -31,7 +31,7 @@ def solver(runtime):
 def arithmetic(runtime):
     """Numbers with error bounds, in order, without the comments."""
     texts = [(runtime / name).read_text(encoding="utf-8") for name in ("circular.h", "mw_enclosures.h")]
-    texts += [_INCLUDE.sub("", _certify(runtime, name)) for name in ("ball.h", "wide.h", "lane.h")]
+    texts += [_INCLUDE.sub("", _certify(runtime, name)) for name in ("ball.h", "wide.h", "units.h", "lane.h")]
     return "".join(map(_bare, texts))
 
 

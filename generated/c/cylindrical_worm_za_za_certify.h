@@ -374,6 +374,68 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 }
 #endif
 
+#ifndef MWC_UNITS_H
+#define MWC_UNITS_H
+static const double MWC_UNITS = 9007199254740992.0, MWC_UNITS_TINY = 2.2250738585072014e-308;
+static const double MWC_UNITS_READ = 1.1102230246261663e-16;
+MWI_INLINE double mwc_units_sum(double ra, double rb, double m)
+{
+    return (ra + rb) + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_rounded(double m)
+{
+    return mwc_abs(m) + MWC_UNITS_TINY;
+}
+MWI_INLINE double mwc_units_share(double a, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_scaled(double a, double ra, double most, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, MWC_FMA(ra, most, mwc_units_rounded(m)));
+}
+MWI_INLINE double mwc_units_product(double a, double ra, double b, double rb, double m)
+{
+    return mwc_units_scaled(a, ra, MWC_FMA(MWC_UNITS_READ, rb, mwc_abs(b)), rb, m);
+}
+MWI_INLINE double mwc_units_square(double a, double ra, double m)
+{
+    return MWC_FMA(ra, 2.0 * mwc_abs(a) + MWC_UNITS_READ * ra, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_quotient(double ra, double b, double rb, double m)
+{
+    const double least = mwc_abs(b) - MWC_UNITS_READ * rb;
+    const double spread = (mwc_abs(m) * (1.0 + 4.0 * MWC_U) * rb + ra) / (least * (1.0 - 8.0 * MWC_U));
+    return least > 0.0 ? spread + mwc_units_rounded(m) : HUGE_VAL;
+}
+MWI_INLINE double mwc_units_root(double ra, double m)
+{
+    return ra * (1.0 + 8.0 * MWC_U) / m + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_turned(double ra, double slope, double size)
+{
+    const double bend = 0.5 * MWC_UNITS_READ * ra;
+    return MWC_FMA(ra, (mwc_abs(slope) + MWC_SINE) + bend, 2.0 * size + MWC_UNITS_TINY);
+}
+MWI_INLINE double mwc_units_size(double a, double sine)
+{
+    return mwc_abs(a) < 0.78 ? mwc_abs(sine) : 1.0;
+}
+MWI_INLINE mw_ball mwc_units_ball(double m, double r)
+{
+    return mwc_make(m, MWC_FMA(MWC_U, r, MWC_TINY));
+}
+MWI_INLINE double mwc_units_sign(double a)
+{
+    return a < 0.0 ? -1.0 : a >= 0.0 ? 1.0 : a;
+}
+MWI_INLINE double mwc_uncut(double y, double x)
+{
+    const double off = mwc_abs(y);
+    return x > off ? x : off;
+}
+#endif
+
 #ifndef MWC_LANE_H
 #define MWC_LANE_H
 #define MWC_JOINED2(name, width) name##width
@@ -386,7 +448,8 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 #endif
 #define MWC_OWN(a, k) mwc_make((a)[2 * (k) * MW_LANES + l], (a)[(2 * (k) + 1) * MW_LANES + l])
 #define MWC_SHARED(a, k) mwc_make((a)[2 * (k)], (a)[2 * (k) + 1])
-#define MWC_KEEP(a, k, ball) ((a)[2 * (k) * MW_LANES + l] = (ball).mid, (a)[(2 * (k) + 1) * MW_LANES + l] = (ball).radius)
+#define MWC_KEEP_AT(a, k, m, r) ((a)[2 * (k) * MW_LANES + l] = (m), (a)[(2 * (k) + 1) * MW_LANES + l] = (r))
+#define MWC_KEEP(a, k, ball) MWC_KEEP_AT(a, k, (ball).mid, (ball).radius)
 enum { MWC_MAX = 8 };
 static const double MWC_FIRST_BOX = 5.9604644775390625e-8, MWC_WIDEST_BOX = 0.25;
 enum { MWC_SHAPING_STEPS = 30 };
@@ -986,6 +1049,535 @@ static inline void MWC_LANE_NAME(cylindrical_worm_za_za_enclose)(const double *s
         MWC_KEEP(J, 23, b286);
         MWC_KEEP(J, 24, b277);
 }
+}
+
+/* See mw_enclosing. */
+static inline void MWC_LANE_NAME(cylindrical_worm_za_za_enclose_point)(const double *s, const double *t, const double *x, const int *rows, double *R, double *J, double *G)
+{
+    (void)G;
+    MWC_EACH {
+        const double m0 = (MWC_OWN(t, 0)).mid;
+        const double r0 = MWC_UNITS * (MWC_OWN(t, 0)).radius;
+        const double m1 = x[1 * MW_LANES + l];
+        const double m2 = m0 + m1;
+        const double r2 = r0 + mwc_abs(m2);
+        const mwc_turn turn_m2 = mwc_turned(mwc_make(m2, 0.0));
+        const double m3 = turn_m2.sine.mid;
+        const double r3 = mwc_units_turned(r2, turn_m2.cosine.mid, mwc_units_size(m2, turn_m2.sine.mid));
+        const double m4 = turn_m2.cosine.mid;
+        const double r4 = mwc_units_turned(r2, turn_m2.sine.mid, 1.0);
+        const double m5 = x[0 * MW_LANES + l];
+        const double m6 = m5 * m4;
+        const double r6 = mwc_units_share(m5, r4, m6);
+        const double m7 = s[0];
+        const double r7 = s[1];
+        const double m8 = m6 - m7;
+        const double r8 = mwc_units_sum(r6, r7, m8);
+        const double m9 = s[3];
+        const double r9 = s[4];
+        const double m10 = m8 * m9;
+        const double r10 = mwc_units_scaled(m8, r8, s[5], r9, m10);
+        const double m11 = x[3 * MW_LANES + l];
+        const mwc_turn turn_m11 = mwc_turned(mwc_make(m11, 0.0));
+        const double m12 = turn_m11.sine.mid;
+        const double r12 = mwc_units_turned(0.0, turn_m11.cosine.mid, mwc_units_size(m11, turn_m11.sine.mid));
+        const double m13 = turn_m11.cosine.mid;
+        const double r13 = mwc_units_turned(0.0, turn_m11.sine.mid, 1.0);
+        const double m14 = x[2 * MW_LANES + l];
+        const double m15 = m14 * m13;
+        const double r15 = mwc_units_share(m14, r13, m15);
+        const double m16 = s[6];
+        const double r16 = s[7];
+        const double m17 = m15 - m16;
+        const double r17 = mwc_units_sum(r15, r16, m17);
+        const double m18 = x[4 * MW_LANES + l];
+        const double m19 = (MWC_OWN(t, 1)).mid;
+        const double r19 = MWC_UNITS * (MWC_OWN(t, 1)).radius;
+        const double m20 = m18 + m19;
+        const double r20 = r19 + mwc_abs(m20);
+        const double m21 = s[9];
+        const double r21 = s[10];
+        const double m22 = m14 * m21;
+        const double r22 = mwc_units_share(m14, r21, m22);
+        const double m23 = s[12];
+        const double r23 = s[13];
+        const double m24 = m14 * m23;
+        const double r24 = mwc_units_share(m14, r23, m24);
+        const double m25 = m24 * m12;
+        const double r25 = mwc_units_product(m24, r24, m12, r12, m25);
+        const double m26 = m13 * m21;
+        const double r26 = mwc_units_scaled(m13, r13, s[11], r21, m26);
+        const double m27 = m25 + m26;
+        const double r27 = mwc_units_sum(r25, r26, m27);
+        const double m28 = s[15];
+        const double r28 = s[16];
+        const double m29 = m27 * m28;
+        const double r29 = mwc_units_scaled(m27, r27, s[17], r28, m29);
+        const double m30 = s[18];
+        const double r30 = s[19];
+        const double m31 = m14 * m30;
+        const double r31 = mwc_units_share(m14, r30, m31);
+        const double m32 = m29 + m31;
+        const double r32 = mwc_units_sum(r29, r31, m32);
+        const double m33 = s[21];
+        const double r33 = s[22];
+        const double m34 = m17 * m33;
+        const double r34 = mwc_units_scaled(m17, r17, s[23], r33, m34);
+        const double m35 = m32 * m34;
+        const double r35 = mwc_units_product(m34, r34, m32, r32, m35);
+        const double m36 = s[24];
+        const double r36 = s[25];
+        const double m37 = m14 - m36;
+        const double r37 = r36 + mwc_abs(m37);
+        const double m38 = s[27];
+        const double r38 = s[28];
+        const double m39 = m38 * m37;
+        const double r39 = mwc_units_scaled(m37, r37, s[29], r38, m39);
+        const double m40 = s[30];
+        const double r40 = s[31];
+        const double m41 = m39 + m40;
+        const double r41 = mwc_units_sum(r39, r40, m41);
+        const double m42 = s[33];
+        const double r42 = s[34];
+        const double m43 = m41 * m42;
+        const double r43 = mwc_units_scaled(m41, r41, s[35], r42, m43);
+        const double m44 = m14 * m28;
+        const double r44 = mwc_units_share(m14, r28, m44);
+        const double m45 = m12 * m44;
+        const double r45 = mwc_units_product(m44, r44, m12, r12, m45);
+        const double m46 = m43 - m45;
+        const double r46 = mwc_units_sum(r43, r45, m46);
+        const double m47 = m13 * m24;
+        const double r47 = mwc_units_product(m24, r24, m13, r13, m47);
+        const double m48 = m12 * m21;
+        const double r48 = mwc_units_scaled(m12, r12, s[11], r21, m48);
+        const double m49 = m47 - m48;
+        const double r49 = mwc_units_sum(r47, r48, m49);
+        const double m50 = m49 * m33;
+        const double r50 = mwc_units_scaled(m49, r49, s[23], r33, m50);
+        const double m51 = m46 * m50;
+        const double r51 = mwc_units_product(m50, r50, m46, r46, m51);
+        const double m52 = m35 + m51;
+        const double r52 = mwc_units_sum(r35, r51, m52);
+        const double m53 = m22 + m52;
+        const double r53 = mwc_units_sum(r22, r52, m53);
+        const double m54 = s[36];
+        const double r54 = s[37];
+        const double m55 = m53 * m54;
+        const double r55 = mwc_units_scaled(m53, r53, s[38], r54, m55);
+        const double m56 = 1.0;
+        const double m57 = m56 / m49;
+        const double r57 = mwc_units_quotient(0.0, m49, r49, m57);
+        const double m58 = m55 * m57;
+        const double r58 = mwc_units_product(m55, r55, m57, r57, m58);
+        const double m59 = m11 + m58;
+        const double r59 = r58 + mwc_abs(m59);
+        const double m60 = m33 * m59;
+        const double r60 = mwc_units_scaled(m59, r59, s[23], r33, m60);
+        const double m61 = m20 - m60;
+        const double r61 = mwc_units_sum(r20, r60, m61);
+        const mwc_turn turn_m61 = mwc_turned(mwc_make(m61, 0.0));
+        const double m62 = turn_m61.sine.mid;
+        const double r62 = mwc_units_turned(r61, turn_m61.cosine.mid, mwc_units_size(m61, turn_m61.sine.mid));
+        const double m63 = turn_m61.cosine.mid;
+        const double r63 = mwc_units_turned(r61, turn_m61.sine.mid, 1.0);
+        const double m64 = m17 * m63;
+        const double r64 = mwc_units_product(m17, r17, m63, r63, m64);
+        const double m65 = m10 - m64;
+        const double r65 = mwc_units_sum(r10, r64, m65);
+        const double m66 = s[39];
+        const double r66 = s[40];
+        const double m67 = m1 * m66;
+        const double r67 = mwc_units_share(m1, r66, m67);
+        const double m68 = s[42];
+        const double r68 = s[43];
+        const double m69 = m5 - m68;
+        const double r69 = r68 + mwc_abs(m69);
+        const double m70 = s[45];
+        const double r70 = s[46];
+        const double m71 = m70 * m69;
+        const double r71 = mwc_units_scaled(m69, r69, s[47], r70, m71);
+        const double m72 = m40 + m71;
+        const double r72 = mwc_units_sum(r40, r71, m72);
+        const double m73 = s[48];
+        const double r73 = s[49];
+        const double m74 = m72 * m73;
+        const double r74 = mwc_units_scaled(m72, r72, s[50], r73, m74);
+        const double m75 = m67 + m74;
+        const double r75 = mwc_units_sum(r67, r74, m75);
+        const double m76 = s[51];
+        const double r76 = s[52];
+        const double m77 = m75 * m76;
+        const double r77 = mwc_units_scaled(m75, r75, s[53], r76, m77);
+        const double m78 = s[54];
+        const double r78 = s[55];
+        const double m79 = m5 * m78;
+        const double r79 = mwc_units_share(m5, r78, m79);
+        const double m80 = m3 * m79;
+        const double r80 = mwc_units_product(m79, r79, m3, r3, m80);
+        const double m81 = m77 + m80;
+        const double r81 = mwc_units_sum(r77, r80, m81);
+        const double m82 = s[57];
+        const double r82 = s[58];
+        const double m83 = m81 * m82;
+        const double r83 = mwc_units_scaled(m81, r81, s[59], r82, m83);
+        const double m84 = m65 - m83;
+        const double r84 = mwc_units_sum(r65, r83, m84);
+        const double m85 = s[60];
+        const double r85 = s[61];
+        const double m86 = m41 * m85;
+        const double r86 = mwc_units_scaled(m41, r41, s[62], r85, m86);
+        const double m87 = s[63];
+        const double r87 = s[64];
+        const double m88 = m58 * m87;
+        const double r88 = mwc_units_scaled(m58, r58, s[65], r87, m88);
+        const double m89 = m86 - m88;
+        const double r89 = mwc_units_sum(r86, r88, m89);
+        const double m90 = s[66];
+        const double r90 = s[67];
+        const double m91 = m90 * m89;
+        const double r91 = mwc_units_scaled(m89, r89, s[68], r90, m91);
+        const double m92 = m45 - m91;
+        const double r92 = mwc_units_sum(r45, r91, m92);
+        const double m93 = m92 * m62;
+        const double r93 = mwc_units_product(m92, r92, m62, r62, m93);
+        const double m94 = m84 - m93;
+        const double r94 = mwc_units_sum(r84, r93, m94);
+        const double m95 = m5 * m76;
+        const double r95 = mwc_units_share(m5, r76, m95);
+        const double m96 = m3 * m95;
+        const double r96 = mwc_units_product(m95, r95, m3, r3, m96);
+        const double m97 = m17 * m62;
+        const double r97 = mwc_units_product(m17, r17, m62, r62, m97);
+        const double m98 = m63 * m92;
+        const double r98 = mwc_units_product(m92, r92, m63, r63, m98);
+        const double m99 = m97 - m98;
+        const double r99 = mwc_units_sum(r97, r98, m99);
+        const double m100 = m75 * m78;
+        const double r100 = mwc_units_scaled(m75, r75, s[56], r78, m100);
+        const double m101 = m99 - m100;
+        const double r101 = mwc_units_sum(r99, r100, m101);
+        const double m102 = m96 + m101;
+        const double r102 = mwc_units_sum(r96, r101, m102);
+        const double m103 = m8 * m82;
+        const double r103 = mwc_units_scaled(m8, r8, s[59], r82, m103);
+        const double m104 = m9 * m81;
+        const double r104 = mwc_units_scaled(m81, r81, s[5], r9, m104);
+        const double m105 = s[69];
+        const double r105 = s[70];
+        const double m106 = m104 - m105;
+        const double r106 = mwc_units_sum(r104, r105, m106);
+        const double m107 = m103 + m106;
+        const double r107 = mwc_units_sum(r103, r106, m107);
+        const double m108 = m28 * m89;
+        const double r108 = mwc_units_scaled(m89, r89, s[17], r28, m108);
+        const double m109 = m107 - m108;
+        const double r109 = mwc_units_sum(r107, r108, m109);
+        const double m110 = m14 * m90;
+        const double r110 = mwc_units_share(m14, r90, m110);
+        const double m111 = m12 * m110;
+        const double r111 = mwc_units_product(m110, r110, m12, r12, m111);
+        const double m112 = m109 - m111;
+        const double r112 = mwc_units_sum(r109, r111, m112);
+        const double m113 = m78 * m3;
+        const double r113 = mwc_units_scaled(m3, r3, s[56], r78, m113);
+        const double m114 = s[72];
+        const double r114 = s[73];
+        const double m115 = m114 + m113;
+        const double r115 = mwc_units_sum(r114, r113, m115);
+        const double m116 = m9 * m115;
+        const double r116 = mwc_units_scaled(m115, r115, s[5], r9, m116);
+        const double m117 = m4 * m82;
+        const double r117 = mwc_units_scaled(m4, r4, s[59], r82, m117);
+        const double m118 = m116 + m117;
+        const double r118 = mwc_units_sum(r116, r117, m118);
+        const double m119 = s[75];
+        const double r119 = s[76];
+        const double m120 = m14 * m119;
+        const double r120 = mwc_units_share(m14, r119, m120);
+        const double m121 = m90 * m27;
+        const double r121 = mwc_units_scaled(m27, r27, s[68], r90, m121);
+        const double m122 = m120 - m121;
+        const double r122 = mwc_units_sum(r120, r121, m122);
+        const double m123 = m118 * m122;
+        const double r123 = mwc_units_product(m118, r118, m122, r122, m123);
+        const double m124 = m49 * m62;
+        const double r124 = mwc_units_product(m49, r49, m62, r62, m124);
+        const double m125 = m32 * m63;
+        const double r125 = mwc_units_product(m32, r32, m63, r63, m125);
+        const double m126 = m124 - m125;
+        const double r126 = mwc_units_sum(r124, r125, m126);
+        const double m127 = m76 * m3;
+        const double r127 = mwc_units_scaled(m3, r3, s[53], r76, m127);
+        const double m128 = s[78];
+        const double r128 = s[79];
+        const double m129 = m127 - m128;
+        const double r129 = mwc_units_sum(r127, r128, m129);
+        const double m130 = m126 * m129;
+        const double r130 = mwc_units_product(m129, r129, m126, r126, m130);
+        const double m131 = m32 * m62;
+        const double r131 = mwc_units_product(m32, r32, m62, r62, m131);
+        const double m132 = m49 * m63;
+        const double r132 = mwc_units_product(m49, r49, m63, r63, m132);
+        const double m133 = m131 + m132;
+        const double r133 = mwc_units_sum(r131, r132, m133);
+        const double m134 = m4 * m9;
+        const double r134 = mwc_units_scaled(m4, r4, s[5], r9, m134);
+        const double m135 = m82 * m115;
+        const double r135 = mwc_units_scaled(m115, r115, s[59], r82, m135);
+        const double m136 = m134 - m135;
+        const double r136 = mwc_units_sum(r134, r135, m136);
+        const double m137 = m133 * m136;
+        const double r137 = mwc_units_product(m136, r136, m133, r133, m137);
+        const double m138 = m130 - m137;
+        const double r138 = mwc_units_sum(r130, r137, m138);
+        const double m139 = m123 + m138;
+        const double r139 = mwc_units_sum(r123, r138, m139);
+        const double m140 = m4 * m79;
+        const double r140 = mwc_units_product(m79, r79, m4, r4, m140);
+        const double m141 = s[81];
+        const double r141 = s[82];
+        const double m142 = m141 + m140;
+        const double r142 = mwc_units_sum(r141, r140, m142);
+        const double m143 = m9 * m142;
+        const double r143 = mwc_units_scaled(m142, r142, s[5], r9, m143);
+        const double m144 = m5 * m82;
+        const double r144 = mwc_units_share(m5, r82, m144);
+        const double m145 = m3 * m144;
+        const double r145 = mwc_units_product(m144, r144, m3, r3, m145);
+        const double m146 = m143 - m145;
+        const double r146 = mwc_units_sum(r143, r145, m146);
+        const double m147 = m122 * m146;
+        const double r147 = mwc_units_product(m146, r146, m122, r122, m147);
+        const double m148 = m4 * m95;
+        const double r148 = mwc_units_product(m95, r95, m4, r4, m148);
+        const double m149 = s[84];
+        const double r149 = s[85];
+        const double m150 = m148 - m149;
+        const double r150 = mwc_units_sum(r148, r149, m150);
+        const double m151 = m126 * m150;
+        const double r151 = mwc_units_product(m150, r150, m126, r126, m151);
+        const double m152 = m82 * m142;
+        const double r152 = mwc_units_scaled(m142, r142, s[59], r82, m152);
+        const double m153 = m5 * m9;
+        const double r153 = mwc_units_share(m5, r9, m153);
+        const double m154 = m3 * m153;
+        const double r154 = mwc_units_product(m153, r153, m3, r3, m154);
+        const double m155 = m152 + m154;
+        const double r155 = mwc_units_sum(r152, r154, m155);
+        const double m156 = m133 * m155;
+        const double r156 = mwc_units_product(m155, r155, m133, r133, m156);
+        const double m157 = m151 + m156;
+        const double r157 = mwc_units_sum(r151, r156, m157);
+        const double m158 = m147 + m157;
+        const double r158 = mwc_units_sum(r147, r157, m158);
+        const double m159 = s[87];
+        const double m160 = m113 + m159;
+        const double m161 = m82 * m160;
+        const double m162 = m134 - m161;
+        const double m163 = m5 * m3;
+        const double m164 = m9 * m163;
+        const double m165 = m152 + m164;
+        const double m166 = -m165;
+        const double m167 = m12 * m28;
+        const double m168 = s[90];
+        const double m169 = m168 - m167;
+        const double m170 = m50 * m169;
+        const double m171 = s[93];
+        const double m172 = m13 * m171;
+        const double m173 = m46 * m172;
+        const double m174 = m170 + m173;
+        const double m175 = s[96];
+        const double m176 = m12 * m175;
+        const double m177 = m30 + m176;
+        const double m178 = m34 * m177;
+        const double m179 = m13 * m33;
+        const double m180 = m32 * m179;
+        const double m181 = m178 + m180;
+        const double m182 = m174 + m181;
+        const double m183 = m21 + m182;
+        const double m184 = m54 * m183;
+        const double m185 = m13 * m23;
+        const double m186 = m58 * m185;
+        const double m187 = m184 - m186;
+        const double m188 = m57 * m187;
+        const double m189 = m87 * m188;
+        const double m190 = s[99];
+        const double m191 = m190 - m189;
+        const double m192 = m90 * m191;
+        const double m193 = m167 - m192;
+        const double m194 = m62 * m193;
+        const double m195 = m13 * m63;
+        const double m196 = m194 + m195;
+        const double m197 = m33 * m188;
+        const double m198 = m99 * m197;
+        const double m199 = m196 + m198;
+        const double m200 = -m199;
+        const double m201 = m14 * m12;
+        const double m202 = m63 * m201;
+        const double m203 = m13 * m44;
+        const double m204 = m49 * m28;
+        const double m205 = m34 * m204;
+        const double m206 = m33 * m201;
+        const double m207 = m32 * m206;
+        const double m208 = m205 - m207;
+        const double m209 = m50 * m203;
+        const double m210 = m27 * m33;
+        const double m211 = m46 * m210;
+        const double m212 = m209 + m211;
+        const double m213 = m208 - m212;
+        const double m214 = m54 * m213;
+        const double m215 = m27 * m58;
+        const double m216 = m214 + m215;
+        const double m217 = m57 * m216;
+        const double m218 = s[102];
+        const double m219 = m217 * m218;
+        const double m220 = m203 + m219;
+        const double m221 = m62 * m220;
+        const double m222 = m202 - m221;
+        const double m223 = m56 + m217;
+        const double m224 = m33 * m223;
+        const double m225 = m99 * m224;
+        const double m226 = m222 - m225;
+        const double m227 = s[105];
+        const double m228 = m127 - m227;
+        const double m229 = m13 * m62;
+        const double m230 = m63 * m193;
+        const double m231 = m229 - m230;
+        const double m232 = m64 + m93;
+        const double m233 = m232 * m197;
+        const double m234 = m231 - m233;
+        const double m235 = m63 * m220;
+        const double m236 = m62 * m201;
+        const double m237 = m235 + m236;
+        const double m238 = m232 * m224;
+        const double m239 = m237 + m238;
+        const double m240 = -m239;
+        const double m241 = m9 * m160;
+        const double m242 = m117 + m241;
+        const double m243 = m82 * m163;
+        const double m244 = m143 - m243;
+        const double m245 = m12 * m90;
+        const double m246 = m28 * m191;
+        const double m247 = m245 + m246;
+        const double m248 = -m247;
+        const double m249 = s[108];
+        const double m250 = m217 * m249;
+        const double m251 = m13 * m110;
+        const double m252 = m250 - m251;
+        const double m253 = m9 * m3;
+        const double m254 = s[111];
+        const double m255 = m4 * m254;
+        const double m256 = m253 + m255;
+        const double m257 = m133 * m256;
+        const double m258 = m4 * m76;
+        const double m259 = m126 * m258;
+        const double m260 = m257 + m259;
+        const double m261 = s[114];
+        const double m262 = m4 * m261;
+        const double m263 = m3 * m82;
+        const double m264 = m262 - m263;
+        const double m265 = m122 * m264;
+        const double m266 = m260 + m265;
+        const double m267 = m62 * m185;
+        const double m268 = m63 * m177;
+        const double m269 = m267 - m268;
+        const double m270 = m129 * m269;
+        const double m271 = m63 * m185;
+        const double m272 = m62 * m177;
+        const double m273 = m271 + m272;
+        const double m274 = m136 * m273;
+        const double m275 = m270 - m274;
+        const double m276 = s[117];
+        const double m277 = m12 * m276;
+        const double m278 = m119 - m277;
+        const double m279 = m118 * m278;
+        const double m280 = m275 + m279;
+        const double m281 = m126 * m136;
+        const double m282 = m129 * m133;
+        const double m283 = m281 + m282;
+        const double m284 = m283 * m197;
+        const double m285 = m280 - m284;
+        const double m286 = m62 * m204;
+        const double m287 = m27 * m63;
+        const double m288 = m286 - m287;
+        const double m289 = m136 * m288;
+        const double m290 = m63 * m204;
+        const double m291 = m27 * m62;
+        const double m292 = m290 + m291;
+        const double m293 = m129 * m292;
+        const double m294 = m289 + m293;
+        const double m295 = m49 * m90;
+        const double m296 = m118 * m295;
+        const double m297 = m294 + m296;
+        const double m298 = m283 * m224;
+        const double m299 = m297 + m298;
+        const double m300 = -m299;
+        const double m301 = m4 * m153;
+        const double m302 = m80 * m82;
+        const double m303 = m301 - m302;
+        const double m304 = m133 * m303;
+        const double m305 = m96 * m126;
+        const double m306 = m304 - m305;
+        const double m307 = m4 * m144;
+        const double m308 = m9 * m80;
+        const double m309 = m307 + m308;
+        const double m310 = m122 * m309;
+        const double m311 = m306 - m310;
+        const double m312 = m155 * m273;
+        const double m313 = m150 * m269;
+        const double m314 = m312 + m313;
+        const double m315 = m146 * m278;
+        const double m316 = m314 + m315;
+        const double m317 = m133 * m150;
+        const double m318 = m126 * m155;
+        const double m319 = m317 - m318;
+        const double m320 = m319 * m197;
+        const double m321 = m316 - m320;
+        const double m322 = m155 * m288;
+        const double m323 = m150 * m292;
+        const double m324 = m322 - m323;
+        const double m325 = m146 * m295;
+        const double m326 = m324 - m325;
+        const double m327 = m319 * m224;
+        const double m328 = m326 - m327;
+        const double m329 = 0.0;
+        G[0 * MW_LANES + l] = mwc_abs(m49);
+        G[1 * MW_LANES + l] = -mwc_abs(m56);
+        G[2 * MW_LANES + l] = -mwc_abs(m55);
+        G[3 * MW_LANES + l] = -mwc_abs(m187);
+        G[4 * MW_LANES + l] = -mwc_abs(m216);
+        MWC_KEEP_AT(R, rows[0], m94, r94);
+        J[(rows[0] * 5 + 0) * MW_LANES + l] = m162;
+        J[(rows[0] * 5 + 1) * MW_LANES + l] = m166;
+        J[(rows[0] * 5 + 2) * MW_LANES + l] = m200;
+        J[(rows[0] * 5 + 3) * MW_LANES + l] = m226;
+        J[(rows[0] * 5 + 4) * MW_LANES + l] = m99;
+        MWC_KEEP_AT(R, rows[1], m102, r102);
+        J[(rows[1] * 5 + 0) * MW_LANES + l] = m228;
+        J[(rows[1] * 5 + 1) * MW_LANES + l] = m150;
+        J[(rows[1] * 5 + 2) * MW_LANES + l] = m234;
+        J[(rows[1] * 5 + 3) * MW_LANES + l] = m240;
+        J[(rows[1] * 5 + 4) * MW_LANES + l] = m232;
+        MWC_KEEP_AT(R, rows[2], m112, r112);
+        J[(rows[2] * 5 + 0) * MW_LANES + l] = m242;
+        J[(rows[2] * 5 + 1) * MW_LANES + l] = m244;
+        J[(rows[2] * 5 + 2) * MW_LANES + l] = m248;
+        J[(rows[2] * 5 + 3) * MW_LANES + l] = m252;
+        J[(rows[2] * 5 + 4) * MW_LANES + l] = m329;
+        MWC_KEEP_AT(R, rows[3], m139, r139);
+        J[(rows[3] * 5 + 0) * MW_LANES + l] = m329;
+        J[(rows[3] * 5 + 1) * MW_LANES + l] = m266;
+        J[(rows[3] * 5 + 2) * MW_LANES + l] = m285;
+        J[(rows[3] * 5 + 3) * MW_LANES + l] = m300;
+        J[(rows[3] * 5 + 4) * MW_LANES + l] = m283;
+        MWC_KEEP_AT(R, rows[4], m158, r158);
+        J[(rows[4] * 5 + 0) * MW_LANES + l] = m266;
+        J[(rows[4] * 5 + 1) * MW_LANES + l] = m311;
+        J[(rows[4] * 5 + 2) * MW_LANES + l] = m321;
+        J[(rows[4] * 5 + 3) * MW_LANES + l] = m328;
+        J[(rows[4] * 5 + 4) * MW_LANES + l] = m319;
+    }
 }
 
 #ifdef MW_LANES_ALONE

@@ -65,7 +65,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -217,7 +217,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -227,7 +227,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zn_NO 63
 #define cylindrical_worm_zk_zn_ND 7
 #define cylindrical_worm_zk_zn_NSTART 2
-#define cylindrical_worm_zk_zn_ABI 4
+#define cylindrical_worm_zk_zn_ABI 5
 #define cylindrical_worm_zk_zn_SPEC_HASH "9006896226cfc29facec5580cc840c79c20c56f4f0eced5665f338a15cc15850"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

@@ -374,6 +374,68 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 }
 #endif
 
+#ifndef MWC_UNITS_H
+#define MWC_UNITS_H
+static const double MWC_UNITS = 9007199254740992.0, MWC_UNITS_TINY = 2.2250738585072014e-308;
+static const double MWC_UNITS_READ = 1.1102230246261663e-16;
+MWI_INLINE double mwc_units_sum(double ra, double rb, double m)
+{
+    return (ra + rb) + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_rounded(double m)
+{
+    return mwc_abs(m) + MWC_UNITS_TINY;
+}
+MWI_INLINE double mwc_units_share(double a, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_scaled(double a, double ra, double most, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, MWC_FMA(ra, most, mwc_units_rounded(m)));
+}
+MWI_INLINE double mwc_units_product(double a, double ra, double b, double rb, double m)
+{
+    return mwc_units_scaled(a, ra, MWC_FMA(MWC_UNITS_READ, rb, mwc_abs(b)), rb, m);
+}
+MWI_INLINE double mwc_units_square(double a, double ra, double m)
+{
+    return MWC_FMA(ra, 2.0 * mwc_abs(a) + MWC_UNITS_READ * ra, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_quotient(double ra, double b, double rb, double m)
+{
+    const double least = mwc_abs(b) - MWC_UNITS_READ * rb;
+    const double spread = (mwc_abs(m) * (1.0 + 4.0 * MWC_U) * rb + ra) / (least * (1.0 - 8.0 * MWC_U));
+    return least > 0.0 ? spread + mwc_units_rounded(m) : HUGE_VAL;
+}
+MWI_INLINE double mwc_units_root(double ra, double m)
+{
+    return ra * (1.0 + 8.0 * MWC_U) / m + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_turned(double ra, double slope, double size)
+{
+    const double bend = 0.5 * MWC_UNITS_READ * ra;
+    return MWC_FMA(ra, (mwc_abs(slope) + MWC_SINE) + bend, 2.0 * size + MWC_UNITS_TINY);
+}
+MWI_INLINE double mwc_units_size(double a, double sine)
+{
+    return mwc_abs(a) < 0.78 ? mwc_abs(sine) : 1.0;
+}
+MWI_INLINE mw_ball mwc_units_ball(double m, double r)
+{
+    return mwc_make(m, MWC_FMA(MWC_U, r, MWC_TINY));
+}
+MWI_INLINE double mwc_units_sign(double a)
+{
+    return a < 0.0 ? -1.0 : a >= 0.0 ? 1.0 : a;
+}
+MWI_INLINE double mwc_uncut(double y, double x)
+{
+    const double off = mwc_abs(y);
+    return x > off ? x : off;
+}
+#endif
+
 #ifndef MWC_LANE_H
 #define MWC_LANE_H
 #define MWC_JOINED2(name, width) name##width
@@ -386,7 +448,8 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 #endif
 #define MWC_OWN(a, k) mwc_make((a)[2 * (k) * MW_LANES + l], (a)[(2 * (k) + 1) * MW_LANES + l])
 #define MWC_SHARED(a, k) mwc_make((a)[2 * (k)], (a)[2 * (k) + 1])
-#define MWC_KEEP(a, k, ball) ((a)[2 * (k) * MW_LANES + l] = (ball).mid, (a)[(2 * (k) + 1) * MW_LANES + l] = (ball).radius)
+#define MWC_KEEP_AT(a, k, m, r) ((a)[2 * (k) * MW_LANES + l] = (m), (a)[(2 * (k) + 1) * MW_LANES + l] = (r))
+#define MWC_KEEP(a, k, ball) MWC_KEEP_AT(a, k, (ball).mid, (ball).radius)
 enum { MWC_MAX = 8 };
 static const double MWC_FIRST_BOX = 5.9604644775390625e-8, MWC_WIDEST_BOX = 0.25;
 enum { MWC_SHAPING_STEPS = 30 };
@@ -1055,6 +1118,602 @@ static inline void MWC_LANE_NAME(cylindrical_worm_zn_zn_enclose)(const double *s
         MWC_KEEP(J, 23, b327);
         MWC_KEEP(J, 24, b318);
 }
+}
+
+/* See mw_enclosing. */
+static inline void MWC_LANE_NAME(cylindrical_worm_zn_zn_enclose_point)(const double *s, const double *t, const double *x, const int *rows, double *R, double *J, double *G)
+{
+    (void)G;
+    MWC_EACH {
+        const double m0 = x[0 * MW_LANES + l];
+        const double m1 = s[0];
+        const double r1 = s[1];
+        const double m2 = m0 * m1;
+        const double r2 = mwc_units_share(m0, r1, m2);
+        const double m3 = (MWC_OWN(t, 0)).mid;
+        const double r3 = MWC_UNITS * (MWC_OWN(t, 0)).radius;
+        const double m4 = x[1 * MW_LANES + l];
+        const double m5 = m3 + m4;
+        const double r5 = r3 + mwc_abs(m5);
+        const mwc_turn turn_m5 = mwc_turned(mwc_make(m5, 0.0));
+        const double m6 = turn_m5.sine.mid;
+        const double r6 = mwc_units_turned(r5, turn_m5.cosine.mid, mwc_units_size(m5, turn_m5.sine.mid));
+        const double m7 = turn_m5.cosine.mid;
+        const double r7 = mwc_units_turned(r5, turn_m5.sine.mid, 1.0);
+        const double m8 = m2 * m6;
+        const double r8 = mwc_units_product(m2, r2, m6, r6, m8);
+        const double m9 = s[3];
+        const double r9 = s[4];
+        const double m10 = m0 * m9;
+        const double r10 = mwc_units_share(m0, r9, m10);
+        const double m11 = s[6];
+        const double r11 = s[7];
+        const double m12 = m10 + m11;
+        const double r12 = mwc_units_sum(r10, r11, m12);
+        const double m13 = m12 * m7;
+        const double r13 = mwc_units_product(m12, r12, m7, r7, m13);
+        const double m14 = s[9];
+        const double r14 = s[10];
+        const double m15 = m13 - m14;
+        const double r15 = mwc_units_sum(r13, r14, m15);
+        const double m16 = m8 + m15;
+        const double r16 = mwc_units_sum(r8, r15, m16);
+        const double m17 = s[12];
+        const double r17 = s[13];
+        const double m18 = m16 * m17;
+        const double r18 = mwc_units_scaled(m16, r16, s[14], r17, m18);
+        const double m19 = x[2 * MW_LANES + l];
+        const double m20 = s[15];
+        const double r20 = s[16];
+        const double m21 = m19 * m20;
+        const double r21 = mwc_units_share(m19, r20, m21);
+        const double m22 = s[18];
+        const double r22 = s[19];
+        const double m23 = m21 + m22;
+        const double r23 = mwc_units_sum(r21, r22, m23);
+        const double m24 = x[3 * MW_LANES + l];
+        const mwc_turn turn_m24 = mwc_turned(mwc_make(m24, 0.0));
+        const double m25 = turn_m24.sine.mid;
+        const double r25 = mwc_units_turned(0.0, turn_m24.cosine.mid, mwc_units_size(m24, turn_m24.sine.mid));
+        const double m26 = turn_m24.cosine.mid;
+        const double r26 = mwc_units_turned(0.0, turn_m24.sine.mid, 1.0);
+        const double m27 = m23 * m25;
+        const double r27 = mwc_units_product(m23, r23, m25, r25, m27);
+        const double m28 = s[21];
+        const double r28 = s[22];
+        const double m29 = m19 * m28;
+        const double r29 = mwc_units_share(m19, r28, m29);
+        const double m30 = m29 * m26;
+        const double r30 = mwc_units_product(m29, r29, m26, r26, m30);
+        const double m31 = m27 - m30;
+        const double r31 = mwc_units_sum(r27, r30, m31);
+        const double m32 = s[24];
+        const double r32 = s[25];
+        const double m33 = m31 * m32;
+        const double r33 = mwc_units_scaled(m31, r31, s[26], r32, m33);
+        const double m34 = s[27];
+        const double r34 = s[28];
+        const double m35 = m19 * m34;
+        const double r35 = mwc_units_share(m19, r34, m35);
+        const double m36 = s[30];
+        const double r36 = s[31];
+        const double m37 = m19 * m36;
+        const double r37 = mwc_units_share(m19, r36, m37);
+        const double m38 = s[33];
+        const double r38 = s[34];
+        const double m39 = m37 - m38;
+        const double r39 = mwc_units_sum(r37, r38, m39);
+        const double m40 = s[36];
+        const double r40 = s[37];
+        const double m41 = m40 * m23;
+        const double r41 = mwc_units_scaled(m23, r23, s[38], r40, m41);
+        const double m42 = m39 * m41;
+        const double r42 = mwc_units_product(m41, r41, m39, r39, m42);
+        const double m43 = m23 * m34;
+        const double r43 = mwc_units_scaled(m23, r23, s[29], r34, m43);
+        const double m44 = s[39];
+        const double r44 = s[40];
+        const double m45 = m43 + m44;
+        const double r45 = mwc_units_sum(r43, r44, m45);
+        const double m46 = s[42];
+        const double r46 = s[43];
+        const double m47 = m19 * m46;
+        const double r47 = mwc_units_share(m19, r46, m47);
+        const double m48 = m45 * m47;
+        const double r48 = mwc_units_product(m47, r47, m45, r45, m48);
+        const double m49 = m42 - m48;
+        const double r49 = mwc_units_sum(r42, r48, m49);
+        const double m50 = m25 * m29;
+        const double r50 = mwc_units_product(m29, r29, m25, r25, m50);
+        const double m51 = m23 * m26;
+        const double r51 = mwc_units_product(m23, r23, m26, r26, m51);
+        const double m52 = s[45];
+        const double r52 = s[46];
+        const double m53 = m51 - m52;
+        const double r53 = mwc_units_sum(r51, r52, m53);
+        const double m54 = m50 + m53;
+        const double r54 = mwc_units_sum(r50, r53, m54);
+        const double m55 = m40 * m25;
+        const double r55 = mwc_units_scaled(m25, r25, s[38], r40, m55);
+        const double m56 = m55 * m45;
+        const double r56 = mwc_units_product(m55, r55, m45, r45, m56);
+        const double m57 = m40 * m26;
+        const double r57 = mwc_units_scaled(m26, r26, s[38], r40, m57);
+        const double m58 = m39 * m57;
+        const double r58 = mwc_units_product(m57, r57, m39, r39, m58);
+        const double m59 = m56 - m58;
+        const double r59 = mwc_units_sum(r56, r58, m59);
+        const double m60 = m32 * m59;
+        const double r60 = mwc_units_scaled(m59, r59, s[26], r32, m60);
+        const double m61 = m20 * m23;
+        const double r61 = mwc_units_scaled(m23, r23, s[17], r20, m61);
+        const double m62 = s[48];
+        const double r62 = s[49];
+        const double m63 = m19 * m62;
+        const double r63 = mwc_units_share(m19, r62, m63);
+        const double m64 = m61 + m63;
+        const double r64 = mwc_units_sum(r61, r63, m64);
+        const double m65 = s[51];
+        const double r65 = s[52];
+        const double m66 = m64 * m65;
+        const double r66 = mwc_units_scaled(m64, r64, s[53], r65, m66);
+        const double m67 = m60 + m66;
+        const double r67 = mwc_units_sum(r60, r66, m67);
+        const double m68 = s[54];
+        const double r68 = s[55];
+        const double m69 = m67 * m68;
+        const double r69 = mwc_units_scaled(m67, r67, s[56], r68, m69);
+        const double m70 = m54 * m69;
+        const double r70 = mwc_units_product(m69, r69, m54, r54, m70);
+        const double m71 = m49 - m70;
+        const double r71 = mwc_units_sum(r49, r70, m71);
+        const double m72 = s[57];
+        const double r72 = s[58];
+        const double m73 = m19 * m72;
+        const double r73 = mwc_units_share(m19, r72, m73);
+        const double m74 = m73 - m33;
+        const double r74 = mwc_units_sum(r73, r33, m74);
+        const double m75 = m39 * m55;
+        const double r75 = mwc_units_product(m55, r55, m39, r39, m75);
+        const double m76 = m45 * m57;
+        const double r76 = mwc_units_product(m57, r57, m45, r45, m76);
+        const double m77 = m75 + m76;
+        const double r77 = mwc_units_sum(r75, r76, m77);
+        const double m78 = m77 * m68;
+        const double r78 = mwc_units_scaled(m77, r77, s[56], r68, m78);
+        const double m79 = m74 * m78;
+        const double r79 = mwc_units_product(m74, r74, m78, r78, m79);
+        const double m80 = m71 - m79;
+        const double r80 = mwc_units_sum(r71, r79, m80);
+        const double m81 = s[60];
+        const double r81 = s[61];
+        const double m82 = m80 * m81;
+        const double r82 = mwc_units_scaled(m80, r80, s[62], r81, m82);
+        const double m83 = m82 / m77;
+        const double r83 = mwc_units_quotient(r82, m77, r77, m83);
+        const double m84 = s[63];
+        const double r84 = s[64];
+        const double m85 = m83 * m84;
+        const double r85 = mwc_units_scaled(m83, r83, s[65], r84, m85);
+        const double m86 = m35 + m85;
+        const double r86 = mwc_units_sum(r35, r85, m86);
+        const double m87 = s[66];
+        const double r87 = s[67];
+        const double m88 = m87 * m86;
+        const double r88 = mwc_units_scaled(m86, r86, s[68], r87, m88);
+        const double m89 = m33 - m88;
+        const double r89 = mwc_units_sum(r33, r88, m89);
+        const double m90 = x[4 * MW_LANES + l];
+        const double m91 = (MWC_OWN(t, 1)).mid;
+        const double r91 = MWC_UNITS * (MWC_OWN(t, 1)).radius;
+        const double m92 = m90 + m91;
+        const double r92 = r91 + mwc_abs(m92);
+        const double m93 = m24 - m83;
+        const double r93 = r83 + mwc_abs(m93);
+        const double m94 = m68 * m93;
+        const double r94 = mwc_units_scaled(m93, r93, s[56], r68, m94);
+        const double m95 = m92 - m94;
+        const double r95 = mwc_units_sum(r92, r94, m95);
+        const mwc_turn turn_m95 = mwc_turned(mwc_make(m95, 0.0));
+        const double m96 = turn_m95.sine.mid;
+        const double r96 = mwc_units_turned(r95, turn_m95.cosine.mid, mwc_units_size(m95, turn_m95.sine.mid));
+        const double m97 = turn_m95.cosine.mid;
+        const double r97 = mwc_units_turned(r95, turn_m95.sine.mid, 1.0);
+        const double m98 = m89 * m96;
+        const double r98 = mwc_units_product(m89, r89, m96, r96, m98);
+        const double m99 = m18 - m98;
+        const double r99 = mwc_units_sum(r18, r98, m99);
+        const double m100 = m12 * m6;
+        const double r100 = mwc_units_product(m12, r12, m6, r6, m100);
+        const double m101 = m7 * m2;
+        const double r101 = mwc_units_product(m2, r2, m7, r7, m101);
+        const double m102 = m100 - m101;
+        const double r102 = mwc_units_sum(r100, r101, m102);
+        const double m103 = s[69];
+        const double r103 = s[70];
+        const double m104 = m102 * m103;
+        const double r104 = mwc_units_scaled(m102, r102, s[71], r103, m104);
+        const double m105 = s[72];
+        const double r105 = s[73];
+        const double m106 = m4 * m105;
+        const double r106 = mwc_units_share(m4, r105, m106);
+        const double m107 = s[75];
+        const double r107 = s[76];
+        const double m108 = m0 * m107;
+        const double r108 = mwc_units_share(m0, r107, m108);
+        const double m109 = m106 + m108;
+        const double r109 = mwc_units_sum(r106, r108, m109);
+        const double m110 = s[78];
+        const double r110 = s[79];
+        const double m111 = m109 * m110;
+        const double r111 = mwc_units_scaled(m109, r109, s[80], r110, m111);
+        const double m112 = m104 + m111;
+        const double r112 = mwc_units_sum(r104, r111, m112);
+        const double m113 = s[81];
+        const double r113 = s[82];
+        const double m114 = m112 * m113;
+        const double r114 = mwc_units_scaled(m112, r112, s[83], r113, m114);
+        const double m115 = m99 - m114;
+        const double r115 = mwc_units_sum(r99, r114, m115);
+        const double m116 = m54 * m97;
+        const double r116 = mwc_units_product(m54, r54, m97, r97, m116);
+        const double m117 = m115 - m116;
+        const double r117 = mwc_units_sum(r115, r116, m117);
+        const double m118 = m102 * m110;
+        const double r118 = mwc_units_scaled(m102, r102, s[80], r110, m118);
+        const double m119 = m54 * m96;
+        const double r119 = mwc_units_product(m54, r54, m96, r96, m119);
+        const double m120 = m118 + m119;
+        const double r120 = mwc_units_sum(r118, r119, m120);
+        const double m121 = m89 * m97;
+        const double r121 = mwc_units_product(m89, r89, m97, r97, m121);
+        const double m122 = m120 - m121;
+        const double r122 = mwc_units_sum(r120, r121, m122);
+        const double m123 = m103 * m109;
+        const double r123 = mwc_units_scaled(m109, r109, s[71], r103, m123);
+        const double m124 = m122 - m123;
+        const double r124 = mwc_units_sum(r122, r123, m124);
+        const double m125 = m16 * m113;
+        const double r125 = mwc_units_scaled(m16, r16, s[83], r113, m125);
+        const double m126 = m17 * m112;
+        const double r126 = mwc_units_scaled(m112, r112, s[14], r17, m126);
+        const double m127 = s[84];
+        const double r127 = s[85];
+        const double m128 = m126 - m127;
+        const double r128 = mwc_units_sum(r126, r127, m128);
+        const double m129 = m125 + m128;
+        const double r129 = mwc_units_sum(r125, r128, m129);
+        const double m130 = m31 * m87;
+        const double r130 = mwc_units_scaled(m31, r31, s[68], r87, m130);
+        const double m131 = m129 - m130;
+        const double r131 = mwc_units_sum(r129, r130, m131);
+        const double m132 = m32 * m86;
+        const double r132 = mwc_units_scaled(m86, r86, s[26], r32, m132);
+        const double m133 = m131 - m132;
+        const double r133 = mwc_units_sum(r131, r132, m133);
+        const double m134 = m9 * m6;
+        const double r134 = mwc_units_scaled(m6, r6, s[5], r9, m134);
+        const double m135 = m7 * m1;
+        const double r135 = mwc_units_scaled(m7, r7, s[2], r1, m135);
+        const double m136 = m134 - m135;
+        const double r136 = mwc_units_sum(r134, r135, m136);
+        const double m137 = m103 * m136;
+        const double r137 = mwc_units_scaled(m136, r136, s[71], r103, m137);
+        const double m138 = s[87];
+        const double r138 = s[88];
+        const double m139 = m137 + m138;
+        const double r139 = mwc_units_sum(r137, r138, m139);
+        const double m140 = m17 * m139;
+        const double r140 = mwc_units_scaled(m139, r139, s[14], r17, m140);
+        const double m141 = m9 * m7;
+        const double r141 = mwc_units_scaled(m7, r7, s[5], r9, m141);
+        const double m142 = m1 * m6;
+        const double r142 = mwc_units_scaled(m6, r6, s[2], r1, m142);
+        const double m143 = m141 + m142;
+        const double r143 = mwc_units_sum(r141, r142, m143);
+        const double m144 = m113 * m143;
+        const double r144 = mwc_units_scaled(m143, r143, s[83], r113, m144);
+        const double m145 = m140 + m144;
+        const double r145 = mwc_units_sum(r140, r144, m145);
+        const double m146 = s[90];
+        const double r146 = s[91];
+        const double m147 = m64 * m146;
+        const double r147 = mwc_units_scaled(m64, r64, s[92], r146, m147);
+        const double m148 = m87 * m59;
+        const double r148 = mwc_units_scaled(m59, r59, s[68], r87, m148);
+        const double m149 = m147 - m148;
+        const double r149 = mwc_units_sum(r147, r148, m149);
+        const double m150 = m145 * m149;
+        const double r150 = mwc_units_product(m145, r145, m149, r149, m150);
+        const double m151 = m77 * m96;
+        const double r151 = mwc_units_product(m77, r77, m96, r96, m151);
+        const double m152 = m67 * m97;
+        const double r152 = mwc_units_product(m67, r67, m97, r97, m152);
+        const double m153 = m151 - m152;
+        const double r153 = mwc_units_sum(r151, r152, m153);
+        const double m154 = m110 * m136;
+        const double r154 = mwc_units_scaled(m136, r136, s[80], r110, m154);
+        const double m155 = s[93];
+        const double r155 = s[94];
+        const double m156 = m154 - m155;
+        const double r156 = mwc_units_sum(r154, r155, m156);
+        const double m157 = m153 * m156;
+        const double r157 = mwc_units_product(m156, r156, m153, r153, m157);
+        const double m158 = m150 + m157;
+        const double r158 = mwc_units_sum(r150, r157, m158);
+        const double m159 = m67 * m96;
+        const double r159 = mwc_units_product(m67, r67, m96, r96, m159);
+        const double m160 = m77 * m97;
+        const double r160 = mwc_units_product(m77, r77, m97, r97, m160);
+        const double m161 = m159 + m160;
+        const double r161 = mwc_units_sum(r159, r160, m161);
+        const double m162 = m17 * m143;
+        const double r162 = mwc_units_scaled(m143, r143, s[14], r17, m162);
+        const double m163 = m113 * m139;
+        const double r163 = mwc_units_scaled(m139, r139, s[83], r113, m163);
+        const double m164 = m162 - m163;
+        const double r164 = mwc_units_sum(r162, r163, m164);
+        const double m165 = m161 * m164;
+        const double r165 = mwc_units_product(m164, r164, m161, r161, m165);
+        const double m166 = m158 - m165;
+        const double r166 = mwc_units_sum(r158, r165, m166);
+        const double m167 = m17 * m102;
+        const double r167 = mwc_units_scaled(m102, r102, s[14], r17, m167);
+        const double m168 = m13 + m8;
+        const double r168 = mwc_units_sum(r13, r8, m168);
+        const double m169 = m103 * m168;
+        const double r169 = mwc_units_scaled(m168, r168, s[71], r103, m169);
+        const double m170 = s[96];
+        const double r170 = s[97];
+        const double m171 = m169 + m170;
+        const double r171 = mwc_units_sum(r169, r170, m171);
+        const double m172 = m113 * m171;
+        const double r172 = mwc_units_scaled(m171, r171, s[83], r113, m172);
+        const double m173 = m167 + m172;
+        const double r173 = mwc_units_sum(r167, r172, m173);
+        const double m174 = m161 * m173;
+        const double r174 = mwc_units_product(m173, r173, m161, r161, m174);
+        const double m175 = m17 * m171;
+        const double r175 = mwc_units_scaled(m171, r171, s[14], r17, m175);
+        const double m176 = m102 * m113;
+        const double r176 = mwc_units_scaled(m102, r102, s[83], r113, m176);
+        const double m177 = m175 - m176;
+        const double r177 = mwc_units_sum(r175, r176, m177);
+        const double m178 = m149 * m177;
+        const double r178 = mwc_units_product(m177, r177, m149, r149, m178);
+        const double m179 = m110 * m168;
+        const double r179 = mwc_units_scaled(m168, r168, s[80], r110, m179);
+        const double m180 = s[99];
+        const double r180 = s[100];
+        const double m181 = m179 - m180;
+        const double r181 = mwc_units_sum(r179, r180, m181);
+        const double m182 = m153 * m181;
+        const double r182 = mwc_units_product(m181, r181, m153, r153, m182);
+        const double m183 = m178 + m182;
+        const double r183 = mwc_units_sum(r178, r182, m183);
+        const double m184 = m174 + m183;
+        const double r184 = mwc_units_sum(r174, r183, m184);
+        const double m185 = -m173;
+        const double m186 = m20 * m25;
+        const double m187 = m28 * m26;
+        const double m188 = m186 - m187;
+        const double m189 = m32 * m188;
+        const double m190 = m72 - m189;
+        const double m191 = m96 * m190;
+        const double m192 = m20 * m26;
+        const double m193 = m25 * m28;
+        const double m194 = m192 + m193;
+        const double m195 = m97 * m194;
+        const double m196 = m191 - m195;
+        const double m197 = s[102];
+        const double m198 = m96 * m197;
+        const double m199 = m69 * m194;
+        const double m200 = s[105];
+        const double m201 = m25 * m200;
+        const double m202 = s[108];
+        const double m203 = m26 * m202;
+        const double m204 = m201 - m203;
+        const double m205 = m32 * m204;
+        const double m206 = s[111];
+        const double m207 = m206 + m205;
+        const double m208 = m68 * m207;
+        const double m209 = m54 * m208;
+        const double m210 = m199 + m209;
+        const double m211 = s[114];
+        const double m212 = m19 * m211;
+        const double m213 = m45 * m46;
+        const double m214 = m212 + m213;
+        const double m215 = m210 + m214;
+        const double m216 = m23 * m202;
+        const double m217 = s[117];
+        const double m218 = m39 * m217;
+        const double m219 = m216 + m218;
+        const double m220 = m215 - m219;
+        const double m221 = m26 * m200;
+        const double m222 = m25 * m202;
+        const double m223 = m221 + m222;
+        const double m224 = m68 * m223;
+        const double m225 = m89 * m224;
+        const double m226 = m78 * m190;
+        const double m227 = m225 - m226;
+        const double m228 = m220 - m227;
+        const double m229 = s[120];
+        const double m230 = m77 * m229;
+        const double m231 = -1.0;
+        const double m232 = m231 / m230;
+        const double m233 = m228 * m232;
+        const double m234 = m198 * m233;
+        const double m235 = m196 + m234;
+        const double m236 = m119 - m121;
+        const double m237 = m68 * m233;
+        const double m238 = m236 * m237;
+        const double m239 = m235 + m238;
+        const double m240 = m31 * m97;
+        const double m241 = m51 + m50;
+        const double m242 = m32 * m241;
+        const double m243 = m96 * m242;
+        const double m244 = m240 - m243;
+        const double m245 = s[123];
+        const double m246 = m77 * m245;
+        const double m247 = m54 * m246;
+        const double m248 = m31 * m69;
+        const double m249 = m247 - m248;
+        const double m250 = m78 * m242;
+        const double m251 = m59 * m68;
+        const double m252 = m89 * m251;
+        const double m253 = m250 - m252;
+        const double m254 = m249 - m253;
+        const double m255 = m254 * m232;
+        const double m256 = m198 * m255;
+        const double m257 = m244 + m256;
+        const double m258 = m68 * m255;
+        const double m259 = m258 - m68;
+        const double m260 = m236 * m259;
+        const double m261 = m257 + m260;
+        const double m262 = s[126];
+        const double m263 = m179 - m262;
+        const double m264 = m96 * m194;
+        const double m265 = m97 * m190;
+        const double m266 = m264 + m265;
+        const double m267 = m97 * m197;
+        const double m268 = m267 * m233;
+        const double m269 = m266 + m268;
+        const double m270 = m98 + m116;
+        const double m271 = m270 * m237;
+        const double m272 = m269 + m271;
+        const double m273 = m267 * m255;
+        const double m274 = m31 * m96;
+        const double m275 = m97 * m242;
+        const double m276 = m274 + m275;
+        const double m277 = m273 - m276;
+        const double m278 = m270 * m259;
+        const double m279 = m277 + m278;
+        const double m280 = m87 * m188;
+        const double m281 = s[129];
+        const double m282 = m280 + m281;
+        const double m283 = s[132];
+        const double m284 = m283 * m233;
+        const double m285 = m282 + m284;
+        const double m286 = -m285;
+        const double m287 = m87 * m241;
+        const double m288 = m283 * m255;
+        const double m289 = m287 + m288;
+        const double m290 = -m289;
+        const double m291 = s[135];
+        const double m292 = m143 * m291;
+        const double m293 = m17 * m136;
+        const double m294 = m292 + m293;
+        const double m295 = m161 * m294;
+        const double m296 = m110 * m143;
+        const double m297 = m153 * m296;
+        const double m298 = s[138];
+        const double m299 = m143 * m298;
+        const double m300 = m113 * m136;
+        const double m301 = m299 - m300;
+        const double m302 = m149 * m301;
+        const double m303 = m297 + m302;
+        const double m304 = m295 + m303;
+        const double m305 = m96 * m223;
+        const double m306 = m97 * m207;
+        const double m307 = m305 - m306;
+        const double m308 = m156 * m307;
+        const double m309 = m87 * m204;
+        const double m310 = s[141];
+        const double m311 = m310 - m309;
+        const double m312 = m145 * m311;
+        const double m313 = m308 + m312;
+        const double m314 = m97 * m223;
+        const double m315 = m96 * m207;
+        const double m316 = m314 + m315;
+        const double m317 = m164 * m316;
+        const double m318 = m313 - m317;
+        const double m319 = m153 * m164;
+        const double m320 = m156 * m161;
+        const double m321 = m319 + m320;
+        const double m322 = m321 * m237;
+        const double m323 = m318 + m322;
+        const double m324 = m321 * m259;
+        const double m325 = m32 * m77;
+        const double m326 = m96 * m325;
+        const double m327 = m59 * m97;
+        const double m328 = m326 - m327;
+        const double m329 = m164 * m328;
+        const double m330 = m97 * m325;
+        const double m331 = m59 * m96;
+        const double m332 = m330 + m331;
+        const double m333 = m156 * m332;
+        const double m334 = m77 * m87;
+        const double m335 = m145 * m334;
+        const double m336 = m333 + m335;
+        const double m337 = m329 + m336;
+        const double m338 = m324 - m337;
+        const double m339 = m17 * m168;
+        const double m340 = m102 * m291;
+        const double m341 = m339 - m340;
+        const double m342 = m161 * m341;
+        const double m343 = m118 * m153;
+        const double m344 = m113 * m168;
+        const double m345 = m102 * m298;
+        const double m346 = m344 + m345;
+        const double m347 = m149 * m346;
+        const double m348 = m343 + m347;
+        const double m349 = m342 - m348;
+        const double m350 = m181 * m307;
+        const double m351 = m177 * m311;
+        const double m352 = m350 + m351;
+        const double m353 = m173 * m316;
+        const double m354 = m352 + m353;
+        const double m355 = m161 * m181;
+        const double m356 = m153 * m173;
+        const double m357 = m355 - m356;
+        const double m358 = m357 * m237;
+        const double m359 = m354 + m358;
+        const double m360 = m173 * m328;
+        const double m361 = m181 * m332;
+        const double m362 = m177 * m334;
+        const double m363 = m361 + m362;
+        const double m364 = m360 - m363;
+        const double m365 = m357 * m259;
+        const double m366 = m364 + m365;
+        const double m367 = 0.0;
+        G[0 * MW_LANES + l] = mwc_abs(m77);
+        G[1 * MW_LANES + l] = -mwc_abs(m82);
+        G[2 * MW_LANES + l] = -mwc_abs(m84);
+        G[3 * MW_LANES + l] = mwc_abs(m230);
+        G[4 * MW_LANES + l] = -mwc_abs(m231);
+        G[5 * MW_LANES + l] = -mwc_abs(m228);
+        G[6 * MW_LANES + l] = -mwc_abs(m254);
+        MWC_KEEP_AT(R, rows[0], m117, r117);
+        J[(rows[0] * 5 + 0) * MW_LANES + l] = m164;
+        J[(rows[0] * 5 + 1) * MW_LANES + l] = m185;
+        J[(rows[0] * 5 + 2) * MW_LANES + l] = m239;
+        J[(rows[0] * 5 + 3) * MW_LANES + l] = m261;
+        J[(rows[0] * 5 + 4) * MW_LANES + l] = m236;
+        MWC_KEEP_AT(R, rows[1], m124, r124);
+        J[(rows[1] * 5 + 0) * MW_LANES + l] = m156;
+        J[(rows[1] * 5 + 1) * MW_LANES + l] = m263;
+        J[(rows[1] * 5 + 2) * MW_LANES + l] = m272;
+        J[(rows[1] * 5 + 3) * MW_LANES + l] = m279;
+        J[(rows[1] * 5 + 4) * MW_LANES + l] = m270;
+        MWC_KEEP_AT(R, rows[2], m133, r133);
+        J[(rows[2] * 5 + 0) * MW_LANES + l] = m145;
+        J[(rows[2] * 5 + 1) * MW_LANES + l] = m177;
+        J[(rows[2] * 5 + 2) * MW_LANES + l] = m286;
+        J[(rows[2] * 5 + 3) * MW_LANES + l] = m290;
+        J[(rows[2] * 5 + 4) * MW_LANES + l] = m367;
+        MWC_KEEP_AT(R, rows[3], m166, r166);
+        J[(rows[3] * 5 + 0) * MW_LANES + l] = m367;
+        J[(rows[3] * 5 + 1) * MW_LANES + l] = m304;
+        J[(rows[3] * 5 + 2) * MW_LANES + l] = m323;
+        J[(rows[3] * 5 + 3) * MW_LANES + l] = m338;
+        J[(rows[3] * 5 + 4) * MW_LANES + l] = m321;
+        MWC_KEEP_AT(R, rows[4], m184, r184);
+        J[(rows[4] * 5 + 0) * MW_LANES + l] = m304;
+        J[(rows[4] * 5 + 1) * MW_LANES + l] = m349;
+        J[(rows[4] * 5 + 2) * MW_LANES + l] = m359;
+        J[(rows[4] * 5 + 3) * MW_LANES + l] = m366;
+        J[(rows[4] * 5 + 4) * MW_LANES + l] = m357;
+    }
 }
 
 #ifdef MW_LANES_ALONE

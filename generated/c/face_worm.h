@@ -46,7 +46,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -198,7 +198,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -208,7 +208,7 @@ typedef struct mw_contact {
 #define face_worm_NO 62
 #define face_worm_ND 6
 #define face_worm_NSTART 1
-#define face_worm_ABI 4
+#define face_worm_ABI 5
 #define face_worm_SPEC_HASH "d1f643fedb7c351527d8a653e78b8c5fcbff41a9d30f800ad2b6a80a6a03dbc0"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

@@ -41,7 +41,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 4
+#define MW_MODEL_ABI 5
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -193,7 +193,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 4
+#if MW_MODEL_ABI != 5
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -203,7 +203,7 @@ typedef struct mw_contact {
 #define spherical_convex_concave_NO 63
 #define spherical_convex_concave_ND 16
 #define spherical_convex_concave_NSTART 0
-#define spherical_convex_concave_ABI 4
+#define spherical_convex_concave_ABI 5
 #define spherical_convex_concave_SPEC_HASH "9d1fce2ea180bacda2bc30d425a8bd2a9e3f683df4f679c0834f5a18864d6d09"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in

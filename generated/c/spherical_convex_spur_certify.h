@@ -374,6 +374,68 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 }
 #endif
 
+#ifndef MWC_UNITS_H
+#define MWC_UNITS_H
+static const double MWC_UNITS = 9007199254740992.0, MWC_UNITS_TINY = 2.2250738585072014e-308;
+static const double MWC_UNITS_READ = 1.1102230246261663e-16;
+MWI_INLINE double mwc_units_sum(double ra, double rb, double m)
+{
+    return (ra + rb) + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_rounded(double m)
+{
+    return mwc_abs(m) + MWC_UNITS_TINY;
+}
+MWI_INLINE double mwc_units_share(double a, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_scaled(double a, double ra, double most, double rb, double m)
+{
+    return MWC_FMA(mwc_abs(a), rb, MWC_FMA(ra, most, mwc_units_rounded(m)));
+}
+MWI_INLINE double mwc_units_product(double a, double ra, double b, double rb, double m)
+{
+    return mwc_units_scaled(a, ra, MWC_FMA(MWC_UNITS_READ, rb, mwc_abs(b)), rb, m);
+}
+MWI_INLINE double mwc_units_square(double a, double ra, double m)
+{
+    return MWC_FMA(ra, 2.0 * mwc_abs(a) + MWC_UNITS_READ * ra, mwc_units_rounded(m));
+}
+MWI_INLINE double mwc_units_quotient(double ra, double b, double rb, double m)
+{
+    const double least = mwc_abs(b) - MWC_UNITS_READ * rb;
+    const double spread = (mwc_abs(m) * (1.0 + 4.0 * MWC_U) * rb + ra) / (least * (1.0 - 8.0 * MWC_U));
+    return least > 0.0 ? spread + mwc_units_rounded(m) : HUGE_VAL;
+}
+MWI_INLINE double mwc_units_root(double ra, double m)
+{
+    return ra * (1.0 + 8.0 * MWC_U) / m + mwc_abs(m);
+}
+MWI_INLINE double mwc_units_turned(double ra, double slope, double size)
+{
+    const double bend = 0.5 * MWC_UNITS_READ * ra;
+    return MWC_FMA(ra, (mwc_abs(slope) + MWC_SINE) + bend, 2.0 * size + MWC_UNITS_TINY);
+}
+MWI_INLINE double mwc_units_size(double a, double sine)
+{
+    return mwc_abs(a) < 0.78 ? mwc_abs(sine) : 1.0;
+}
+MWI_INLINE mw_ball mwc_units_ball(double m, double r)
+{
+    return mwc_make(m, MWC_FMA(MWC_U, r, MWC_TINY));
+}
+MWI_INLINE double mwc_units_sign(double a)
+{
+    return a < 0.0 ? -1.0 : a >= 0.0 ? 1.0 : a;
+}
+MWI_INLINE double mwc_uncut(double y, double x)
+{
+    const double off = mwc_abs(y);
+    return x > off ? x : off;
+}
+#endif
+
 #ifndef MWC_LANE_H
 #define MWC_LANE_H
 #define MWC_JOINED2(name, width) name##width
@@ -386,7 +448,8 @@ static inline mw_wide mwc_wide_sign(mw_wide a)
 #endif
 #define MWC_OWN(a, k) mwc_make((a)[2 * (k) * MW_LANES + l], (a)[(2 * (k) + 1) * MW_LANES + l])
 #define MWC_SHARED(a, k) mwc_make((a)[2 * (k)], (a)[2 * (k) + 1])
-#define MWC_KEEP(a, k, ball) ((a)[2 * (k) * MW_LANES + l] = (ball).mid, (a)[(2 * (k) + 1) * MW_LANES + l] = (ball).radius)
+#define MWC_KEEP_AT(a, k, m, r) ((a)[2 * (k) * MW_LANES + l] = (m), (a)[(2 * (k) + 1) * MW_LANES + l] = (r))
+#define MWC_KEEP(a, k, ball) MWC_KEEP_AT(a, k, (ball).mid, (ball).radius)
 enum { MWC_MAX = 8 };
 static const double MWC_FIRST_BOX = 5.9604644775390625e-8, MWC_WIDEST_BOX = 0.25;
 enum { MWC_SHAPING_STEPS = 30 };
@@ -991,6 +1054,517 @@ static inline void MWC_LANE_NAME(spherical_convex_spur_enclose)(const double *s,
         MWC_KEEP(J, 23, b286);
         MWC_KEEP(J, 24, b285);
 }
+}
+
+/* See mw_enclosing. */
+static inline void MWC_LANE_NAME(spherical_convex_spur_enclose_point)(const double *s, const double *t, const double *x, const int *rows, double *R, double *J, double *G)
+{
+    (void)G;
+    MWC_EACH {
+        const double m0 = x[2 * MW_LANES + l];
+        const double m1 = s[0];
+        const double r1 = s[1];
+        const double m2 = m0 * m1;
+        const double r2 = mwc_units_share(m0, r1, m2);
+        const double m3 = s[3];
+        const double r3 = s[4];
+        const double m4 = m2 + m3;
+        const double r4 = mwc_units_sum(r2, r3, m4);
+        const double m5 = x[4 * MW_LANES + l];
+        const double m6 = (MWC_OWN(t, 0)).mid;
+        const double r6 = MWC_UNITS * (MWC_OWN(t, 0)).radius;
+        const double m7 = m5 + m6;
+        const double r7 = r6 + mwc_abs(m7);
+        const double m8 = s[6];
+        const double r8 = s[7];
+        const double m9 = m8 * m4;
+        const double r9 = mwc_units_scaled(m4, r4, s[8], r8, m9);
+        const double m10 = s[9];
+        const double r10 = s[10];
+        const double m11 = m9 + m10;
+        const double r11 = mwc_units_sum(r9, r10, m11);
+        const double m12 = s[12];
+        const double r12 = s[13];
+        const double m13 = m0 * m12;
+        const double r13 = mwc_units_share(m0, r12, m13);
+        const double m14 = s[15];
+        const double r14 = s[16];
+        const double m15 = m14 - m13;
+        const double r15 = mwc_units_sum(r14, r13, m15);
+        const double m16 = s[18];
+        const double r16 = s[19];
+        const double m17 = m16 * m15;
+        const double r17 = mwc_units_scaled(m15, r15, s[20], r16, m17);
+        const double m18 = m11 - m17;
+        const double r18 = mwc_units_sum(r11, r17, m18);
+        const double m19 = s[21];
+        const double r19 = s[22];
+        const double m20 = m18 * m19;
+        const double r20 = mwc_units_scaled(m18, r18, s[23], r19, m20);
+        const double m21 = m7 - m20;
+        const double r21 = mwc_units_sum(r7, r20, m21);
+        const mwc_turn turn_m21 = mwc_turned(mwc_make(m21, 0.0));
+        const double m22 = turn_m21.sine.mid;
+        const double r22 = mwc_units_turned(r21, turn_m21.cosine.mid, mwc_units_size(m21, turn_m21.sine.mid));
+        const double m23 = turn_m21.cosine.mid;
+        const double r23 = mwc_units_turned(r21, turn_m21.sine.mid, 1.0);
+        const double m24 = m4 * m23;
+        const double r24 = mwc_units_product(m4, r4, m23, r23, m24);
+        const double m25 = s[24];
+        const double r25 = s[25];
+        const double m26 = m25 * m15;
+        const double r26 = mwc_units_scaled(m15, r15, s[26], r25, m26);
+        const double m27 = s[27];
+        const double r27 = s[28];
+        const double m28 = m18 * m27;
+        const double r28 = mwc_units_scaled(m18, r18, s[29], r27, m28);
+        const double m29 = m26 + m28;
+        const double r29 = mwc_units_sum(r26, r28, m29);
+        const double m30 = m29 * m22;
+        const double r30 = mwc_units_product(m29, r29, m22, r22, m30);
+        const double m31 = x[1 * MW_LANES + l];
+        const double m32 = 0.5;
+        const double m33 = m31 * m32;
+        const double r33 = mwc_units_rounded(m33);
+        const mwc_turn turn_m33 = mwc_turned(mwc_make(m33, 0.0));
+        const double m34 = turn_m33.sine.mid;
+        const double r34 = mwc_units_turned(r33, turn_m33.cosine.mid, mwc_units_size(m33, turn_m33.sine.mid));
+        const double m35 = turn_m33.cosine.mid;
+        const double r35 = mwc_units_turned(r33, turn_m33.sine.mid, 1.0);
+        const double m36 = m34 * m34;
+        const double r36 = mwc_units_square(m34, r34, m36);
+        const double m37 = s[30];
+        const double r37 = s[31];
+        const double m38 = m36 * m37;
+        const double r38 = mwc_units_scaled(m36, r36, s[32], r37, m38);
+        const double m39 = x[0 * MW_LANES + l];
+        const double m40 = m39 * m1;
+        const double r40 = mwc_units_share(m39, r1, m40);
+        const double m41 = s[33];
+        const double r41 = s[34];
+        const double m42 = m40 - m41;
+        const double r42 = mwc_units_sum(r40, r41, m42);
+        const mwc_turn turn_m31 = mwc_turned(mwc_make(m31, 0.0));
+        const double m43 = turn_m31.sine.mid;
+        const double r43 = mwc_units_turned(0.0, turn_m31.cosine.mid, mwc_units_size(m31, turn_m31.sine.mid));
+        const double m44 = turn_m31.cosine.mid;
+        const double r44 = mwc_units_turned(0.0, turn_m31.sine.mid, 1.0);
+        const double m45 = m42 * m44;
+        const double r45 = mwc_units_product(m42, r42, m44, r44, m45);
+        const double m46 = s[36];
+        const double r46 = s[37];
+        const double m47 = m45 + m46;
+        const double r47 = mwc_units_sum(r45, r46, m47);
+        const double m48 = m38 + m47;
+        const double r48 = mwc_units_sum(r38, r47, m48);
+        const double m49 = m48 * m8;
+        const double r49 = mwc_units_scaled(m48, r48, s[8], r8, m49);
+        const double m50 = s[39];
+        const double r50 = s[40];
+        const double m51 = m49 + m50;
+        const double r51 = mwc_units_sum(r49, r50, m51);
+        const double m52 = m39 * m12;
+        const double r52 = mwc_units_share(m39, r12, m52);
+        const double m53 = s[42];
+        const double r53 = s[43];
+        const double m54 = m53 - m52;
+        const double r54 = mwc_units_sum(r53, r52, m54);
+        const double m55 = m44 * m16;
+        const double r55 = mwc_units_scaled(m44, r44, s[20], r16, m55);
+        const double m56 = m54 * m55;
+        const double r56 = mwc_units_product(m55, r55, m54, r54, m56);
+        const double m57 = m51 - m56;
+        const double r57 = mwc_units_sum(r51, r56, m57);
+        const double m58 = s[45];
+        const double r58 = s[46];
+        const double m59 = m57 * m58;
+        const double r59 = mwc_units_scaled(m57, r57, s[47], r58, m59);
+        const double m60 = m59 / m44;
+        const double r60 = mwc_units_quotient(r59, m44, r44, m60);
+        const double m61 = (MWC_OWN(t, 1)).mid;
+        const double r61 = MWC_UNITS * (MWC_OWN(t, 1)).radius;
+        const double m62 = m60 + m61;
+        const double r62 = mwc_units_sum(r60, r61, m62);
+        const mwc_turn turn_m62 = mwc_turned(mwc_make(m62, 0.0));
+        const double m63 = turn_m62.sine.mid;
+        const double r63 = mwc_units_turned(r62, turn_m62.cosine.mid, mwc_units_size(m62, turn_m62.sine.mid));
+        const double m64 = turn_m62.cosine.mid;
+        const double r64 = mwc_units_turned(r62, turn_m62.sine.mid, 1.0);
+        const double m65 = m48 * m64;
+        const double r65 = mwc_units_product(m48, r48, m64, r64, m65);
+        const double m66 = m25 * m54;
+        const double r66 = mwc_units_scaled(m54, r54, s[26], r25, m66);
+        const double m67 = s[48];
+        const double r67 = s[49];
+        const double m68 = m60 * m67;
+        const double r68 = mwc_units_scaled(m60, r60, s[50], r67, m68);
+        const double m69 = m66 + m68;
+        const double r69 = mwc_units_sum(r66, r68, m69);
+        const double m70 = m69 * m63;
+        const double r70 = mwc_units_product(m69, r69, m63, r63, m70);
+        const double m71 = m65 - m70;
+        const double r71 = mwc_units_sum(r65, r70, m71);
+        const double m72 = s[51];
+        const double r72 = s[52];
+        const double m73 = m71 * m72;
+        const double r73 = mwc_units_scaled(m71, r71, s[53], r72, m73);
+        const double m74 = m42 * m43;
+        const double r74 = mwc_units_product(m42, r42, m43, r43, m74);
+        const double m75 = s[54];
+        const double r75 = s[55];
+        const double m76 = m35 * m75;
+        const double r76 = mwc_units_scaled(m35, r35, s[56], r75, m76);
+        const double m77 = m34 * m76;
+        const double r77 = mwc_units_product(m76, r76, m34, r34, m77);
+        const double m78 = m74 + m77;
+        const double r78 = mwc_units_sum(r74, r77, m78);
+        const double m79 = s[57];
+        const double r79 = s[58];
+        const double m80 = m78 * m79;
+        const double r80 = mwc_units_scaled(m78, r78, s[59], r79, m80);
+        const double m81 = s[60];
+        const double r81 = s[61];
+        const double m82 = m80 + m81;
+        const double r82 = mwc_units_sum(r80, r81, m82);
+        const double m83 = m73 + m82;
+        const double r83 = mwc_units_sum(r73, r82, m83);
+        const double m84 = m30 + m83;
+        const double r84 = mwc_units_sum(r30, r83, m84);
+        const double m85 = m24 + m84;
+        const double r85 = mwc_units_sum(r24, r84, m85);
+        const double m86 = m64 * m69;
+        const double r86 = mwc_units_product(m69, r69, m64, r64, m86);
+        const double m87 = m48 * m63;
+        const double r87 = mwc_units_product(m48, r48, m63, r63, m87);
+        const double m88 = m86 + m87;
+        const double r88 = mwc_units_sum(r86, r87, m88);
+        const double m89 = s[63];
+        const double r89 = s[64];
+        const double m90 = m88 * m89;
+        const double r90 = mwc_units_scaled(m88, r88, s[65], r89, m90);
+        const double m91 = m29 * m23;
+        const double r91 = mwc_units_product(m29, r29, m23, r23, m91);
+        const double m92 = m90 + m91;
+        const double r92 = mwc_units_sum(r90, r91, m92);
+        const double m93 = m78 * m72;
+        const double r93 = mwc_units_scaled(m78, r78, s[53], r72, m93);
+        const double m94 = m79 * m71;
+        const double r94 = mwc_units_scaled(m71, r71, s[59], r79, m94);
+        const double m95 = m93 - m94;
+        const double r95 = mwc_units_sum(r93, r94, m95);
+        const double m96 = s[66];
+        const double r96 = s[67];
+        const double m97 = m95 * m96;
+        const double r97 = mwc_units_scaled(m95, r95, s[68], r96, m97);
+        const double m98 = m92 - m97;
+        const double r98 = mwc_units_sum(r92, r97, m98);
+        const double m99 = m4 * m22;
+        const double r99 = mwc_units_product(m4, r4, m22, r22, m99);
+        const double m100 = m98 - m99;
+        const double r100 = mwc_units_sum(r98, r99, m100);
+        const double m101 = m88 * m96;
+        const double r101 = mwc_units_scaled(m88, r88, s[68], r96, m101);
+        const double m102 = m89 * m95;
+        const double r102 = mwc_units_scaled(m95, r95, s[65], r89, m102);
+        const double m103 = x[3 * MW_LANES + l];
+        const double m104 = m102 - m103;
+        const double r104 = r102 + mwc_abs(m104);
+        const double m105 = m101 + m104;
+        const double r105 = mwc_units_sum(r101, r104, m105);
+        const double m106 = m1 * m44;
+        const double r106 = mwc_units_scaled(m44, r44, s[2], r1, m106);
+        const double m107 = m63 * m106;
+        const double r107 = mwc_units_product(m106, r106, m63, r63, m107);
+        const double m108 = s[69];
+        const double r108 = s[70];
+        const double m109 = m64 * m108;
+        const double r109 = mwc_units_scaled(m64, r64, s[71], r108, m109);
+        const double m110 = m107 - m109;
+        const double r110 = mwc_units_sum(r107, r109, m110);
+        const double m111 = m89 * m110;
+        const double r111 = mwc_units_scaled(m110, r110, s[65], r89, m111);
+        const double m112 = s[72];
+        const double r112 = s[73];
+        const double m113 = m43 * m112;
+        const double r113 = mwc_units_scaled(m43, r43, s[74], r112, m113);
+        const double m114 = m63 * m108;
+        const double r114 = mwc_units_scaled(m63, r63, s[71], r108, m114);
+        const double m115 = m64 * m106;
+        const double r115 = mwc_units_product(m106, r106, m64, r64, m115);
+        const double m116 = m114 + m115;
+        const double r116 = mwc_units_sum(r114, r115, m116);
+        const double m117 = m79 * m116;
+        const double r117 = mwc_units_scaled(m116, r116, s[59], r79, m117);
+        const double m118 = m113 - m117;
+        const double r118 = mwc_units_sum(r113, r117, m118);
+        const double m119 = m96 * m118;
+        const double r119 = mwc_units_scaled(m118, r118, s[68], r96, m119);
+        const double m120 = m111 - m119;
+        const double r120 = mwc_units_sum(r111, r119, m120);
+        const double m121 = s[75];
+        const double r121 = s[76];
+        const double m122 = m22 * m121;
+        const double r122 = mwc_units_scaled(m22, r22, s[77], r121, m122);
+        const double m123 = m8 * m23;
+        const double r123 = mwc_units_scaled(m23, r23, s[8], r8, m123);
+        const double m124 = m122 - m123;
+        const double r124 = mwc_units_sum(r122, r123, m124);
+        const double m125 = m120 * m124;
+        const double r125 = mwc_units_product(m120, r120, m124, r124, m125);
+        const double m126 = m72 * m116;
+        const double r126 = mwc_units_scaled(m116, r116, s[53], r72, m126);
+        const double m127 = s[78];
+        const double r127 = s[79];
+        const double m128 = m43 * m127;
+        const double r128 = mwc_units_scaled(m43, r43, s[80], r127, m128);
+        const double m129 = m126 + m128;
+        const double r129 = mwc_units_sum(r126, r128, m129);
+        const double m130 = m23 * m121;
+        const double r130 = mwc_units_scaled(m23, r23, s[77], r121, m130);
+        const double m131 = m8 * m22;
+        const double r131 = mwc_units_scaled(m22, r22, s[8], r8, m131);
+        const double m132 = m130 + m131;
+        const double r132 = mwc_units_sum(r130, r131, m132);
+        const double m133 = m129 * m132;
+        const double r133 = mwc_units_product(m129, r129, m132, r132, m133);
+        const double m134 = m125 - m133;
+        const double r134 = mwc_units_sum(r125, r133, m134);
+        const double m135 = m79 * m44;
+        const double r135 = mwc_units_scaled(m44, r44, s[59], r79, m135);
+        const double m136 = m43 * m72;
+        const double r136 = mwc_units_scaled(m43, r43, s[53], r72, m136);
+        const double m137 = m64 * m136;
+        const double r137 = mwc_units_product(m136, r136, m64, r64, m137);
+        const double m138 = m135 - m137;
+        const double r138 = mwc_units_sum(r135, r137, m138);
+        const double m139 = m132 * m138;
+        const double r139 = mwc_units_product(m138, r138, m132, r132, m139);
+        const double m140 = m44 * m72;
+        const double r140 = mwc_units_scaled(m44, r44, s[53], r72, m140);
+        const double m141 = m43 * m79;
+        const double r141 = mwc_units_scaled(m43, r43, s[59], r79, m141);
+        const double m142 = m64 * m141;
+        const double r142 = mwc_units_product(m141, r141, m64, r64, m142);
+        const double m143 = m140 + m142;
+        const double r143 = mwc_units_sum(r140, r142, m143);
+        const double m144 = m96 * m143;
+        const double r144 = mwc_units_scaled(m143, r143, s[68], r96, m144);
+        const double m145 = m43 * m89;
+        const double r145 = mwc_units_scaled(m43, r43, s[65], r89, m145);
+        const double m146 = m63 * m145;
+        const double r146 = mwc_units_product(m145, r145, m63, r63, m146);
+        const double m147 = m144 + m146;
+        const double r147 = mwc_units_sum(r144, r146, m147);
+        const double m148 = m124 * m147;
+        const double r148 = mwc_units_product(m147, r147, m124, r124, m148);
+        const double m149 = m139 + m148;
+        const double r149 = mwc_units_sum(r139, r148, m149);
+        const double m150 = -m149;
+        const double r150 = r149;
+        const double m151 = s[81];
+        const double m152 = m63 * m151;
+        const double m153 = s[84];
+        const double m154 = m44 * m153;
+        const double m155 = s[87];
+        const double m156 = m44 * m155;
+        const double m157 = m154 + m156;
+        const double m158 = s[90];
+        const double m159 = m44 * m158;
+        const double m160 = -1.0;
+        const double m161 = m160 / m159;
+        const double m162 = m157 * m161;
+        const double m163 = m152 * m162;
+        const double m164 = m129 + m163;
+        const double m165 = m72 * m88;
+        const double m166 = m165 * m162;
+        const double m167 = m164 + m166;
+        const double m168 = m32 * m35;
+        const double m169 = m76 * m168;
+        const double m170 = s[93];
+        const double m171 = m170 * m34;
+        const double m172 = m34 * m171;
+        const double m173 = m169 - m172;
+        const double m174 = m45 + m173;
+        const double m175 = m79 * m174;
+        const double m176 = m34 * m168;
+        const double m177 = m176 + m176;
+        const double m178 = m37 * m177;
+        const double m179 = m178 - m74;
+        const double m180 = m64 * m179;
+        const double m181 = m72 * m180;
+        const double m182 = m175 + m181;
+        const double m183 = m46 * m60;
+        const double m184 = m183 - m66;
+        const double m185 = m43 * m121;
+        const double m186 = m184 * m185;
+        const double m187 = m8 * m179;
+        const double m188 = m186 - m187;
+        const double m189 = m188 * m161;
+        const double m190 = m152 * m189;
+        const double m191 = m182 - m190;
+        const double m192 = m165 * m189;
+        const double m193 = m191 - m192;
+        const double m194 = s[96];
+        const double m195 = m22 * m194;
+        const double m196 = m1 * m23;
+        const double m197 = m195 + m196;
+        const double m198 = m91 - m99;
+        const double m199 = s[99];
+        const double m200 = m198 * m199;
+        const double m201 = m197 - m200;
+        const double m202 = s[102];
+        const double m203 = m64 * m202;
+        const double m204 = s[105];
+        const double m205 = m63 * m204;
+        const double m206 = m203 - m205;
+        const double m207 = m206 * m162;
+        const double m208 = m120 - m207;
+        const double m209 = m71 * m89;
+        const double m210 = s[108];
+        const double m211 = m88 * m210;
+        const double m212 = m209 - m211;
+        const double m213 = m212 * m162;
+        const double m214 = m208 - m213;
+        const double m215 = m63 * m179;
+        const double m216 = m89 * m215;
+        const double m217 = m72 * m174;
+        const double m218 = m79 * m180;
+        const double m219 = m217 - m218;
+        const double m220 = m96 * m219;
+        const double m221 = m216 - m220;
+        const double m222 = m206 * m189;
+        const double m223 = m221 + m222;
+        const double m224 = m212 * m189;
+        const double m225 = m223 + m224;
+        const double m226 = m23 * m194;
+        const double m227 = m1 * m22;
+        const double m228 = m226 - m227;
+        const double m229 = m30 + m24;
+        const double m230 = m229 * m199;
+        const double m231 = m228 + m230;
+        const double m232 = -m229;
+        const double m233 = m89 * m118;
+        const double m234 = m96 * m110;
+        const double m235 = m233 + m234;
+        const double m236 = s[111];
+        const double m237 = m63 * m236;
+        const double m238 = s[114];
+        const double m239 = m64 * m238;
+        const double m240 = m237 + m239;
+        const double m241 = m240 * m162;
+        const double m242 = m235 - m241;
+        const double m243 = s[117];
+        const double m244 = m88 * m243;
+        const double m245 = m71 * m96;
+        const double m246 = m244 + m245;
+        const double m247 = m246 * m162;
+        const double m248 = m242 - m247;
+        const double m249 = m89 * m219;
+        const double m250 = m96 * m215;
+        const double m251 = m249 + m250;
+        const double m252 = m240 * m189;
+        const double m253 = m251 + m252;
+        const double m254 = m246 * m189;
+        const double m255 = m253 + m254;
+        const double m256 = m72 * m110;
+        const double m257 = m132 * m256;
+        const double m258 = m89 * m116;
+        const double m259 = m110 * m210;
+        const double m260 = m258 - m259;
+        const double m261 = m124 * m260;
+        const double m262 = m257 + m261;
+        const double m263 = m262 * m162;
+        const double m264 = -m263;
+        const double m265 = m262 * m189;
+        const double m266 = m44 * m127;
+        const double m267 = m1 * m43;
+        const double m268 = m64 * m267;
+        const double m269 = m72 * m268;
+        const double m270 = m266 - m269;
+        const double m271 = m132 * m270;
+        const double m272 = m79 * m268;
+        const double m273 = m44 * m112;
+        const double m274 = m272 + m273;
+        const double m275 = m96 * m274;
+        const double m276 = m63 * m267;
+        const double m277 = m89 * m276;
+        const double m278 = m275 + m277;
+        const double m279 = m124 * m278;
+        const double m280 = m271 + m279;
+        const double m281 = m265 - m280;
+        const double m282 = m129 * m124;
+        const double m283 = m132 * m120;
+        const double m284 = m282 + m283;
+        const double m285 = m284 * m199;
+        const double m286 = -m285;
+        const double m287 = m64 * m145;
+        const double m288 = m63 * m141;
+        const double m289 = m96 * m288;
+        const double m290 = m287 - m289;
+        const double m291 = m124 * m290;
+        const double m292 = m63 * m136;
+        const double m293 = m132 * m292;
+        const double m294 = m291 + m293;
+        const double m295 = m294 * m162;
+        const double m296 = m44 * m89;
+        const double m297 = m63 * m296;
+        const double m298 = m64 * m135;
+        const double m299 = m298 - m136;
+        const double m300 = m96 * m299;
+        const double m301 = m297 + m300;
+        const double m302 = m124 * m301;
+        const double m303 = m64 * m140;
+        const double m304 = m141 + m303;
+        const double m305 = m132 * m304;
+        const double m306 = m302 - m305;
+        const double m307 = m294 * m189;
+        const double m308 = m306 + m307;
+        const double m309 = -m308;
+        const double m310 = m132 * m147;
+        const double m311 = m124 * m138;
+        const double m312 = m310 - m311;
+        const double m313 = m312 * m199;
+        const double m314 = -m312;
+        const double m315 = 0.0;
+        G[0 * MW_LANES + l] = mwc_abs(m44);
+        G[1 * MW_LANES + l] = -mwc_abs(m59);
+        G[2 * MW_LANES + l] = -mwc_abs(m67);
+        G[3 * MW_LANES + l] = mwc_abs(m159);
+        G[4 * MW_LANES + l] = -mwc_abs(m160);
+        G[5 * MW_LANES + l] = -mwc_abs(m157);
+        G[6 * MW_LANES + l] = -mwc_abs(m46);
+        G[7 * MW_LANES + l] = -mwc_abs(m188);
+        MWC_KEEP_AT(R, rows[0], m85, r85);
+        J[(rows[0] * 5 + 0) * MW_LANES + l] = m167;
+        J[(rows[0] * 5 + 1) * MW_LANES + l] = m193;
+        J[(rows[0] * 5 + 2) * MW_LANES + l] = m201;
+        J[(rows[0] * 5 + 3) * MW_LANES + l] = m315;
+        J[(rows[0] * 5 + 4) * MW_LANES + l] = m198;
+        MWC_KEEP_AT(R, rows[1], m100, r100);
+        J[(rows[1] * 5 + 0) * MW_LANES + l] = m214;
+        J[(rows[1] * 5 + 1) * MW_LANES + l] = m225;
+        J[(rows[1] * 5 + 2) * MW_LANES + l] = m231;
+        J[(rows[1] * 5 + 3) * MW_LANES + l] = m315;
+        J[(rows[1] * 5 + 4) * MW_LANES + l] = m232;
+        MWC_KEEP_AT(R, rows[2], m105, r105);
+        J[(rows[2] * 5 + 0) * MW_LANES + l] = m248;
+        J[(rows[2] * 5 + 1) * MW_LANES + l] = m255;
+        J[(rows[2] * 5 + 2) * MW_LANES + l] = m315;
+        J[(rows[2] * 5 + 3) * MW_LANES + l] = m160;
+        J[(rows[2] * 5 + 4) * MW_LANES + l] = m315;
+        MWC_KEEP_AT(R, rows[3], m134, r134);
+        J[(rows[3] * 5 + 0) * MW_LANES + l] = m264;
+        J[(rows[3] * 5 + 1) * MW_LANES + l] = m281;
+        J[(rows[3] * 5 + 2) * MW_LANES + l] = m286;
+        J[(rows[3] * 5 + 3) * MW_LANES + l] = m315;
+        J[(rows[3] * 5 + 4) * MW_LANES + l] = m284;
+        MWC_KEEP_AT(R, rows[4], m150, r150);
+        J[(rows[4] * 5 + 0) * MW_LANES + l] = m295;
+        J[(rows[4] * 5 + 1) * MW_LANES + l] = m309;
+        J[(rows[4] * 5 + 2) * MW_LANES + l] = m313;
+        J[(rows[4] * 5 + 3) * MW_LANES + l] = m315;
+        J[(rows[4] * 5 + 4) * MW_LANES + l] = m314;
+    }
 }
 
 #ifdef MW_LANES_ALONE

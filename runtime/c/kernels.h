@@ -43,10 +43,14 @@ typedef struct mw_bounded {
 
 /* A drive's equations of contact with error bounds at one point or as many as there are lanes: of s, balls of the design that
  * all lanes share, t, their own balls of the angle, x[nx] and half-widths d[nx] of a box that all lanes share: R, residual at
- * x, nx balls, and J, Jacobian over the box, nx * nx balls. instant: t from balls phi. See the generated headers of proofs. */
+ * x, nx balls, and J, Jacobian over the box, nx * nx balls. instant: t from balls phi. at_point, of each number of s three
+ * doubles, middle, radius in units of 2^-53, largest size: R at x, the radii in the same units, the middles of J, and G, what
+ * certify/domain.h looks at; equation i goes to row
+ * rows[i] of both, the column of the unknown that is the drive's error comes last. See the generated headers of proofs. */
 typedef struct mw_enclosing {
     void (*instant)(const double *s, const double *phi, double *t);
     void (*linearise)(const double *s, const double *t, const double *x, const double *d, double *R, double *J);
+    void (*at_point)(const double *s, const double *t, const double *x, const int *rows, double *R, double *J, double *G);
 } mw_enclosing;
 
 /* A drive's kernels for one instruction set; number k of lane l is at [k * lanes + l]. See the generated lane headers. */

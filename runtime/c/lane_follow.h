@@ -176,4 +176,7 @@ static void follow(const mw_lane_model *k, const mw_model *m, double *s, const d
 
 #define MW_JOIN2(name, suffix) name##suffix
 #define MW_JOIN(name, suffix) MW_JOIN2(name, suffix)
-const mw_lane_set MW_JOIN(mw, MW_LANE_SET) = { MW_LANE_SET_NAME, MW_LANE_SET_NUMBER, MW_LANES / 2, MW_LANES, follow, lane_certify };
+const mw_lane_set MW_JOIN(mw, MW_LANE_SET) = {
+    MW_LANE_SET_NAME, MW_LANE_SET_NUMBER, MW_LANES / 2, MW_LANES, follow, MWC_LANE_NAME(mwc_look),
+    MWC_LANE_NAME(mwc_decide)
+};

@@ -262,3 +262,19 @@ def test_what_tables_prove_has_the_bits_of_what_printed_code_proves(name):
     tables = certificates_and_bounds(drive, drive.model, ffi.NULL, solutions)
     assert certificates_and_bounds(drive, joined, printed, solutions) == tables
     assert library().mw_joined(Drive.load("plain-za").model, ffi.NULL, printed, room) == ffi.NULL
+
+
+@pytest.mark.parametrize("width", [1, 0])
+def test_points_in_any_order_are_shown_beside_some_that_are_none(width):
+    """Points that share bounds may be anywhere; what is no solution, or no number, is never shown to be one."""
+    drive, rng = Drive.load("recess-action-full"), np.random.default_rng(5)
+    angles = drive.design.reference_angle + rng.permutation(np.linspace(-0.5, 0.5, 600)) * drive.pitch()
+    solutions = drive.trace(np.sort(angles))[0][np.argsort(np.argsort(angles))]
+    narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
+    solutions[7], solutions[300, 2], solutions[550, drive.design.description["error"]] = np.nan, np.inf, 0.5
+    unique, bounds = certify_many(drive, angles, solutions, width)
+    none = [7, 300, 550]
+    assert not unique[none].any() and np.delete(unique, none).all()
+    for k in np.flatnonzero(unique):
+        low, high = narrow.error(k)
+        assert Fraction(bounds[k, 0]) <= low and high <= Fraction(bounds[k, 1])

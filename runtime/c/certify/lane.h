@@ -4,6 +4,7 @@
 #define MWC_LANE_H
 
 #include "ball.h"
+#include "units.h"
 
 #define MWC_JOINED2(name, width) name##width
 #define MWC_JOINED(name, width) MWC_JOINED2(name, width)
@@ -17,7 +18,8 @@
 /* Number k of a lane's balls in a row, of balls that all lanes share, and where one goes. */
 #define MWC_OWN(a, k) mwc_make((a)[2 * (k) * MW_LANES + l], (a)[(2 * (k) + 1) * MW_LANES + l])
 #define MWC_SHARED(a, k) mwc_make((a)[2 * (k)], (a)[2 * (k) + 1])
-#define MWC_KEEP(a, k, ball) ((a)[2 * (k) * MW_LANES + l] = (ball).mid, (a)[(2 * (k) + 1) * MW_LANES + l] = (ball).radius)
+#define MWC_KEEP_AT(a, k, m, r) ((a)[2 * (k) * MW_LANES + l] = (m), (a)[(2 * (k) + 1) * MW_LANES + l] = (r))
+#define MWC_KEEP(a, k, ball) MWC_KEEP_AT(a, k, (ball).mid, (ball).radius)
 
 /* Most unknowns, as in mw_status.h. */
 enum { MWC_MAX = 8 };

@@ -5,4 +5,6 @@
 #include MW_GENERATED(_certify)
 
 extern const mw_enclosing MW_PROOFS_OF(MW_LANE_SET);
-const mw_enclosing MW_PROOFS_OF(MW_LANE_SET) = { MWC_LANE_NAME(MW_OF(_enclose_instant)), MWC_LANE_NAME(MW_OF(_enclose)) };
+const mw_enclosing MW_PROOFS_OF(MW_LANE_SET) = {
+    MWC_LANE_NAME(MW_OF(_enclose_instant)), NULL, MWC_LANE_NAME(MW_OF(_enclose_point))
+};
