@@ -188,7 +188,9 @@ def _first(found):
     if found["outcome"] == "first":
         yield f"certified: nothing else touches first at any angle of the mesh cycle, {_ranges(found['cycle_deg'])}"
         return
-    yield f"certified: nothing else touches first {_ranges(found['first_deg']) or 'at no angle, as far as shown'}"
+    clear = _ranges(found["first_deg"])
+    proved = f"nothing else touches first {clear}" if clear else "no angle at which nothing else touches first"
+    yield f"certified: {proved}"
     for pair in sorted({span["pairs_later"] for span in found["spans"]}, key=abs):
         own = [span for span in found["spans"] if span["pairs_later"] == pair]
         overlaps = [span for span in own if span["outcome"] == "not_first"]

@@ -21,8 +21,9 @@ from meshwright.cycle import certified_first as single
 LONGEST = {"first": math.inf, "not_first": 2.0**-4, "unknown": 2.0**-8}
 LEAVING, BESIDE, TUBE = 2.0**-14, 1e-6, 0.02
 
-#: Parts of the wheel's flank that a pitch of angles takes at most, half a pitch twice as many …; a pair in all.
-LEAST, BUDGET = 600, 12_000
+#: Parts of the wheel's flank that a pitch of angles takes at most, half a pitch twice as many …; a pair in all, and one
+#: of which nothing has been shown.
+LEAST, BUDGET, FRUITLESS = 600, 12_000, 5_000
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class _Search:
         heapq.heapify(waiting)
         while waiting:
             _, begin, end, k = heapq.heappop(waiting)
-            if left <= 0:
+            if left <= 0 or (left <= BUDGET - FRUITLESS and all(span.outcome == "unknown" for span, _ in found)):
                 found.append((_spent(later, begin, end), k))
                 continue
             effort = min(LEAST * max(1.0, pitch / (end - begin)), left, single.EFFORT)
