@@ -32,17 +32,25 @@ def _drive_of(families, path):
     for entry in family["drives"]:
         variant = entry["variant"]
         given = {place: _word(design, place, entry["variant_defaults"]) for place in variant}
-        if all(given[key] in allowed for key, allowed in variant.items()):
+        if all(_agrees(allowed, given[key]) for key, allowed in variant.items()):
             return entry["name"]
     raise LookupError(f"{path}: no drive of the family {design['drive']} has the words that this design gives")
 
 
+def _agrees(allowed, value):
+    """Whether a word is one of those that choose a drive, or a number lies between theirs."""
+    if isinstance(allowed, dict):
+        return allowed["least"] <= value and (allowed["most"] is None or value <= allowed["most"])
+    return value in allowed
+
+
 def _word(design, place, defaults):
-    """The word of a key by its place ("table.key", or a key of [design]); left out, that of its default."""
+    """The word or number of a key by its place ("table.key", or a key of [design]); left out, that of its default."""
     table, _, key = place.rpartition(".")
     word = design.get(table or "design", {}).get(key)
     if word is None and place in defaults:
-        return _word(design, defaults[place], {}) or defaults[place]
+        default = defaults[place]
+        return default if isinstance(default, int) else _word(design, default, {}) or default
     return word
 
 

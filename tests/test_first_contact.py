@@ -82,6 +82,8 @@ DESIGNS = {
     "bevel, Formate, at the undercut that begins contact": packaged("bevel-formate", -20.3232),
     "bevel, Formate, undercut and tip": packaged("bevel-formate", -21.3051),
     "bevel, Formate, past its undercut": packaged("bevel-formate", -27.8505),
+    "bevel, face-hobbed": packaged("bevel-face-hobbed", 115.0, misalignment={"offset_mm": 0.1}),
+    "bevel, face-hobbed in profile": packaged("bevel-face-hobbed-profile", 97.0, misalignment={"shaft_angle_deg": 0.1}),
     "hypoid": packaged("bevel-hypoid", 20.0, misalignment={"shaft_angle_deg": 0.15, "gear_axial_mm": 0.1}),
     "helical, tilted": packaged("helical-crowned", 3.0, misalignment={"horizontal_deg": 0.08}),
     "helical, past its face": packaged("helical-crowned", -19.5, misalignment={"vertical_deg": 0.03}),
@@ -112,7 +114,7 @@ def brute_force(drive, angle, found):
     on_sheet = np.isfinite(here.solutions).all() and not any(map(impossible, here.flags[0]))
     known = here.solutions[0] if on_sheet else known[np.isfinite(known).all(axis=1)][0]
     side = np.sign(mirror * found.levers[0])
-    vertices = drive.region("wheel").lattice((24, 24)).q.reshape(-1, 2)
+    vertices = drive.region("wheel").lattice((24, 24)).q[..., :2].reshape(-1, 2)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     return mirror * FirstTouch(drive, at, known, side).highest(np.array([low, high]))
 
@@ -134,7 +136,7 @@ def check(name):
 #: One of each kind of drive and of what touches first; brute force takes minutes for each.
 KINDS = (
     "tip edge", "ZI", "ZN short", "left hand", "concave", "short face gear", "beyond the window, along a curved tip",
-    "hypoid", "helical, tilted", "helical, two edges", "crossed helical",
+    "bevel, face-hobbed", "hypoid", "helical, tilted", "helical, two edges", "crossed helical",
 )  # fmt: skip
 
 

@@ -30,6 +30,7 @@ VARIED = {
     "helical-crowned": ("normal_module_mm", 1.9, 2.1),
     "crossed-helical-17-23": ("pressure_angle_deg", 19.0, 21.0),
     "bevel-formate": ("", 0.0, 0.0),
+    "bevel-face-hobbed": ("", 0.0, 0.0),
 }
 
 

@@ -22,6 +22,10 @@ offset = parameter(
     "offset_mm", "E", "shortest distance of the axes, above 0 where it makes the pinion's spiral angle the larger",
     default=0,
 )  # fmt: skip
+blade_groups = parameter(
+    "blade_groups", "N_b", "blade groups of a cutter that hobs: as many teeth pass while it turns once",
+    domain=POSITIVE, integer=True, required=True,
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,7 @@ class Settings:
     blade_curvature: Parameter
     blade_reference: Parameter
     edge_radius: Parameter
+    blade_offset: Parameter
     radial: Parameter
     cradle_angle: Parameter
     tilt: Parameter
@@ -52,12 +57,14 @@ class Settings:
     outer_cone_distance: Parameter
     face_width: Parameter
 
-    def parameters(self, formate=False):
-        """All of them, in the order of the design; a ``formate`` member is not rolled."""
+    def parameters(self, *, formate=False, hobbed=False):
+        """All of them, in the order of the design; a ``formate`` member is not rolled, and only the blade of one that
+        is ``hobbed`` stands off the radius of the cutter.
+        """
         listed = (getattr(self, name) for name in self.__dataclass_fields__ if name != "body")
         every = (q for entry in listed for q in (entry if isinstance(entry, tuple) else (entry,)))
         rolled = (self.ratio_of_roll, *self.modified_roll, self.helical_motion)
-        return tuple(q for q in every if not (formate and q in rolled))
+        return tuple(q for q in every if not (formate and q in rolled) and (hobbed or q is not self.blade_offset))
 
 
 def _settings(body):
@@ -81,6 +88,10 @@ def _settings(body):
         ),
         edge_radius=key(
             "edge_radius_mm", "rho_f", "rounding of the blade's tip", domain=POSITIVE, lower_included=True, default=0
+        ),
+        blade_offset=key(
+            "blade_offset_angle_deg", "delta_b", "turn of the blade's plane about its reference point",
+            domain=HALF_TURN, default=0,
         ),
         radial=key("radial_setting_mm", "S_r", "radial setting", domain=POSITIVE, required=True),
         cradle_angle=key(
@@ -131,6 +142,7 @@ def _mean(key, symbol, meaning):
 
 
 mean_u_gear = _mean("w_gear_mm", "w_mean_gear", "distance on the gear's blade line")
+mean_u_pinion = _mean("w_pinion_mm", "w_mean_pinion", "distance on the pinion's blade line")
 mean_theta_gear = _mean("theta_gear_deg", "theta_mean_gear", "angle of the gear's cutter")
 mean_cradle_gear = _mean("phi_cradle_gear_deg", "phi_mean_gear", "turn of the gear's cradle")
 mean_theta_pinion = _mean("theta_pinion_deg", "theta_mean_pinion", "angle of the pinion's cutter")
@@ -144,14 +156,22 @@ mean_point_pinion = tuple(
     _mean(f"point_pinion_{a}_mm", f"mean_point_pinion_{a}", f"{a} of the pinion's flank, pinion frame") for a in "xyz"
 )
 
+#: Keys of a member's surface parameters at the mean point, by the first word of the parameter's name.
+MEAN = {
+    "pinion": {"u": mean_u_pinion, "theta": mean_theta_pinion, "phi": mean_cradle_pinion},
+    "gear": {"u": mean_u_gear, "theta": mean_theta_gear, "phi": mean_cradle_gear},
+}
 
 
-def parameters(formate):
-    """The parameter vector of a pair with a generated or a ``formate`` gear."""
-    place_of_gear = (mean_u_gear, mean_theta_gear) if formate else (mean_theta_gear, mean_cradle_gear)
+def parameters(*, formate=False, hobbed=False):
+    """The parameter vector of a pair with a generated or a ``formate`` gear, both members ``hobbed`` or milled."""
+    indexed, blade = ((blade_groups,), (mean_u_pinion,)) if hobbed else ((), ())
+    cradle = () if formate else (mean_cradle_gear,)
     return (
-        flank, pinion_teeth, gear_teeth, shaft_angle, offset, *PINION.parameters(), *GEAR.parameters(formate),
-        *place_of_gear, mean_gear_angle, mean_theta_pinion, mean_cradle_pinion, mean_pinion_angle,
+        flank, pinion_teeth, gear_teeth, shaft_angle, offset, *indexed,
+        *PINION.parameters(hobbed=hobbed), *GEAR.parameters(formate=formate, hobbed=hobbed),
+        *((mean_u_gear,) if formate or hobbed else ()), mean_theta_gear, *cradle, mean_gear_angle,
+        *blade, mean_theta_pinion, mean_cradle_pinion, mean_pinion_angle,
         *mean_point, *mean_normal, *mean_point_pinion,
         error_offset, error_pinion, error_gear, error_angle, separation,
     )  # fmt: skip

@@ -55,6 +55,7 @@ def _roll(name, m):
 PAIRS = (
     direct("stage", "shaft_angle", k.shaft_angle),
     direct("stage", "hypoid_offset", k.offset),
+    direct("stage", "number_of_blade_groups", k.blade_groups, given=True),
     direct("stage", "deviation_of_offset", k.error_offset, given=True),
     direct("stage", "axial_displacement_pinion", k.error_pinion, given=True),
     direct("stage", "axial_displacement_gear", k.error_gear, given=True),
@@ -117,6 +118,7 @@ EXCHANGE = Exchange(
         ("flank", "REXS holds both flanks and does not say which one is analysed"),
         ("pinion.method", "REXS has no attribute for it: a member with a ratio of roll is generated"),
         ("gear.method", "REXS has no attribute for it: a member with a ratio of roll is generated"),
+        *((place(m.blade_offset), "REXS has no attribute for it") for m in MEMBERS.values()),
         *((place(m.helical_motion), "its coefficients have no unit in REXS") for m in MEMBERS.values()),
         (place(k.separation), "an assumption of the analysis"),
     ),

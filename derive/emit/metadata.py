@@ -8,6 +8,7 @@ from dataclasses import asdict
 import mpmath
 
 from derive.language.description import prefix, rules, sources
+from derive.language.drive import Count
 from derive.language.symbols import interface_unit
 from derive.passes import sample
 from derive.program.tape import Stage
@@ -86,7 +87,9 @@ def identity(drive):
         "prefix": drive.name,
         "family": drive.family,
         "title": drive.title,
-        "variant": {key: [word] for key, word in drive.variant.items()},
+        "variant": {
+            key: asdict(chosen) if isinstance(chosen, Count) else [chosen] for key, chosen in drive.variant.items()
+        },
         "variant_defaults": drive.variant_defaults,
         "handed": drive.handed,
         "regrind": drive.regrind and asdict(drive.regrind),

@@ -46,6 +46,10 @@ class Rotation:
     def expressions(self) -> tuple[sp.Expr, ...]:
         return (self.angle,)
 
+    def turn(self, variable: sp.Symbol) -> v.Vector:
+        """Angular velocity over ``variable``, which is the same in either frame."""
+        return v.scale(sp.diff(self.angle, variable), v.AXES[self.axis])
+
     def inverse(self) -> Rotation:
         return Rotation(self.axis, -self.angle)
 
@@ -69,6 +73,10 @@ class Translation:
 
     def expressions(self) -> tuple[sp.Expr, ...]:
         return self.offset
+
+    def turn(self, variable: sp.Symbol) -> v.Vector:
+        """None: see :meth:`Rotation.turn`."""
+        return v.ORIGIN
 
     def inverse(self) -> Translation:
         return Translation(v.scale(-1, self.offset))
@@ -120,6 +128,10 @@ class Swing:
     def expressions(self) -> tuple[sp.Expr, ...]:
         return (self.angle, *self.centre)
 
+    def turn(self, variable: sp.Symbol) -> v.Vector:
+        """As :meth:`Rotation.turn`."""
+        return v.scale(sp.diff(self.angle, variable), v.AXES[self.axis])
+
     def inverse(self) -> Swing:
         return replace(self, angle=-self.angle)
 
@@ -142,6 +154,10 @@ class Placement:
 
     def expressions(self) -> tuple[sp.Expr, ...]:
         return tuple(c for column in self.columns for c in column)
+
+    def turn(self, variable: sp.Symbol) -> v.Vector:
+        """None: see :meth:`Rotation.turn`."""
+        return v.ORIGIN
 
     def inverse(self) -> Placement:
         return Placement(tuple(zip(*self.columns, strict=True)))
@@ -286,6 +302,21 @@ class Motion:
             rate = v.add(rate, inner.inverse().direction(local))
             inner = Motion((factor, *inner.factors))
         return rate
+
+    def screw(self, variable: sp.Symbol) -> tuple[v.Vector, v.Vector]:
+        """Angular velocity over ``variable``, and the velocity of the body's origin, as components in the body frame.
+
+        That of any of its points is advance + turn × point, as :meth:`local_velocity` has it.
+        """
+        turn: v.Vector = v.ORIGIN
+        advance: v.Vector = v.ORIGIN
+        inner = Motion()
+        for factor in reversed(self.factors):
+            to_body = inner.inverse().direction
+            turn = v.add(turn, to_body(factor.turn(variable)))
+            advance = v.add(advance, to_body(factor.local_velocity(variable, inner.point(v.ORIGIN))))
+            inner = Motion((factor, *inner.factors))
+        return turn, advance
 
     def power(self, variable: sp.Symbol, point: v.Vector, normal: v.Vector) -> sp.Expr:
         """normal · velocity, each term formed in the frame of the factor that causes it.

@@ -13,7 +13,7 @@ import sympy as sp
 
 from derive.language.chain import Factor, Motion, Placement, Rotation, Station, Swing, Translation
 from derive.language.choice import excess, unit_step
-from derive.language.drive import Body, DesignSystem, Drive, Margin, Region, Values
+from derive.language.drive import Body, Count, DesignSystem, Drive, Margin, Region, Values
 from derive.language.surface import Step, StepData, Surface
 from derive.language.symbols import Parameter, Quantity, Rule, Unknown
 from derive.language.vectors import Number
@@ -247,7 +247,9 @@ def _describe(drive: Drive) -> dict[str, Data]:
         "name": drive.name,
         "family": drive.family,
         "title": drive.title,
-        "variant": dict(drive.variant),
+        "variant": {
+            key: asdict(chosen) if isinstance(chosen, Count) else chosen for key, chosen in drive.variant.items()
+        },
         "sources": sources(drive),
         "keys": [_key(drive, p) for p in drive.parameters],
         "tools": [

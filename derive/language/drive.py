@@ -211,11 +211,20 @@ class Regrind:
 
 
 @dataclass(frozen=True)
+class Count:
+    """A whole number from ``least`` to ``most``, or any from there on: how a key that counts chooses a drive."""
+
+    least: int
+    most: int | None = None
+
+
+@dataclass(frozen=True)
 class Drive:
     """A gear drive, complete: the input of the schedule and emit stages.
 
-    ``variant`` are the words of the design file that choose this drive within its family; a key in
-    ``variant_defaults`` may be left out and then follows the key named there, or is the word there. A drive ``handed``
+    ``variant`` are the words of the design file that choose this drive within its family, or numbers
+    (:class:`Count`); a key in ``variant_defaults`` may be left out and then follows the key named there, or is the word
+    or number there. A drive ``handed``
     "right" or "left", the hand in which its equations are written, exists as its own mirror image. ``pinion_teeth`` is
     the key of the pinion's (worm's) number of teeth. Of each group in ``exclusive`` a design gives exactly one key; of
     each group in ``together`` ("table.key") all or none. ``tools`` are the generating tools with the keys of their own.
@@ -254,8 +263,8 @@ class Drive:
     sample: Mapping[str, float | int | str]
     sample_angle: float
     pinion_teeth: str
-    variant: dict[str, str] = field(default_factory=dict[str, str])
-    variant_defaults: dict[str, str] = field(default_factory=dict[str, str])
+    variant: dict[str, str | Count] = field(default_factory=dict[str, "str | Count"])
+    variant_defaults: dict[str, str | int] = field(default_factory=dict[str, "str | int"])
     handed: str = ""
     exclusive: tuple[tuple[str, ...], ...] = ()
     together: tuple[tuple[str, ...], ...] = ()

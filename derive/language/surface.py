@@ -125,20 +125,35 @@ def swept(
     sweep: Quantity,
     outward: Number,
     arm: Number = 1,
+    slope: v.Vector | None = None,
+    screw: str = "",
 ) -> Surface:
     """The surface of a curve ``section(along)``, which may change with ``sweep``, carried by ``motion(sweep)``.
 
     The normal, section frame, is ``outward`` · (∂r/∂along × ∂r/∂sweep)/``arm``; ``outward`` (±1, or the flank
     sign) makes it point out of the body. ``arm`` > 0 is the length of ∂r/∂sweep where that is large: dividing it
-    out keeps tangent and normal of order one.
+    out keeps tangent and normal of order one. ``slope`` is a shorter vector along the section's derivative, to be used
+    instead of it, as of a curve that may shrink to a point; ``ValueError`` if it is none. ``screw`` names
+    the motion's turn and advance over ``sweep``, of which ∂r/∂sweep is then formed: for a motion of many factors and a
+    section at rest.
     """
-    lengthwise = v.add(motion.local_velocity(sweep, section), definitions.derivative_vector(section, sweep))
-    tangents = definitions.derivative_vector(section, along), v.scale(1 / sp.sympify(arm), lengthwise)
+    steps = ("derivation/swept",)
+    if screw:
+        turn, advance = motion.screw(sweep)
+        turn = definitions.let_vector(f"omega_{screw}", turn, f"turn of the section over {sweep}", "", "section")
+        advance = definitions.let_vector(f"v_{screw}", advance, f"its advance over {sweep}", "mm/rad", "section")
+        lengthwise, steps = v.add(advance, v.cross(turn, section)), (*steps, "derivation/screw")
+        lengthwise = definitions.let_vector(f"v_{along}", lengthwise, f"velocity over {sweep}", "mm/rad", "section")
+    else:
+        lengthwise = v.add(motion.local_velocity(sweep, section), definitions.derivative_vector(section, sweep))
+    across = definitions.derivative_vector(section, along)
+    if slope is not None:
+        require_parallel(tuple(map(definitions.resolve, across)), tuple(map(definitions.resolve, slope)))
+        across = slope
+    tangents = across, v.scale(1 / sp.sympify(arm), lengthwise)
     normal = v.scale(outward, v.cross(*tangents))
     made = Step.of("swept", curve=section, along=along, motion=motion, sweep=sweep, outward=outward)
-    return Surface(
-        definitions, (along, sweep), section, tangents, normal, motion, steps=("derivation/swept",), made=(made,)
-    )
+    return Surface(definitions, (along, sweep), section, tangents, normal, motion, steps=steps, made=(made,))
 
 
 def revolved(

@@ -1,8 +1,10 @@
-"""Blade of a face-mill cutter: a straight or circular edge and a rounded tip, turned about the cutter's axis.
+"""Blade of a face-mill or face-hob cutter: a straight or circular edge and a rounded tip, turned about its axis.
 
 Frame of the cutter: z along its axis towards the blank, tip plane at z = 0, edge in the plane x–z, x outwards. ``side``
 +1 is an outside blade, which leaves a concave flank, −1 an inside blade. Surfaces are those of the cutter: their
-normals point out of the blade into the metal that it leaves.
+normals point out of the blade into the metal that it leaves. Of a face mill they are surfaces of revolution. Of a face
+hob, against which the blank turns while it cuts, they are those that the edge sweeps in the blank, and the plane of the
+edge need not pass through the axis: it is turned by ``offset`` about the vertical line through the reference point.
 """
 
 from dataclasses import dataclass
@@ -10,8 +12,9 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.chain import Rz, translation
 from derive.language.definitions import Definitions
-from derive.language.surface import revolved
+from derive.language.surface import revolved, swept
 
 #: A straight edge is the arc of this curvature, 1/mm: it stands off the line by less than any round-off.
 STRAIGHT = sp.Rational(1, 10**30)
@@ -34,6 +37,7 @@ class CutterBlade:
     curvature: sp.Expr
     reference: sp.Expr
     tip_radius: sp.Expr
+    offset: sp.Expr = sp.S.Zero
 
     @property
     def _bend(self):
@@ -53,12 +57,16 @@ class CutterBlade:
 
     def edge(self, u, theta):
         """The cutting surface at arc length ``u`` along the edge from the tip."""
+        return self._revolved(self._arc(u), u, theta, self.side)
+
+    def hobbing_edge(self, u, theta, machine):
+        """What the edge sweeps in the blank; ``machine`` is the motion, over θ too, that the cutter has in it."""
+        return self._hobbing(self._arc(u), u, theta, machine, self.side)
+
+    def _arc(self, u):
         turned = self._bend * (u - self.reference)
         sagitta = 2 * sp.sin(turned / 2) ** 2 / self._bend
-        point = v.sub(
-            v.scale(self.reference + sp.sin(turned) / self._bend, self._along), v.scale(sagitta, self._out)
-        )
-        return self._revolved(point, u, theta, self.side)
+        return v.sub(v.scale(self.reference + sp.sin(turned) / self._bend, self._along), v.scale(sagitta, self._out))
 
     def swung_edge(self, x, theta):
         """The same, where its normal meets the line at the distance ``x`` from the point of contact with the line.
@@ -157,15 +165,33 @@ class CutterBlade:
 
     def tip(self, tau, theta):
         """The rounding of the tip; ``tau`` is the inclination of its normal."""
-        out = -self.side * sp.cos(tau), sp.Integer(0), -sp.sin(tau)
-        point = v.sub(self.tip_centre, v.scale(self.tip_radius, out))
-        slope = -self.side * sp.sin(tau), sp.Integer(0), sp.cos(tau)  # also of a sharp tip
+        point, slope = self._rounding(tau)
         return self._revolved(point, tau, theta, -self.side, slope).with_pole(self._from_axis(self.tip_centre))
+
+    def hobbing_tip(self, tau, theta, machine):
+        """What the rounding sweeps in the blank, as :meth:`hobbing_edge`."""
+        point, slope = self._rounding(tau)
+        return self._hobbing(point, tau, theta, machine, -self.side, slope)
+
+    def _rounding(self, tau):
+        """Point and direction, which a sharp tip has too."""
+        out = -self.side * sp.cos(tau), sp.Integer(0), -sp.sin(tau)
+        slope = -self.side * sp.sin(tau), sp.Integer(0), sp.cos(tau)
+        return v.sub(self.tip_centre, v.scale(self.tip_radius, out)), slope
 
     def _revolved(self, profile, along, theta, outward, slope=None):
         return revolved(
             self.definitions, self._from_axis(profile), along=along, turn=theta, outward=outward, sense=self.hand,
             slope=slope,
+        )  # fmt: skip
+
+    def _hobbing(self, profile, along, theta, machine, outward, slope=None):
+        reference = self.side * self.reference * sp.sin(self.angle)
+        plane = translation(x=self.point_radius + reference) @ Rz(self.hand * self.offset)
+        return swept(
+            self.definitions, v.sub(profile, (reference, sp.Integer(0), sp.Integer(0))),
+            machine @ Rz(self.hand * theta) @ plane, along=along, sweep=theta, outward=self.hand * outward,
+            arm=self.point_radius, slope=slope, screw=f"hobbing_{self.member}",
         )  # fmt: skip
 
     def _from_axis(self, point):

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 961, set_phi 63, R 265, R and J 672, step 747, observe 946.
- * Equations (hash 5d5d148361175c8499230ee643539e5050c3c9c98d84ee9cf837c1cf434a3584):
+ * Equations (hash 1e752940c52dd079728dd76aff910303c917740d3c6075fde55843099a602652):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_gears/explicit

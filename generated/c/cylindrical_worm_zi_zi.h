@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 405, set_phi 2, R 162, R and J 400, step 493, observe 712.
- * Equations (hash 5d5d148361175c8499230ee643539e5050c3c9c98d84ee9cf837c1cf434a3584):
+ * Equations (hash 1e752940c52dd079728dd76aff910303c917740d3c6075fde55843099a602652):
  *   conventions/rotations
  *   conventions/sums
  *   conventions/wheel-axis

@@ -36,7 +36,8 @@ SEED = 7
 SECONDS = 150
 ZN, ZA, ZI, ZK, ZC = (f"cylindrical_worm_{form}_{form}" for form in ("zn", "za", "zi", "zk", "zc"))
 SPUR, CONCAVE = "spherical_convex_spur", "spherical_concave_convex"
-WORMS, BEVELS, EVERY = (ZN, ZA, ZI, ZK, ZC), ("bevel_formate", "bevel_generated"), (SPUR, ZN, "bevel_formate")
+WORMS, EVERY = (ZN, ZA, ZI, ZK, ZC), (SPUR, ZN, "bevel_formate")
+BEVELS = ("bevel_formate", "bevel_generated", "bevel_face_hobbed")
 FACE, CYLINDRICAL = ("face_worm",), ("cylindrical_gears",)
 #: File -> drives that it takes part in; of what all use, one of each kind, the quickest first.
 DRIVES = {

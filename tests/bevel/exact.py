@@ -1,8 +1,10 @@
 """Machine settings of conjugate and crowned pairs, from geometry alone: designs whose contact is known in closed form.
 
 Crown gear: both members are cut by one imaginary crown gear, so that they are conjugate; a cutter that touches the
-common cone along the generatrix of the mean point makes point contact without transmission error. Formate-cradle: the
-cradle of the pinion is the gear itself.
+common cone along the generatrix of the mean point makes point contact without transmission error. Face-hobbed, cutter
+and crown gear turn against one another: in the pitch plane its teeth are extended epicycloids, and where the blade's
+plane is normal to one, another cutter of the same blade groups touches it along the same generatrix. Formate-cradle:
+the cradle of the pinion is the gear itself.
 """
 
 from math import asin, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
@@ -17,25 +19,29 @@ def _blank(pitch, apex, face, face_apex, outer, width):
     }  # fmt: skip
 
 
-def _tangent(mean, centre, change):
-    """Radial setting and cradle angle of a centre moved away from the mean point by ``change``."""
-    away = (np.array(centre) - mean) / hypot(*(np.array(centre) - mean))
-    x, y = np.array(centre) + change * away
-    return {"radial_setting_mm": hypot(x, y), "cradle_angle_deg": degrees(atan2(y, x))}
+def _centred(mean, radius, spiral, turns):
+    """Radial setting, cradle angle and, where the cutter hobs, blade offset angle for a spiral angle at the mean cone
+    distance; ``turns`` is the turn of the crown gear over that of the cutter.
+    """
+    offset = asin(turns * mean * cos(spiral) / radius)
+    x, y = mean - radius * sin(spiral - offset), radius * cos(spiral - offset)
+    settings = {"radial_setting_mm": hypot(x, y), "cradle_angle_deg": degrees(atan2(y, x))}
+    return settings | ({"blade_offset_angle_deg": degrees(offset)} if turns else {})
 
 
 def crown_pair(
     flank="convex", *, hand="left", teeth=(15, 44), shaft_deg=90.0, module=4.0, width=27.0, radius=76.2,
-    spiral_deg=35.0, pressure_deg=20.0, dedendum=3.7, addendum=3.0, lengthwise=0.0, profile=0.0,
+    spiral_deg=35.0, pressure_deg=20.0, dedendum=3.7, addendum=3.0, lengthwise=0.0, profile=0.0, blade_groups=0,
 ):  # fmt: skip
     """Uniform depth, both members by the same crown gear. ``lengthwise``: by how much the pinion's cutter radius
-    differs, ``profile``: curvature of the pinion's blade; without either the flanks touch along lines.
+    differs, ``profile``: curvature of the pinion's blade; without either the flanks touch along lines. With
+    ``blade_groups`` both are face-hobbed.
     """
     (n1, n2), shaft = teeth, radians(shaft_deg)
     pinion_cone = atan2(sin(shaft), n2 / n1 + cos(shaft))
     outer = n2 * module / (2 * sin(shaft - pinion_cone))
     mean, spiral, alpha = outer - width / 2, radians(spiral_deg), radians(pressure_deg)
-    centre = mean - radius * sin(spiral), radius * cos(spiral)
+    turns = blade_groups * sin(pinion_cone) / n1
     side = {"pinion": 1, "gear": -1} if flank == "convex" else {"pinion": -1, "gear": 1}
 
     def member(name, cone, change, curvature):
@@ -43,23 +49,26 @@ def crown_pair(
         settings = {
             "point_radius_mm": radius + change - s * dedendum * tan(alpha),
             "blade_angle_deg": pressure_deg,
-            **_tangent((mean, 0.0), centre, change),
+            **_centred(mean, radius + change, spiral, turns),
             "root_angle_deg": degrees(cone),
             "sliding_base_mm": -dedendum,
             "ratio_of_roll": 1 / sin(cone),
             **_blank(cone, 0.0, cone, addendum / sin(cone), outer, width),
         }
-        if curvature:
+        if curvature or turns:
             settings |= {"blade_curvature_per_mm": curvature, "blade_reference_mm": dedendum / cos(alpha)}
         return settings
 
     return {
         "drive": "bevel",
         "flank": flank,
-        "design": {"pinion_teeth": n1, "gear_teeth": n2, "shaft_angle_deg": shaft_deg, "hand": hand},
+        "design": {
+            "pinion_teeth": n1, "gear_teeth": n2, "shaft_angle_deg": shaft_deg, "hand": hand,
+            **({"blade_groups": blade_groups} if blade_groups else {}),
+        },
         "pinion": member("pinion", pinion_cone, side["pinion"] * lengthwise, profile),
         "gear": member("gear", shaft - pinion_cone, 0.0, 0.0),
-    }
+    }  # fmt: skip
 
 
 def _turn(axis, angle):

@@ -35,6 +35,11 @@ WRONG = [
     ("scale", ITSELF, ("= c*", "= -c*")),
     ("crown", ITSELF, ("cos(gamma)", "-cos(gamma)")),
     ("offset", ITSELF, ("vec(0, E, 0)", "vec(0, -E, 0)")),
+    ("hobbed-crown", ITSELF, ("work - index", "work + index")),
+    ("hobbed-crown", ITSELF, ("phi - nu", "nu - phi")),
+    ("epicycloid", ITSELF, ("q + nu + theta", "q + nu - theta")),
+    ("epicycloid", "reference_pinion", ("s*u0", "-s*u0")),
+    ("hobbed-milled", "reference_gear", ("-s*u0", "s*u0")),
 ]
 
 

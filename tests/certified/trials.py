@@ -18,6 +18,7 @@ from meshwright.cycle.path import Path
 DESIGNS = (
     "recess-action-full", "plain-za", "plain-zi", "plain-zk", "plain-zc", "spherical-table-2-2-convex-14-5",
     "helical-crowned", "face-worm-cylindrical-convex", "bevel-crowned-both", "bevel-formate",
+    "bevel-face-hobbed",
 )  # fmt: skip
 
 

@@ -50,6 +50,13 @@ def test_local_velocity_is_the_derivative_turned_into_the_body(motion, variable)
 
 
 @pytest.mark.parametrize("motion", CHAINS)
+@pytest.mark.parametrize("variable", [a, b])
+def test_turn_and_advance_give_the_velocity_of_every_point(motion, variable):
+    turn, advance = motion.screw(variable)
+    _close(v.add(advance, v.cross(turn, POINT)), motion.local_velocity(variable, POINT))
+
+
+@pytest.mark.parametrize("motion", CHAINS)
 def test_power_is_the_normal_component_of_the_velocity(motion):
     normal = (sp.Rational(1, 3), q, sp.Integer(2))
     derivative = tuple(partial(c, b) for c in motion.point(POINT))

@@ -31,7 +31,7 @@ KEYS
 
 DESIGNS = (
     "plain-zk", "spherical-table-4-4-concave", "crossed-helical-17-23", "spur-profile-shift", "bevel-crowned-both",
-    "bevel-hypoid-formate", "face-worm-conical-convex",
+    "bevel-hypoid-formate", "bevel-face-hobbed", "face-worm-conical-convex",
 )  # fmt: skip
 
 

@@ -25,7 +25,10 @@ from tests.quick import quick
 LOAD = Load(50e3, "wheel")
 
 
-@pytest.fixture(scope="module", params=quick(("bevel-crowned-both", "bevel-hypoid", "bevel-formate")))
+PAIRS = ("bevel-crowned-both", "bevel-face-hobbed", "bevel-hypoid", "bevel-formate")
+
+
+@pytest.fixture(scope="module", params=quick(PAIRS))
 def pair(request):
     drive = Drive.load(request.param)
     return drive, gear_pair(drive)

@@ -86,7 +86,7 @@ def _one_change(chance, tables):
         for place, word in chance.choice(_words(family)).items():
             table, key = description.table_and_key(place)
             if isinstance(entries := tables.setdefault(table, {}), dict):
-                entries[key] = word[0] if isinstance(word, list | tuple) else word
+                entries[key] = word["least"] if isinstance(word, dict) else word[0]
     elif how < 0.98:
         key = chance.choice(("drive", "name", "flank", "design", "misalignment", "blank", "contact", "x" * 200))
         tables[key] = chance.choice((*EXTREMES, "left", *description.families()))

@@ -1,8 +1,10 @@
 """Spiral bevel and hypoid gears in mpmath, written straight from the machine's kinematics: for tests only.
 
 Matrices and the velocity of the machine as a screw, not the chain of the program: the equation of meshing is
-f = n · [h z × r − h φ_w′ b × (r − O_b) − H z] at the machine, n the cutter's normal. A design is a mapping of tables as
-in a design file, angles in degrees; every length in mm.
+f = n · [h z × r − h φ_w′ b × (r − O_b) − H z] at the machine, n the cutter's normal. A cutter that hobs turns about its
+axis a_c through C while the blank turns by N_b/N of its angle: a point of its edge moves in the blank with
+h a_c × (r − C) + h N_b/N b × (r − O_b), and n is square to that and to the edge. A design is a mapping of tables as in
+a design file, angles in degrees; every length in mm.
 """
 
 from mpmath import mp, mpf
@@ -70,13 +72,19 @@ class Member:
         return point, [mp.cos(t) * b + mp.sin(t) * a for a, b in zip(t0, n0, strict=True)]
 
     def cutter(self, u, theta):
-        """Point and normal of the cutting surface in the machine at rest, before the cradle turns."""
+        """Point of the edge, its normal in the plane of the blade and its direction, the cutter's centre and axis, all
+        in the machine at rest, before the cradle turns.
+        """
         (x, z), (n_x, n_z) = self.edge(u)
         turn = rotation("z", self.h * theta)
         tilt = rotation("z", self.h * self.deg("swivel_deg")) * rotation("y", self.deg("tilt_deg"))
-        r = turn * vector(self.k["point_radius_mm"] + x, 0, z)
-        n = turn * vector(n_x, 0, n_z)
-        return vector(self.k["radial_setting_mm"], 0, 0) + tilt * r, tilt * n
+        x_0 = self.s * self.k["blade_reference_mm"] * mp.sin(self.deg("blade_angle_deg"))
+        plane = rotation("z", self.h * self.deg("blade_offset_angle_deg"))
+        r = turn * (vector(self.k["point_radius_mm"] + x_0, 0, 0) + plane * vector(x - x_0, 0, z))
+        n = turn * plane * vector(n_x, 0, n_z)
+        along = turn * plane * vector(-n_z, 0, n_x)
+        centre = vector(self.k["radial_setting_mm"], 0, 0)
+        return centre + tilt * r, tilt * n, tilt * along, centre, tilt * vector(*Z)
 
     def roll(self, phi):
         """Turn of the work and its rate at a turn of the cradle."""
@@ -88,17 +96,21 @@ class Member:
 
     def surface(self, u, theta, phi=0):
         """Point and unit normal out of the metal in the body frame, and the equation of meshing."""
-        r, n = self.cutter(u, theta)
         cradle = rotation("z", self.h * (self.deg("cradle_angle_deg") + phi))
-        r, n = cradle * r, cradle * n
+        r, n, along, centre, cutter_axis = (cradle * a for a in self.cutter(u, theta))
         gamma, helical = self.deg("root_angle_deg"), self.k["helical_motion_mm_per_rad"]
         base = vector(0, self.h * self.k["blank_offset_mm"], self.k["sliding_base_mm"] + helical * phi)
         work, rate = self.roll(phi) if self.generated else (mpf(0), mpf(0))
-        to_body = rotation("z", -self.h * work)
+        index = self.blade_groups / self.teeth
+        to_body = rotation("z", -self.h * (work - index * theta))
         lay = rotation("y", gamma - mp.pi / 2)
         point = to_body * (lay * (r - base) - vector(0, 0, self.k["center_to_back_mm"]))
         axis = vector(mp.cos(gamma), 0, mp.sin(gamma))
         origin = base + self.k["center_to_back_mm"] * axis
+        if self.blade_groups:
+            cutting = self.h * (cross(cutter_axis, r - centre) + index * cross(axis, r - origin))
+            swept = cross(along, cutting)
+            n = swept * (mp.sign(dot(swept, n)) / mp.norm(swept))
         velocity = self.h * cross(Z, r) - self.h * rate * cross(axis, r - origin) - helical * vector(*Z)
         return point, to_body * (lay * n), dot(n, velocity)
 

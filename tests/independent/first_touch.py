@@ -20,6 +20,25 @@ CLOSER = 0.55
 BISECTIONS, STEPS = 46, 24
 
 
+class Followed:
+    """A flank that keeps a condition, as a function of all its parameters but the last, which the condition gives: from
+    ``start`` by Newton's method, with slopes from differences; "not a number" where there is none.
+    """
+
+    def __init__(self, flank, start):
+        self.flank, self.start = flank, start
+
+    def __call__(self, q):
+        last, h = np.full(len(q), self.start), 1e-7
+        for _ in range(2 * STEPS):
+            miss, beside = (self.flank(np.column_stack([q, last + by])).conditions[:, 0, 0] for by in (0.0, h))
+            step = miss * h / (beside - miss)
+            last = last - np.clip(step, -0.2, 0.2)
+            if not (np.abs(step) > 1e-11).any():
+                break
+        return self.flank(np.column_stack([q, np.where(np.abs(step) < 1e-9, last, np.nan)]))
+
+
 class FirstTouch:
     """The search for one drive (right hand) at one pinion angle; ``side`` +1: the wheel comes from larger angles."""
 
@@ -28,6 +47,8 @@ class FirstTouch:
         pinion, wheel = drive.design.description["bodies"]
         self.error = drive.design.description["error"]
         self.pinion, self.wheel, self.side = drive.flank(pinion["name"]), drive.flank(wheel["name"]), side
+        if wheel["conditions"]:
+            self.wheel = Followed(self.wheel, known[wheel["unknowns"][-1]])
         still = known.copy()
         still[self.error] = 0.0
         turned = still.copy()

@@ -66,7 +66,7 @@ CROSSED = {
 
 
 
-def bevel_pair(name, gear, hand):
+def bevel_pair(name, gear, hand, **design):
     """A bevel pair whose numbers are all different."""
     pinion = {
         "point_radius_mm": 74.25, "blade_angle_deg": 18.05, "edge_radius_mm": 0.7, "radial_setting_mm": 74.87,
@@ -77,7 +77,9 @@ def bevel_pair(name, gear, hand):
     }  # fmt: skip
     return {
         "drive": "bevel", "name": name, "flank": "convex",
-        "design": {"pinion_teeth": 12, "gear_teeth": 36, "shaft_angle_deg": 87.5, "offset_mm": 12.7, "hand": hand},
+        "design": {
+            "pinion_teeth": 12, "gear_teeth": 36, "shaft_angle_deg": 87.5, "offset_mm": 12.7, "hand": hand, **design,
+        },
         "pinion": pinion,
         "gear": {
             "point_radius_mm": 77.03, "blade_angle_deg": 22.0, "radial_setting_mm": 72.64, "cradle_angle_deg": 59.23,
@@ -90,9 +92,10 @@ def bevel_pair(name, gear, hand):
 
 GENERATED = bevel_pair("hypoid, generated gear", {"ratio_of_roll": 1.0517}, "left")
 FORMATE = bevel_pair("hypoid, Formate gear", {"method": "formate"}, "right")
+HOBBED = bevel_pair("hypoid, face-hobbed", {"ratio_of_roll": 1.0517}, "left", blade_groups=13)
 
 WORM_PAIRS = [worm_pair(worm, hob) for worm in FORMS for hob in FORMS]
-PAIRS = [*WORM_PAIRS, HELICAL, CROSSED, GENERATED, FORMATE]
+PAIRS = [*WORM_PAIRS, HELICAL, CROSSED, GENERATED, FORMATE, HOBBED]
 
 
 def named(tables):

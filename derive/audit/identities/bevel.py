@@ -26,6 +26,9 @@ DOCUMENT = Document(
         "kappa": ("κb", "1/mm", "curvature of the blade"),
         "u0": ("u0", "mm", "where the arc touches its line"),
         "rp": ("rp", "mm", "point radius"),
+        "index": ("φi", "rad", "turn of the blank with a cutter that hobs, N_b/N θ"),
+        "nu": ("ν", "rad", "the same of the crown gear, N_b/N_c θ"),
+        "delta": ("δb", "rad", "blade offset angle"),
         "q": ("q", "rad", "cradle angle"),
         "i": ("i", "rad", "tilt"),
         "j": ("j", "rad", "swivel"),
@@ -191,13 +194,61 @@ reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
 )
 
 
+HOBBING = {"r_p_{}": "rp", "u_0_{}": "u0", "alpha_{}": "alpha", "delta_b_{}": "delta"}
+MILLING = {"index_{}": "0", "delta_b_{}": "0"}
+
+
+def _hobbed(member: str) -> dict:
+    """A tool's point in the body of what a face hob cuts, in the machine, and the turn of the blank."""
+    place, _ = MEMBERS[member]
+    rolling = {"index_{}": "index/theta_{}", **MODIFIED_ROLL}
+    drive = Described("bevel_face_hobbed", letters(member, rolling, MACHINE_LETTERS, HOBBING))
+    still = Described("bevel_face_hobbed", letters(member, MODIFIED_ROLL, MACHINE_LETTERS, HOBBING, MILLING))
+    flat = Described("bevel_face_hobbed", letters(member, rolling, MACHINE_LETTERS, HOBBING, FLAT))
+    sweep, generation = drive.sweep(place), drive.generation(place)
+    return {
+        f"work_{member}": drive.matrix(generation),
+        f"index_{member}": drive.matrix(sweep[1:2]),
+        f"hobbing_{member}": drive.carried(sweep[4:], "on_blade"),
+        f"drawn_{member}": flat.carried(flat.sweep(place)[4:], "at_reference"),
+        f"milling_{member}": still.carried(still.generation(place), still.carried(still.sweep(place), f"on_{member}")),
+    }
+
+
+#: A cutter whose axis stands upright on the machine plane; without it the swivel is nothing but another zero of θ.
+FLAT = {"tilt_{}": "0", "swivel_{}": "0"}
+
+HOBBED = scope(
+    "bevel.hobbed",
+    """
+e1 = vec(1, 0, 0)
+reference_gear = vec(-s*u0*sin(alpha), 0, 0)
+reference_pinion = vec(s*u0*sin(alpha), 0, 0)
+on_gear = on_blade - reference_gear
+on_pinion = on_blade - reference_pinion
+at_reference = vec(0, 0, z)
+arm_gear = rp*e1 + reference_gear
+arm_pinion = rp*e1 + reference_pinion
+""",
+    jets={"ex": ("u",), "ez": ("u",)},
+    signs=["s"],
+    described={
+        "on_blade": ("vec", ("jet", "ex", 0), 0, ("jet", "ez", 0)),
+        "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
+    }
+    | {name: tree for member in MEMBERS for name, tree in _machine(member).items() if name.startswith("cut_")}
+    | _hobbed("gear")
+    | _hobbed("pinion"),
+)
+
+
 def both(*texts: str) -> list[str]:
     """Equations of gear and pinion; names in braces are that member's, {h} the sign of its hand, {opposite} not."""
     return [
         text.format(
             h="" if hand > 0 else "-", opposite="-" if hand > 0 else "", opposite_sign="-" if hand > 0 else "+",
             axis=f"axis_{member}",
-            **{name: f"{name}_{member}" for name in READ},
+            **{name: f"{name}_{member}" for name in (*READ, "work", "index", "hobbing", "drawn", "milling", "arm")},
         )
         for text in texts
         for member, (_, hand) in MEMBERS.items()
@@ -412,6 +463,36 @@ CLAIMS = (
         ),
         MACHINE,
         conditions=["sin δ ≠ 0"],
+    ),
+    identity(
+        "hobbed-crown",
+        "face-hobbed",
+        "The blank turns by φw - N_b/N θ, with R = N_c/N by N_c/N times the turn φc - ν of a crown gear; in that crown "
+        "gear the place of the blade is free of φc: all positions of the cradle cut one crown tooth, and members with "
+        "one crown tooth are conjugate.",
+        both(
+            "{work}@({index}@vec(x, y, z)) = Rz({opposite}(work - index))@vec(x, y, z)",
+            "d(Rz({opposite}(phi - nu))@{hobbing}, phi) = vec(0, 0, 0)",
+        ),
+        HOBBED,
+    ),
+    identity(
+        "epicycloid",
+        "face-hobbed",
+        "With an upright axis the reference point of the blade describes in the crown gear an extended epicycloid: a "
+        "circle that turns by θ + ν while its centre, at the radial setting, turns by ν.",
+        both(
+            "Rz({opposite}(phi - nu))@{drawn} = Rz({h}(q + nu))@vec(Sr, 0, z) + Rz({h}(q + nu + theta))@{arm}"
+        ),
+        HOBBED,
+    ),
+    identity(
+        "hobbed-milled",
+        "face-hobbed",
+        "A cutter of no blade groups with its blade in the plane of the axis mills: any edge is where the machine of "
+        "face-milled members has it.",
+        both("{milling} = {cut}"),
+        HOBBED,
     ),
     identity(
         "formate-cradle",

@@ -292,6 +292,14 @@ CLAIMS = (
         MOTION,
     ),
     identity(
+        "screw",
+        "chain: turn and advance",
+        "A factor that turns about an axis and carries a section at a place and in a posture of any kind moves its "
+        "points, seen from the section, as a turn about the axis so seen and the advance of the section's origin.",
+        "T(frame)@cross(w, frame@r + n) = T(frame)@cross(w, n) + cross(T(frame)@w, r)",
+        MOTION,
+    ),
+    identity(
         "envelope",
         "envelope: normal",
         "Any tangent of the envelope moves u, v and φ at rates of its own. The generating surface's normal against "

@@ -139,7 +139,7 @@ def _words(family, text):
         # a key that may be left out follows another, or is a word of its own
         defaults = family.variant_defaults.items()
         whole = words | {key: words.get(key, words.get(other, other)) for key, other in defaults}
-        if not any(all(whole.get(k) in v for k, v in variant.items()) for variant in family.variants.values()):
+        if family.chosen(whole) is None:
             listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in _offers(family).items())
             raise UsageError(f"--profile {text}: no drive of this family has these words; {listed}")
     return words

@@ -19,8 +19,9 @@ class Family:
 
     ``parameters`` are described as in a drive's own description, each once; ``required`` where every drive requires it,
     ``tools`` are the words of the tools whose own it is, empty for a key of the family itself. ``variants``: drive →
-    key → words that mean it. ``variant_defaults``: a key that may be left out → the key that it then follows,
-    or the word that it then is. ``handed``: the hand in which its equations are written, "" where it has but one.
+    key → words that mean it, or the ``least`` and ``most`` of numbers that do (None: no most). ``variant_defaults``: a
+    key that may be left out → the key that it then follows, or the word or number that it then is. ``handed``: the hand
+    in which its equations are written, "" where it has but one.
     ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
     file holds (:mod:`meshwright.rexs`), None if nothing.
     ``outline`` says how a first design is made, ``regrind`` how a resharpened tool enters one; None where the family
@@ -55,6 +56,18 @@ class Family:
             for kind in ("exchange", "outline", "regrind")
         )
         return cls(name, parameters, variants, defaults, handed, own, exchange, outline, regrind)
+
+    @property
+    def choosing(self):
+        """Places of the keys that choose the drive, in order."""
+        return list(dict.fromkeys(place for variant in self.variants.values() for place in variant))
+
+    def chosen(self, words, but=""):
+        """The first drive whose words or numbers these are, by place; None where there is none. The place ``but`` is
+        left aside.
+        """
+        return next((name for name, variant in self.variants.items()
+                     if all(agrees(allowed, words[key]) for key, allowed in variant.items() if key != but)), None)
 
 
 def _joint(family, place, found, everywhere):
@@ -126,9 +139,8 @@ def table_and_key(place):
     return table or "design", key
 
 
-def choose(family, words, places=None):
-    """The drive of a family for the design words that choose a variant (for example the flank forms)."""
-    for name, variant in families(places)[family].variants.items():
-        if all(words[key] in allowed for key, allowed in variant.items()):
-            return described(name, places)
-    raise KeyError(words)
+def agrees(allowed, value):
+    """Whether a word is one of those that choose a drive, or a number lies between theirs."""
+    if isinstance(allowed, dict):
+        return allowed["least"] <= value and (allowed["most"] is None or value <= allowed["most"])
+    return value in allowed

@@ -251,7 +251,7 @@ def check(tables, places=None):
     """
     places = places or folders()
     family, checked = validated(tables, places)
-    description = metadata.choose(family, words_of(metadata.families(places)[family], checked), places)
+    description = metadata.described(_chosen(metadata.families(places)[family], checked), places)
     _check_exclusive(description, tables["design"])
     _check_needed(description, checked, places)
     _check_together(description, checked)
@@ -276,8 +276,7 @@ def by_rules(tables):
     """
     family, checked = validated(tables)
     known = metadata.families()[family]
-    words = words_of(known, checked)
-    drive = next(name for name, variant in known.variants.items() if all(words[k] in v for k, v in variant.items()))
+    drive = _chosen(known, checked)
     description = {
         "title": f"{family} drive", "family": family, "parameters": known.listed[drive], "together": [],
         "exclusive": known.exchange["exclusive"],
@@ -304,8 +303,19 @@ def words_of(family, checked):
         table, key = metadata.table_and_key(place)
         if checked[table][key] is None:
             checked[table][key] = _given(checked, source)
-    places = {place for variant in family.variants.values() for place in variant}
-    return {place: _given(checked, place) for place in places}
+    return {place: _given(checked, place) for place in family.choosing}
+
+
+def _chosen(family, checked):
+    """The drive that the words of these tables choose; raises :class:`DesignError` where none has all of them."""
+    words = words_of(family, checked)
+    if (drive := family.chosen(words)) is not None:
+        return drive
+    apart = [place for place in words if family.chosen(words, but=place)] or [*words]
+    first, *others = (_full(place, checked) for place in apart)
+    values = ", ".join(f"{place} = {_given(checked, place)}" for place in others)
+    reason = f"no drive of the family {family.name} has it together with {values}"
+    raise DesignError(first, _given(checked, first), reason, f"change {' or '.join([first, *others])}")
 
 
 def _given(tables, place):
@@ -348,15 +358,27 @@ def _check_exclusive(description, given):
 def _check_needed(description, checked, places=None):
     """Every key that the drive requires is given, and none that its tools do not use."""
     own = {(p["table"], p["key"]) for p in description["parameters"]}
+    family = metadata.families(places)[description["family"]]
+    own |= {metadata.table_and_key(place) for place in family.choosing}
     for p in description["parameters"]:
         if p["required"] and p["table"] != "flank" and checked[p["table"]].get(p["key"]) is None:
             place = f"{p['table']}.{p['key']}"
             raise DesignError(place, None, f"a {description['title']} cannot be made without it", "add it")
-    for p in metadata.parameters(description["family"], places):
+    for p in family.parameters:
         table, key = p["table"], p["key"]
         if table != "flank" and (table, key) not in own and (value := checked[table].get(key)) is not None:
-            of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else ""
+            of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else _counted(family, table, key)
             raise DesignError(f"{table}.{key}", value, f"a {description['title']} does not use it{of}", "remove it")
+
+
+def _counted(family, table, key):
+    """For which numbers of a key that chooses the drive another key is one of the design's; "" if that is no matter."""
+    users = [name for name, own in family.listed.items() if any((p["table"], p["key"]) == (table, key) for p in own)]
+    for place in family.choosing:
+        numbers = [family.variants[name][place] for name in users]
+        if all(isinstance(n, dict) for n in numbers) and (least := min(n["least"] for n in numbers)) > 0:
+            return f"; it is a key of designs whose {place} is {least} or more"
+    return ""
 
 
 def _check_together(description, checked):

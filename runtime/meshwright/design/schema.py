@@ -43,7 +43,7 @@ class Key:
     kind: str
     meaning: str = ""
     required: bool = False
-    default: str | None = None
+    default: str | int | None = None
     bounds: dict[str, float] = field(default_factory=dict)
     words: tuple[str, ...] = ()
 
@@ -178,11 +178,19 @@ def _material_keys() -> dict[str, Key]:
 
 
 def _variant_keys(family: metadata.Family) -> Iterator[tuple[str, str, Key]]:
-    """Table, key and :class:`Key` of the words that choose the drive within the family."""
+    """Table, key and :class:`Key` of the words and numbers that choose the drive within the family."""
     words: dict[str, dict[str, None]] = {}
+    meanings = {metadata.table_and_key(place): "" for place in family.choosing}
+    meanings |= {(p["table"], p["key"]): p["meaning"] for p in family.parameters}
     for variant in family.variants.values():
         for place, allowed in variant.items():
-            words.setdefault(place, {}).update(dict.fromkeys(allowed))
+            if isinstance(allowed, list):
+                words.setdefault(place, {}).update(dict.fromkeys(allowed))
+    for place in family.choosing:
+        if place not in words:
+            at = metadata.table_and_key(place)
+            limits = {"ge": min(variant[place]["least"] for variant in family.variants.values()), "le": LARGEST[""]}
+            yield *at, Key("integer", meanings[at], default=family.variant_defaults[place], bounds=limits)
     for place, allowed in words.items():
         required = place not in family.variant_defaults
         default = family.variant_defaults.get(place)

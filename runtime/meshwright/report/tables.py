@@ -129,7 +129,7 @@ def _words(design, table):
     places = [key.rpartition(".") for key in (*design.description["variant"], "hand")]
     keys = [key for where, _, key in places if (where or "design") == table]
     words = design.tables[table]
-    return [(key, words[key]) for key in keys if words.get(key)]
+    return [(key, words[key]) for key in keys if isinstance(words.get(key), str)]
 
 
 def _parameter(design, parameter):

@@ -169,7 +169,7 @@ def _check_complete(document, family, found, tables):
     groups = [[f"design.{key}" for key in group] for group in family.exchange["exclusive"]]
     missing_groups = [group for group in groups if not any(_has(tables, place) for place in group)]
     missing_words = [
-        [full(place)] for variant in family.variants.values() for place in variant
+        [full(place)] for place in family.choosing
         if place not in family.variant_defaults and not _has(tables, full(place))
     ]  # fmt: skip
     for places in ([place] for place in missing), missing_groups, missing_words:
@@ -178,9 +178,8 @@ def _check_complete(document, family, found, tables):
 
 
 def _needed(family, tables):
-    words = words_of(family, tables)
-    drives = [name for name, variant in family.variants.items() if all(words[k] in v for k, v in variant.items())]
-    listed = family.listed[drives[0]] if drives else family.parameters
+    drive = family.chosen(words_of(family, tables))
+    listed = family.listed[drive] if drive else family.parameters
     return [p for p in listed if p["required"] and p["table"] != "flank"]
 
 

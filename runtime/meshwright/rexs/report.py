@@ -47,8 +47,7 @@ def words_of(family, tables):
 
     What the tables leave out is the word that it defaults to.
     """
-    places = {place for variant in family.variants.values() for place in variant}
-    words = {key: _value(tables, full(key)) for key in places}
+    words = {key: _value(tables, full(key)) for key in family.choosing}
     for key, source in family.variant_defaults.items():
         words[key] = words[key] or words.get(source, source)
     return words | ({"hand": _value(tables, full("hand")) or family.handed} if family.handed else {})
