@@ -104,7 +104,7 @@ def _samples(plan: Schedule) -> Iterator[tuple[str, Mapping[sp.Symbol, float]]]:
     for word, number in which.choices:
         try:
             with mpmath.workdps(DIGITS):
-                own = plan.sample[which.symbol] == number
+                own = float(plan.sample[which.symbol]) == number
                 design = dict(plan.sample) if own else complete({**drive.sample, which.key: number})
                 _fill(drive, design)
                 yield word, in_double(design if own else _contact(plan, design))

@@ -79,7 +79,9 @@ def _complete(plan: SystemTape, values: Values) -> None:
     for step in range(PATH_STEPS):
         near[PATH] = step / PATH_STEPS
         on_path(near, ON_PATH)
-    inputs.update({symbol: mpmath.mpf(near[symbol]) for symbol in unknowns} | {PATH: mpmath.mpf(1)})
+    for symbol in unknowns:
+        inputs[symbol] = mpmath.mpf(near[symbol])
+    inputs[PATH] = mpmath.mpf(1)
     _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)(inputs)
     for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
         if mpmath.isnan(values[target]):
