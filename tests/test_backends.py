@@ -30,7 +30,7 @@ def test_jacobian_agrees_with_casadi_automatic_differentiation(name):
     residual = function(p, phi, x)[0]
     exact = casadi.Function("exact", [p, phi, x], [residual, casadi.jacobian(residual, x)])
     rng = np.random.default_rng(1)
-    for angle in np.linspace(-0.3, 0.3, 5) * drive.pitch():
+    for angle in drive.design.reference_angle + np.linspace(-0.3, 0.3, 5) * drive.pitch():
         x, _ = drive.trace([angle])
         point = x[0] + 1e-3 * rng.standard_normal(drive.model.nx)
         r, j = _compiled(drive, drive.state(angle), point)
