@@ -454,9 +454,10 @@ def raised(letter: str) -> str:
 
 LATEX_GREEK = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ζ": r"\zeta", "η": r"\eta", "θ": r"\theta", "λ":
-    r"\lambda", "μ": r"\mu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ": r"\tau", "φ":
-    r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "χ": r"\chi", "Δγh":
-    r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv": r"\Delta_v",
+    r"\lambda", "μ": r"\mu", "ν": r"\nu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "Σ": r"\Sigma", "τ":
+    r"\tau", "φ": r"\varphi", "ψ": r"\psi", "Ψ": r"\Psi", "ω": r"\omega", "ε": r"\varepsilon", "κ": r"\kappa", "χ":
+    r"\chi", "Δγh": r"\Delta\gamma_h", "Δγv": r"\Delta\gamma_v", "ΔC": r"\Delta C", "Δh": r"\Delta_h", "Δv":
+    r"\Delta_v",
 }  # fmt: skip
 LATEX_SIGNS = {
     "±": r"\pm ", "∓": r"\mp ", "−": "-", "·": r"\cdot ", "×": r"\times ", "\u2062": r"\,", "∂": r"\partial ",

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 4
+ABI = 5
 
 
 class Info(ctypes.Structure):

@@ -239,7 +239,7 @@ def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
 
 
 def certificates_and_bounds(drive, m, proved_by, solutions):
-    """Bits of certificates by the table ``m`` and of many points by ``proved_by``, one by one, a degree apart."""
+    """Bits of certificates by the table ``m``, and errors of many points by ``proved_by``, a degree apart."""
     n, state = len(solutions), pointer(drive.enclosed.state.copy(), "mw_wide[]")
     phi, found = np.zeros(n, record("mw_wide")), np.zeros(n, record("mw_certificate"))
     phi["hi"] = np.radians(np.arange(n))
@@ -249,18 +249,25 @@ def certificates_and_bounds(drive, m, proved_by, solutions):
     shown = library().mw_certify_points(m, state, *points, lines, n, pointer(found, "mw_certificate[]"))
     many = pointer(unique, "unsigned char[]"), pointer(errors, "mw_ball[]")
     assert library().mw_certify_many(ffi.NULL, proved_by, m, state, *points, n, *many) == shown == n
-    return found.tobytes(), unique.tobytes(), errors.tobytes()
+    return found.tobytes(), errors
 
 
 @pytest.mark.parametrize("name", quick(["recess-action-full", "face-worm-cylindrical-convex"], "recess-action-full"))
-def test_what_tables_prove_has_the_bits_of_what_printed_code_proves(name):
-    """With the object of proofs and without it, which is compiled only for many of them."""
+def test_certificates_by_tables_have_the_bits_of_those_by_printed_code(name):
+    """With the object of proofs, which is compiled only for many of them, and without it. Of many points, printed code
+    shares bounds among them: its errors and the tables' are two enclosures of the same numbers, those in certificates.
+    """
     drive = Drive.load(name)
     solutions = np.ascontiguousarray(drive.trace(np.radians(np.arange(12.0)))[0])
     printed, room = proofs(drive.design.description["name"]), ffi.new("double[]", library().mw_joined_size() // 8 + 1)
     joined = library().mw_joined(drive.model, ffi.NULL, printed, room)
-    tables = certificates_and_bounds(drive, drive.model, ffi.NULL, solutions)
-    assert certificates_and_bounds(drive, joined, printed, solutions) == tables
+    by_tables, one_by_one = certificates_and_bounds(drive, drive.model, ffi.NULL, solutions)
+    by_printed_code, together = certificates_and_bounds(drive, joined, printed, solutions)
+    assert by_printed_code == by_tables
+    error = np.frombuffer(by_tables, record("mw_certificate"))["x"][:, drive.design.description["error"]]
+    for errors in (one_by_one, together):
+        assert (np.abs(error["hi"] - errors["mid"]) + error["radius"] <= errors["radius"]).all()
+        assert (errors["radius"] < 1e-13).all()
     assert library().mw_joined(Drive.load("plain-za").model, ffi.NULL, printed, room) == ffi.NULL
 
 

@@ -10,16 +10,14 @@ from typing import Any
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.roots import narrowed
 from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import Sections, lengthwise, solved
 
 #: Cells of the mesh that shows where a region is, at least.
 CELLS = 24
 
-#: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end, and how
-#: closely it is known, as a share of the profile's parameter.
-SAMPLES, BISECTIONS, CLOSE = 65, 56, 1e-15
+#: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
+SAMPLES, BISECTIONS = 65, 56
 
 #: Lines along the border count as inside: the limits there are zero to rounding, mm; and how much it varies along one.
 ROUNDING, NOISE = 1e-9, 1e-13
@@ -371,7 +369,8 @@ def _longest_runs(inside):
 
 def _both_ends(region, across, q, profile, along, within):
     """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
-    the profile (S, M). ``across`` are the limits that can end a line.
+    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
+    where there is no surface. ``across`` are the limits that can end a line.
     """
 
     def least(places):
@@ -379,21 +378,31 @@ def _both_ends(region, across, q, profile, along, within):
 
     columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
     sign = np.repeat([-1, 1], len(columns) // 2)
-    beyond = np.clip(index + sign, 0, len(profile) - 1)
-    inner, outer, best = profile[index, columns], profile[beyond, columns], q[index, columns].copy()
+    inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
+    outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
     inside = least(best)
     floor = np.minimum(inside, 0.0) - NOISE
-
-    def value(places, rows):
-        trial = solve(region, places, along[rows], best[rows])
-        found = least(trial) - floor[rows]
-        good = found >= 0.0
-        best[rows[good]] = trial[good]
-        return found
-
-    values = inside - floor, least(q[beyond, columns]) - floor
-    tolerance = CLOSE * (np.abs(outer) + np.abs(outer - inner))
-    narrowed(value, inner, outer, values, tolerance, 2.0 * NOISE, BISECTIONS)
+    outside = least(q[beyond, columns]) - floor
+    inside = inside - floor
+    left = np.flatnonzero(inner != outer)
+    for step in range(BISECTIONS):
+        if not len(left):
+            break
+        a, b, fa, fb = inner[left], outer[left], inside[left], outside[left]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = fa / (fa - fb)
+        # now and then the middle: a limit function may be far from a straight line
+        share = np.where(np.isfinite(fb) & (share > 0.0) & (share < 1.0) & (step % HALVED > 0), share, 0.5)
+        trial = solve(region, a + share * (b - a), along[left], best[left])
+        value = least(trial) - floor[left]
+        good = value >= 0.0
+        inner[left] = np.where(good, a + share * (b - a), a)
+        outer[left] = np.where(good, b, a + share * (b - a))
+        inside[left] = np.where(good, value, 0.5 * fa)
+        outside[left] = np.where(good, 0.5 * fb, value)
+        best[left] = np.where(good[:, None], trial, best[left])
+        near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
+        left = left[~near]
     return best.reshape(2, -1, best.shape[1])
 
 
