@@ -177,6 +177,14 @@ class Drive:
         lines = [word == "line_contact" for word in result.status]
         return certify(self, angles, result.solutions, lines, degrees)
 
+    def refined(self, result, certificates=None):
+        """A TCA with transmission errors to the last digit, from the proofs of its contacts where these are shown; see
+        :func:`~meshwright.contact.certificate.refined`. ``certificates``: its proofs, if there are any.
+        """
+        from meshwright.contact.certificate import refined
+
+        return refined(self, result, self.certify(result.angles, result) if certificates is None else certificates)
+
     def certify_first(self, angles, result=None, certificates=None, **how):
         """Proofs that nothing touches before the contacts at pinion angles (rad), or where something does:
         :class:`~meshwright.cycle.certified_first.FirstCertificates`. ``result``, ``certificates``: a TCA and the proofs

@@ -271,6 +271,24 @@ def test_certificates_by_tables_have_the_bits_of_those_by_printed_code(name):
     assert library().mw_joined(Drive.load("plain-za").model, ffi.NULL, printed, room) == ffi.NULL
 
 
+@pytest.mark.parametrize("name", ["bevel-crowned-both", "plain-za"])
+@pytest.mark.parametrize("hand", ["left", "right"])
+def test_reported_errors_are_those_of_the_proofs(name, hand, capsys):
+    """The nearest double of each enclosed transmission error, and relative ones that refer to one such."""
+    drive = Drive.load(name).with_(design={"hand": hand})
+    middle = np.degrees(drive.design.mirror.sign * drive.design.reference_angle)
+    angles = [f"{middle + share * np.degrees(drive.pitch()):.3f}" for share in (-0.3, 0.1, 0.3)]
+    command = ["tca", name, f"--set=design.hand={hand}", f"--phi-deg={','.join(angles)}", "--certify", "--json", "-"]
+    assert main(command) == 0
+    points = json.loads(capsys.readouterr().out)["points"]
+    at_reference = drive.certify([np.radians(middle)]).error_arcsec()[0].mean()
+    for point in points:
+        low, high = point["certificate"]["transmission_error_arcsec"]
+        error = point["transmission_error_arcsec"]
+        assert low - 4e-16 * abs(low) - 1e-22 <= error <= high + 4e-16 * abs(high) + 1e-22
+        assert point["transmission_error_relative_arcsec"] == pytest.approx(error - at_reference, abs=1e-12)
+
+
 @pytest.mark.parametrize("width", [1, 0])
 def test_points_in_any_order_are_shown_beside_some_that_are_none(width):
     """Points that share bounds may be anywhere; what is no solution, or no number, is never shown to be one."""

@@ -58,6 +58,9 @@ def run(options):
     if options.contour is not None and options.contour > MOST_DIRECTIONS:
         raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
     result = drive.tca(common.angles_of(options, drive))
+    certificates = _certificates(options, drive, result)
+    if drive.backend == "c":
+        result = drive.refined(result, certificates)
     first = drive.first_contact(result.angles, result)
     result = not_first(result, first)
     points = result.to_points()
@@ -76,7 +79,6 @@ def run(options):
     if options.all_contacts:
         _add_other_contacts(points, drive, result)
     if options.certify:
-        certificates = _certificates(options, drive, result)
         firsts = drive.certify_first(result.angles, result, certificates).to_plain(result)
         for point, certificate, found in zip(points, certificates.to_plain(), firsts, strict=True):
             point["certificate"] = certificate | {"first_contact": found}
@@ -86,7 +88,7 @@ def run(options):
     if options.csv:
         write_csv(options.csv, *_columns(points))
     if not options.json and not options.csv:
-        write_text("-", f"{_table(drive, points)}{_certificates(options, drive, result).said()}\n")
+        write_text("-", f"{_table(drive, points)}{certificates.said()}\n")
     return 0 if result.complete else 1
 
 
