@@ -110,6 +110,32 @@ def test_the_command_bounds_ends_contact_ratio_and_peak_to_peak_error(name, caps
         assert certificate[end]["event"] in (found["begin"]["event"], found["end"]["event"])
 
 
+@pytest.mark.parametrize("hand", ["left", "right"])
+def test_pairs_change_between_bounds(hand, capsys, monkeypatch):
+    """At the one bound a pair is ahead of its neighbour, at the other behind it: by contacts certified there."""
+    monkeypatch.setattr(certified_first_path, "BUDGET", 0)
+    assert main(["ratio", "plain-za", f"--set=design.hand={hand}", "--certify", "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    drive = Drive.load("plain-za").with_(design={"hand": hand})
+    angles = found["transmission_error"]["transfer_angles_deg"]
+    for (low, high), angle in zip(found["certificate"]["transfer_angles_deg"], angles, strict=True):
+        assert low - 1e-9 <= angle <= high + 1e-9 and high - low < 1e-5
+    (low, high), (later, last) = np.radians(found["certificate"]["transfer_angles_deg"])
+    assert later == pytest.approx(low + drive.pitch()) and last == pytest.approx(high + drive.pitch())
+    here, there = (drive.certify(ends).error_arcsec() for ends in ([low, high], [later, last]))
+    signs = [np.sign(there[k] - here[k, ::-1]) for k in range(2)]
+    assert (np.abs(signs) == 1.0).all() and (signs[0] == -signs[1]).all()
+
+
+def test_a_change_of_pairs_beyond_the_window_is_not_stated(capsys, monkeypatch):
+    monkeypatch.setattr(certified_first_path, "BUDGET", 0)
+    assert main(["ratio", "recess-action-standard", "--certify", "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    begin, end = sorted(found[key]["pinion_angle_deg"] for key in ("begin", "end"))
+    inside = all(begin <= angle <= end for angle in found["transmission_error"]["transfer_angles_deg"] or ())
+    assert (found["certificate"]["transfer_angles_deg"] is not None) == inside
+
+
 def test_what_is_not_shown_widens_the_bounds_of_an_end():
     """A margin that a piece does not enclose is neither positive nor lost there: the end lies between what is shown."""
     drive = Drive.load("recess-action-standard")

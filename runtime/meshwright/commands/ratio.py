@@ -48,7 +48,8 @@ def run(options):
         contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
         if certify:
             step("proof of the branch")
-            window = certified_window(drive, found.mesh.window)
+            changes = found.transmission_error.transfers if found.transmission_error else ()
+            window = certified_window(drive, found.mesh.window, changes)
             contents["certificate"] = None if window is None else window.plain(drive.design.mirror.sign)
         if options.certify and window is not None:
             step("proof of first contact")
@@ -178,6 +179,8 @@ def _certified(certificate):
         yield f"certified: contact ratio from {low:.12f} to {high:.12f}"
         low, high = certificate["pair_peak_to_peak_arcsec"]
         yield f"certified: peak to peak of the pair from {low:.9f} to {high:.9f} arcsec"
+    for low, high in certificate["transfer_angles_deg"] or ():
+        yield f"certified: pairs change at an angle from {low:.9f}° to {high:.9f}°"
     yield from _first(certificate.get("first_contact"))
 
 

@@ -79,6 +79,10 @@ class CertifiedPath:
         """Bounds of the transmission error at an angle of the path, rad."""
         return self._error(self._piece(angle), angle)
 
+    def error_between(self, begin, end):
+        """Bounds of the transmission error at every angle from one to another of the path, rad."""
+        return self.within(begin, end).error_range
+
     def _error(self, piece, angle):
         ball = library().mw_piece_at(piece, ffi.addressof(piece.x[self.drive.design.description["error"]]), angle)
         return math.nextafter(ball.mid - ball.radius, -math.inf), math.nextafter(ball.mid + ball.radius, math.inf)
