@@ -108,6 +108,7 @@ def test_two_pairs_share_the_torque(concave, compliance):
     assert one.transmission_error == pytest.approx(-concave.ratio * one.rotation, rel=1e-6)
 
 
+@pytest.mark.validate
 def test_loads_do_the_same_work_on_one_anothers_displacements(concave, compliance, monkeypatch):
     """Betti's theorem, of cells of both pairs with edges nearby, and cells that bear one another's loads stably: what
     is factorised pair by pair tells the pressures under which cells move as they do.
