@@ -69,7 +69,11 @@ def analysed(path):
 
 def one(seed, folder):
     """What becomes of one mutated design: exit statuses counted, {} if it is refused."""
-    _, content = mutated(random.Random(seed))
+    return outcomes(mutated(random.Random(seed))[1], folder)
+
+
+def outcomes(content, folder):
+    """The same of the text of a design."""
     if isinstance(loaded(content, folder), DesignError):
         return Counter()
     return analysed(Path(folder) / "design.toml")

@@ -53,12 +53,9 @@ def test_what_was_once_trouble_is_read_or_refused_and_analysed(path, tmp_path):
 
 @pytest.mark.validate
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("seed", [717417, 727362, 727595, 727698, 737491])
-def test_what_was_once_trouble_is_exported_and_reported_or_refused(seed, tmp_path):
-    """A drive no part of which is known to touch first, an absurdly large one, a sliver of 1e-8 mm, lines of which
-    nothing is known, a flank that its fillet leaves nothing of.
-    """
-    assert pages.one(seed, tmp_path)
+@pytest.mark.parametrize("path", sorted((mutate.CORPUS / "pages").glob("*.toml")), ids=lambda path: path.stem)
+def test_what_was_once_trouble_is_exported_and_reported(path, tmp_path):
+    assert pages.outcomes(path.read_bytes(), tmp_path)
 
 
 def test_the_c_interface_does_as_it_says_of_random_bytes(tmp_path):
