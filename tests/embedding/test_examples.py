@@ -141,6 +141,7 @@ def test_from_the_wheel_to_a_report_of_a_drive_of_ones_own_takes_half_a_minute(t
     assert taken.children_user + taken.children_system - begun.children_user - begun.children_system < 30.0
 
 
+@pytest.mark.validate
 def test_the_source_archive_holds_all_that_a_wheel_is_built_from(tmp_path):
     """Every tracked file of the folders that count; a compiler finds in it all that core and drives are made of."""
     c.run(sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", tmp_path, c.ROOT)

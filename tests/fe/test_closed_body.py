@@ -63,6 +63,7 @@ def test_a_left_hand_body_is_the_mirror_image():
     assert left.volume == pytest.approx(right.volume, rel=1e-9)
 
 
+@pytest.mark.validate
 def test_a_worm_is_a_screw_of_its_cross_section():
     """All sections of a helicoid across its axis are alike: the volume is the end face's area by the length."""
     body = closed_body(Drive.load("plain-za"), "pinion", departure=5e-3)

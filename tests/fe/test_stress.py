@@ -78,6 +78,7 @@ def test_gate_refuses_a_coarse_mesh(ccx, concave, compliance, tmp_path):
     refused(document, "elements_per_semi_minor")
 
 
+@pytest.mark.validate
 def test_gate_refuses_a_start_with_a_gap(ccx, concave, compliance, tmp_path):
     """From 1 um apart the contact is not found: the solver diverges until it gives up or is cut."""
     prepared, settings = prepared_at(concave, compliance, tmp_path, COARSE)
