@@ -2,6 +2,7 @@
 #ifndef MW_CERTIFY_H
 #define MW_CERTIFY_H
 
+#include <stddef.h>
 #include "mw_enclosures.h"
 #include "mw_model.h"
 #include "mw_status.h"
