@@ -8,6 +8,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import ClassVar
 
 import numpy as np
 
@@ -61,24 +62,15 @@ def _given(design):
             yield number, number
 
 
-@dataclass(frozen=True)
-class Certificates:
-    """What is shown at N pinion angles.
+class InWords:
+    """The ``records`` (N,) of the library in words; ``WORDS`` are those of an outcome, by its number there."""
 
-    ``outcomes``: ``unique``: the equations of contact have exactly one solution within ``boxes`` (N, nx) of the one
-    found, and it lies in the enclosures; ``none``: they have none in the box asked for; ``unknown``: neither is shown,
-    for the reason in ``reasons``, which is evidence of nothing. ``records`` (N,) are the library's own, ``angles`` (N,)
-    of ``mw_wide`` the pinion angles of the right-hand drive. Each is for the exact decimals of the design and for the
-    exact angle; that floating point found the same is not assumed.
-    """
-
-    drive: DriveModel
+    WORDS: ClassVar[tuple[str, ...]]
     records: np.ndarray
-    angles: np.ndarray
 
     @property
     def outcomes(self):
-        return tuple(OUTCOMES[k] for k in self.records["outcome"])
+        return tuple(self.WORDS[k] for k in self.records["outcome"])
 
     @property
     def reasons(self):
@@ -89,6 +81,23 @@ class Certificates:
     def messages(self):
         """The same in a sentence."""
         return tuple(text(library().mw_reason_text(int(k))) for k in self.records["reason"])
+
+
+@dataclass(frozen=True)
+class Certificates(InWords):
+    """What is shown at N pinion angles.
+
+    ``outcomes``: ``unique``: the equations of contact have exactly one solution within ``boxes`` (N, nx) of the one
+    found, and it lies in the enclosures; ``none``: they have none in the box asked for; ``unknown``: neither is shown,
+    for the reason in ``reasons``, which is evidence of nothing. ``records`` (N,) are the library's own, ``angles`` (N,)
+    of ``mw_wide`` the pinion angles of the right-hand drive. Each is for the exact decimals of the design and for the
+    exact angle; that floating point found the same is not assumed.
+    """
+
+    WORDS: ClassVar = OUTCOMES
+    drive: DriveModel
+    records: np.ndarray
+    angles: np.ndarray
 
     @property
     def boxes(self):

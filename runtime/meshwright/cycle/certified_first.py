@@ -3,18 +3,17 @@ place of the one bounded flank meets one of the other's; or the place where one 
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from meshwright.base.library import library, pointer, record, text
+from meshwright.base.library import library, pointer, record
 from meshwright.contact import exact
+from meshwright.contact.certificate import InWords
 from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed
 from meshwright.contact.results import ARCSEC
 from meshwright.flank.region import Uses, region
-
-#: Outcomes by their number in the library.
-OUTCOMES = ("unknown", "first", "not_first")
 
 #: An overlap below this is not told from a contact, mm of arc at the contact.
 SLACK = 1e-6
@@ -31,7 +30,7 @@ ANGLES, PITCHES, BESIDE, BEYOND = 9, 0.5, 0.05, 4.0
 
 
 @dataclass(frozen=True)
-class FirstCertificates:
+class FirstCertificates(InWords):
     """What is shown of first contact at N pinion angles.
 
     ``outcomes``: ``first``: with the wheel turned back from the contact by any angle above ``slacks`` and up to
@@ -42,6 +41,7 @@ class FirstCertificates:
     ``neighbours``: the same of pairs so many later, with both members where this pair's contact holds them.
     """
 
+    WORDS: ClassVar = ("unknown", "first", "not_first")
     drive: DriveModel
     records: np.ndarray
     boxes: dict[str, dict[str, tuple[float, float]]]
@@ -49,20 +49,6 @@ class FirstCertificates:
     reach: float
     radii: np.ndarray
     neighbours: dict[int, "FirstCertificates"]
-
-    @property
-    def outcomes(self):
-        return tuple(OUTCOMES[k] for k in self.records["outcome"])
-
-    @property
-    def reasons(self):
-        """Why nothing is shown, a word each; empty where something is."""
-        return tuple(text(library().mw_reason_word(int(k))) for k in self.records["reason"])
-
-    @property
-    def messages(self):
-        """The same in a sentence."""
-        return tuple(text(library().mw_reason_text(int(k))) for k in self.records["reason"])
 
     def points(self, contacts):
         """The places (N, 3) that are named, of the wheel's flank at its transmission errors of the ``contacts`` (N,),

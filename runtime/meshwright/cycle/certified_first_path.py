@@ -170,7 +170,7 @@ class _Search:
         (entry,) = entry
         overlap = -float(entry["apart"]["mid"] + entry["apart"]["radius"])
         return Span(
-            later, begin, end, single.OUTCOMES[entry["outcome"]], *_said(int(entry["reason"])),
+            later, begin, end, single.FirstCertificates.WORDS[entry["outcome"]], *_said(int(entry["reason"])),
             bool(entry["throughout"]), int(entry["parts"]), float(angle[0]), tuple(entry["wheel"].tolist()), overlap,
         )  # fmt: skip
 
