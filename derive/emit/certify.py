@@ -18,6 +18,15 @@ from derive.emit.certified import operations_of
 from derive.emit.render import render
 
 
+def _reached(steps, outputs):
+    """What the outputs are computed from by these steps, and they themselves."""
+    found = {*outputs}
+    for _, results, args in reversed(steps):
+        if found & {*results}:
+            found |= {*args}
+    return found
+
+
 class _Text:
     """Statements of one function in one arithmetic; ``read`` maps leaves to what they are read by."""
 
@@ -25,10 +34,15 @@ class _Text:
         self.tape, self.prefix, self.type, self.suffix, self.read = tape, prefix, type_, suffix, read
         self.names, self.statements = {}, []
 
-    def of(self, outputs):
-        """Operands of ``outputs``, once their statements are written."""
-        for op, results, args in operations_of(self.tape, outputs, self.read.keys()):
-            self._write(op, results, [self._operand(a) for a in args])
+    def of(self, outputs, among=None):
+        """Operands of ``outputs``, once their statements are written, as they are computed ``among`` other outputs:
+        which quotients share a reciprocal depends on all that is computed.
+        """
+        steps = operations_of(self.tape, among or outputs, self.read.keys())
+        wanted = _reached(steps, outputs)
+        for op, results, args in steps:
+            if wanted & {*results}:
+                self._write(op, results, [self._operand(a) for a in args])
         return [self._operand(i) for i in outputs]
 
     def _operand(self, i):
@@ -74,7 +88,7 @@ class _Point:
     def __init__(self, tape, read, most, residual, jacobian):
         self.tape, self.read, self.most = tape, read, most
         self.steps = operations_of(tape, [*residual, *jacobian], read.keys())
-        self.wide = self._reached(residual)
+        self.wide = _reached(self.steps, residual)
         self.factor = Counter(a for op, _, args in self.steps if op == "mul" for a in args)
         self.names, self.radii, self.statements, self.guards = {}, {}, [], []
         quotients = {results[0] for op, results, _ in self.steps if op == "div"}
@@ -85,14 +99,6 @@ class _Point:
             self._write(op, results, names, args)
         self.residual = [(self._operand(i), self.radii.get(i, "0.0")) for i in residual]
         self.jacobian = [self._operand(i) for i in jacobian]
-
-    def _reached(self, outputs):
-        """What the outputs are computed from, and they themselves."""
-        found = {*outputs}
-        for _, results, args in reversed(self.steps):
-            if found & {*results}:
-                found |= {*args}
-        return found
 
     def _say(self, node, middle, radius):
         """A name for a node, with the text of its radius, None where it is exact."""
@@ -175,9 +181,9 @@ class _Point:
         self._say(results[1], cosine, f"mwc_units_turned({radius}, {sine}, 1.0)")
 
 
-def _balls(tape, suffix, read, outputs):
+def _balls(tape, suffix, read, outputs, among=None):
     text = _Text(tape, "mwc_", "mw_ball", suffix, read)
-    return {"results": text.of(outputs), "statements": text.statements}
+    return {"results": text.of(outputs, among), "statements": text.statements}
 
 
 def header(plan, description, runtime):
@@ -196,6 +202,8 @@ def header(plan, description, runtime):
     point = {lower(u): (f"x[{k} * MW_LANES + l]", None) for k, u in enumerate(plan.unknowns)}
     given = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)}
     setup = _Text(tape, "mwc_wide_", "mw_wide", "w", given)
+    jacobian = [entry for row in plan.jacobian for entry in row]
+    both = [*plan.residual, *jacobian]
     return render(
         "certify.h.jinja",
         drive=plan.drive,
@@ -209,9 +217,9 @@ def header(plan, description, runtime):
         slots=len(slots),
         setup={"results": setup.of(slots[: plan.design_slots]), "statements": setup.statements},
         instant=_balls(tape, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}, slots[plan.design_slots :]),
-        residual=_balls(tape, "p", shared | own | at, plan.residual),
-        jacobian=_balls(tape, "b", shared | own | about, [e for row in plan.jacobian for e in row]),
-        point=_Point(tape, shared_3 | turned | point, most, plan.residual, [e for row in plan.jacobian for e in row]),
+        residual=_balls(tape, "p", shared | own | at, plan.residual, both),
+        jacobian=_balls(tape, "b", shared | own | about, jacobian, both),
+        point=_Point(tape, shared_3 | turned | point, most, plan.residual, jacobian),
         columns=[*(k for k in range(len(plan.unknowns)) if k != description["error"]), description["error"]],
         scales=_balls(tape, "b", shared | own, plan.scales),
     )

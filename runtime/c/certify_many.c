@@ -129,7 +129,9 @@ size_t mw_certify_many(const mw_lane_set *set, const mw_proofs *proofs, const mw
     mwc_domain of;
     int possible = mwc_posed(m, s, &p) == MW_REASON_NONE && (!proofs || strcmp(proofs->drive, m->drive) == 0);
     for (size_t i = 0; i < n; i++) unique[i] = 0, errors[i] = mwc_make(nx ? x[i * nx + (size_t)m->error] : NAN, HUGE_VAL);
-    if (!possible || n == 0 || mwc_posed_at(m, phi[0], &p) != MW_REASON_NONE) return 0;
+    size_t posed = 0; /* natural sizes are those of the first angle that is one */
+    while (possible && posed < n && mwc_posed_at(m, phi[posed], &p) != MW_REASON_NONE) posed++;
+    if (!possible || posed == n) return 0;
     const mw_enclosing *in_lanes = set && proofs ? proofs->lanes[set->set] : NULL, *by = proofs ? proofs->enclosing() : m->kernels->enclosing();
     const double *balls = &p.balls[0].mid;
     of.guards = mwc_run_bounds(&mwc_tables_of(m)->equations, NULL, NULL, NULL);

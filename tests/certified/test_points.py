@@ -252,7 +252,12 @@ def certificates_and_bounds(drive, m, proved_by, solutions):
     return found.tobytes(), errors
 
 
-@pytest.mark.parametrize("name", quick(["recess-action-full", "face-worm-cylindrical-convex"], "recess-action-full"))
+TWICE_DIVIDED = "crossed-helical-17-23"  # its equations divide by one number more than once
+
+
+@pytest.mark.parametrize(
+    "name", quick(["recess-action-full", "face-worm-cylindrical-convex", TWICE_DIVIDED], TWICE_DIVIDED)
+)
 def test_certificates_by_tables_have_the_bits_of_those_by_printed_code(name):
     """With the object of proofs, which is compiled only for many of them, and without it. Of many points, printed code
     shares bounds among them: its errors and the tables' are two enclosures of the same numbers, those in certificates.

@@ -30,7 +30,7 @@ SOURCE, GENERATED = ROOT / "runtime" / "c", ROOT / "generated" / "c"
 DESIGNS = (
     "zk-zn-45", "zk-zn-90", "spherical-table-2-3", "spherical-table-5-2-convex", "helical-crowned",
     "crossed-helical-17-23", "spur-profile-shift", "face-worm-cylindrical-convex", "face-worm-conical-concave",
-    "bevel-formate",
+    "bevel-formate", "bevel-face-hobbed",
 )  # fmt: skip
 
 #: Misalignments of further seeds of each design, by key where the design has it.
@@ -116,10 +116,12 @@ def _seed(name, k, drive):
     compiled = drive.design.description["name"]
     lines.append(f"int fuzz_alone_{compiled}(double *s, double phi, double *x, mw_info *info); /* {name} */")
     lines.append(f"int fuzz_casadi_{compiled}(int which, const double **arg, double **res, double *w);")
+    lines.append(f"const mw_in_lanes *mw_in_lanes_{compiled}(void);")
     first, all_edges = f"&{own}_first" if found is not None else "NULL", f"{own}_edges" if edges else "NULL"
     listed = (
         f'{{ "{compiled}", {own}_given, {own}_complete, {own}_x, 0.05, fuzz_alone_{compiled}, fuzz_casadi_{compiled}, '
-        f"{first}, {all_edges}, {len(edges)}, {f'{own}_proofs' if proofs else 'NULL'}, {len(proofs)} }},"
+        f"mw_in_lanes_{compiled}, {first}, {all_edges}, {len(edges)}, {f'{own}_proofs' if proofs else 'NULL'}, "
+        f"{len(proofs)} }},"
     )
     return lines, listed
 
@@ -232,6 +234,7 @@ typedef struct seed {{
     double phi;
     int (*solve)(double *s, double phi, double *x, mw_info *info);
     int (*entry)(int which, const double **arg, double **res, double *w);
+    const mw_in_lanes *(*lanes)(void);
     const first_seed *first;
     const edge_seed *edges;
     int nedges;

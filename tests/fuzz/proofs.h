@@ -306,6 +306,43 @@ static void certificate(reader *r, fuzzed *f)
     calls += 3;
 }
 
+static const mw_enclosing *nothing_printed(void)
+{
+    return NULL;
+}
+
+/* By the drive's table as it is without the objects beside it, and joined with them: to the same bits. */
+static void certificates_joined(fuzzed *f, const mw_wide *s, const mw_wide *phi, const double *x, const int *line, size_t n,
+                                const mw_certificate *c)
+{
+    const mw_in_lanes *lanes = f->from->lanes();
+    const mw_proofs *proofs = mw_proofs_of(f->m);
+    mw_in_lanes other_lanes = *lanes;
+    mw_proofs other_proofs = *proofs;
+    mw_model bare = *f->m;
+    mw_kernels kernels = *f->m->kernels;
+    kernels.enclosing = nothing_printed;
+    bare.kernels = &kernels;
+    other_lanes.drive = other_proofs.drive = "another";
+    void *place = room(1, mw_joined_size());
+    if (mw_joined(&bare, &other_lanes, NULL, place) || mw_joined(&bare, NULL, &other_proofs, place)) fail("another drive's object");
+    const mw_model *const ways[] = { &bare, mw_joined(&bare, lanes, proofs, place) };
+    mw_certificate *own = room(n, sizeof *own);
+    for (int way = 0; way < 2; way++) {
+        mw_certify_points(ways[way], s, phi, x, line, n, own);
+        for (size_t k = 0; k < n; k++) {
+            if (own[k].outcome != c[k].outcome || own[k].reason != c[k].reason) fail("a table and printed code find different ends");
+            if (c[k].outcome == MW_UNIQUE && memcmp(own + k, c + k, sizeof *c) != 0) fail("a table and printed code differ");
+        }
+    }
+    unsigned char *unique = room(n, 1);
+    mw_ball *errors = room(n, sizeof *errors);
+    mw_certify_many(NULL, NULL, &bare, s, phi, x, n, unique, errors);
+    for (size_t k = 0; k < n; k++)
+        if (c[k].outcome == MW_UNIQUE && !line[k] && !unique[k]) fail("a table shows less of many points than of one");
+    calls += 6;
+}
+
 /* Many at once, in lanes and one by one: what both show is the same. */
 static void certificates(reader *r, fuzzed *f)
 {
@@ -328,6 +365,7 @@ static void certificates(reader *r, fuzzed *f)
     size_t count = 0, shown = 0;
     const size_t points = mw_certify_points(m, s, phi, x, line, n, c);
     for (size_t k = 0; k < n; k++) must_be_sound(r, m, c + k, c[k].outcome), shown += c[k].outcome == MW_UNIQUE;
+    certificates_joined(f, s, phi, x, line, n, c);
     const size_t lanes = mw_certify_many(mw_lanes(widths[byte(r) % 6]), mw_proofs_of(m), m, s, phi, x, n, unique, errors);
     for (size_t k = 0; k < n; k++) {
         count += unique[k];
