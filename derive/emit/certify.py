@@ -66,7 +66,6 @@ class _Text:
         else:
             self.statements.append(f"const {self.type} {names[0]} = {self.prefix}{op}({', '.join(args)});")
 
-
     def _turn(self, names, angle):
         sine, cosine = names
         if self.type == "mw_wide":
