@@ -18,6 +18,10 @@ from derive.passes.quotients import reciprocals
 from derive.program.routine import routine
 from derive.program.tape import Stage
 
+#: Operations from which on a function that is seldom called is compiled as it stands: the time that a compiler takes to
+#: allot registers grows with the square of them, and is then seconds, more than any analysis spends in the function.
+LONG = 2500
+
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 
@@ -34,6 +38,7 @@ class Body:
     statements: tuple[str, ...]
     results: tuple[str, ...]
     operations: int
+    long: bool = False  #: whether it is to be compiled as it stands
 
 
 def estrin(name, variable, coefficients):
@@ -70,6 +75,7 @@ class Printer:
         self.leaves = leaves
         self.suffix = suffix  # of local names
         self.names = names or {}
+        self.seldom = seldom
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
     def body(self, outputs, known=None, later=()):
@@ -78,7 +84,11 @@ class Printer:
         Returns the body and ``known`` extended by what it computed. The function goes on to ``later``.
         """
         operands = dict(known or {})
-        return side_by_side([self], outputs, [operands], later), operands
+        printed = self.routine(outputs, operands, later)
+        if not self.seldom or printed.operations < LONG:
+            return side_by_side([self], printed, [operands]), operands
+        statements = [line for i, step in printed.steps for line in self.statement(i, step, operands)]
+        return Body(tuple(statements), self.results(outputs, operands), printed.operations, long=True), operands
 
     def routine(self, outputs, known, later=()):
         """The routine behind ``outputs`` as it is printed, in an order of evaluation."""
@@ -134,16 +144,18 @@ class Printer:
 LAG = 80
 
 
-def side_by_side(printers, outputs, operands, later=()):
-    """One body that computes ``outputs`` by each of several printers of the same tape, statement beside statement.
+def side_by_side(printers, printed, operands):
+    """One body that computes a routine's outputs by each of several printers of the same tape, statement beside
+    statement.
 
     ``operands`` holds what is known to each printer and receives what is computed. Results come printer by printer.
     """
-    printed = printers[0].routine(outputs, operands[0], later)
     program, statements = dict(printed.steps), []
     for copy, i in interleaved(printed, tuple(LAG * k for k in range(len(printers)))):
         statements += printers[copy].statement(i, program[i], operands[copy])
-    results = [r for printer, known in zip(printers, operands, strict=True) for r in printer.results(outputs, known)]
+    results = [
+        r for printer, known in zip(printers, operands, strict=True) for r in printer.results(printed.outputs, known)
+    ]
     return Body(tuple(statements), tuple(results), printed.operations)
 
 

@@ -38,5 +38,5 @@ def header(plan: Schedule, generator: str):
         guards=body(leaves.design, [g.node for g in plan.guards]),
         setup=body(leaves.design, slots[: plan.design_slots]),
         set_phi=body(leaves.instant, slots[plan.design_slots :]),
-        step=side_by_side([lower, upper], plan.newton_step, [{}, {}]),
+        step=side_by_side([lower, upper], lower.routine(plan.newton_step, {}), [{}, {}]),
     )

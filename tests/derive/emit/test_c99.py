@@ -6,13 +6,17 @@ import re
 import pytest
 import sympy as sp
 
+from derive.emit import c99
 from derive.emit.c99 import Printer, estrin
 from tests.derive.small import VALUES, lowered, p, x, y
 
 
 def value(body, result, **names):
     """What C statements compute, as Python reads them."""
-    known = {"MW_FMA": lambda a, b, c: a * b + c, "sqrt": math.sqrt, **names}
+    known = {
+        "MW_FMA": lambda a, b, c: a * b + c, "MW_FMS": lambda a, b, c: a * b - c,
+        "MW_FNMA": lambda a, b, c: c - a * b, "sqrt": math.sqrt, **names,
+    }  # fmt: skip
     for statement in body.statements:
         declared = re.fullmatch(r"(?:const )?double (\w+) = (.+);", statement)
         assert declared, statement
@@ -36,3 +40,15 @@ def test_statements_compute_the_nodes():
     for result, expression in zip(body.results, expressions, strict=True):
         assert value(body, result, **numbers) == pytest.approx(float(expression.subs(VALUES)), rel=1e-15)
     assert body.operations == 7  # a sum that takes a product counts as two
+
+
+def test_a_long_function_that_is_seldom_called_computes_the_same(monkeypatch):
+    expression = (x * y + p) * sp.sqrt(x**2 + p) - y / (x + p)
+    tape, lower, nodes = lowered(expression)
+    leaves, numbers = {lower(s): str(s) for s in (x, y, p)}, {str(s): v for s, v in VALUES.items()}
+    short = Printer(tape, "none", leaves, seldom=True).body(nodes)[0]
+    monkeypatch.setattr(c99, "LONG", short.operations)
+    long = Printer(tape, "none", leaves, seldom=True).body(nodes)[0]
+    often = Printer(tape, "none", leaves).body(nodes)[0]
+    assert (short.long, long.long, often.long) == (False, True, False)
+    assert value(long, long.results[0], **numbers) == value(short, short.results[0], **numbers)
