@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from derive import compiler, drives, outside
+from derive import beside, compiler, drives, outside
 from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
 from derive.emit import families
@@ -132,7 +132,7 @@ def _replace(folder, files):
 def _some(names):
     """The files of the drives named."""
     record = _record()
-    return {path: text for name in names for path, text in _of_drive(record, name).items()}
+    return {path: text for name in names for path, text in _of_drive(record, name, beside.begun).items()}
 
 
 def _record():
@@ -166,8 +166,8 @@ def _of_drives(names, record):
     return {path: text for files in reversed(made) for path, text in files.items()}
 
 
-def _of_drive(record, name):
-    return compiler.compile_drive(drives.catalogue([name])[name], name, record, log)
+def _of_drive(record, name, *begun):
+    return compiler.compile_drive(drives.catalogue([name])[name], name, record, log, None, None, *begun)
 
 
 def _written(folder):

@@ -15,6 +15,7 @@ up when its operations are known.
 
 import hashlib
 import json
+from functools import partial
 from pathlib import Path
 
 from derive.audit.provenance import provenance
@@ -42,13 +43,14 @@ if not RUNTIME.exists():
     RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
-def compile_drive(page, name, record, log, open_=None, emitted=None):
+def compile_drive(page, name, record, log, open_=None, emitted=None, begun=lambda work: work):
     """All generated files of the drive ``name`` that the function ``page`` builds: relative path → text.
 
     ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
     does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. ``emitted`` is
-    called with path and text of each file as soon as it is made. Raises
-    :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
+    called with path and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`) does half the
+    work in a process of its own. Raises :class:`~derive.language.validate.DescriptionError` for a drive whose page
+    contradicts itself.
     """
     with log("define", name):
         drive = define(page)
@@ -58,14 +60,16 @@ def compile_drive(page, name, record, log, open_=None, emitted=None):
         plan = reduce(plan)
     with log("schedule", name):
         plan = bind(plan)
+    apart = begun(partial(checked, plan))
     with log("prove", name):
-        origin = prove(record, plan, open_)
+        origin = provenance(record, plan, open_)
     files = {}
     with log("emit", name):
-        for path, text in emit(plan, origin):
-            files[path] = text
-            if emitted:
-                emitted(path, text)
+        for made in (lambda: emit(plan, origin), apart):
+            for path, text in made():
+                files[path] = text
+                if emitted:
+                    emitted(path, text)
     return files
 
 
@@ -76,20 +80,24 @@ def define(page):
     return drive
 
 
-def prove(record, plan, open_=None):
-    """The provenance of a schedule; its normals point out of both bodies, and its regions go on from the flanks."""
+def checked(plan):
+    """Headers of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
+    and its regions go on from the flanks.
+    """
     validate_normals(plan.drive, observation(plan), plan.sample)
     validate_regions(plan.drive, joints(plan))
-    return provenance(record, plan, open_)
+    c = f"c/{plan.drive.name}"
+    return [
+        (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
+        (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
+    ]
 
 
 def emit(plan, origin):
-    """What every printer makes of a schedule, file by file: path and text; what others include comes first."""
+    """What the other printers make of a schedule, file by file: path and text; what others include comes first."""
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     c = f"c/{drive.name}"
     yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
-    yield f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)
-    yield f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)
     yield f"descriptions/{drive.name}.json", description.text(drive)
     for name, text in casadi.texts(plan).items():
         yield f"casadi/{name}.casadi", text

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from derive import compiler
+from derive import beside, compiler
 from derive.audit.checker import attempts, check_code, straight_line
 from derive.audit.checker.refusal import Rejected
 from derive.emit import families
@@ -77,7 +77,7 @@ def write(page, name, record, folder, log, source=None):
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
-            files = compiler.compile_drive(kept, name, record, log, open_, emitted)
+            files = compiler.compile_drive(kept, name, record, log, open_, emitted, beside.begun)
             header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, open_, header, source)

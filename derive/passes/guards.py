@@ -154,8 +154,9 @@ def _of_system(plan: SystemTape) -> Iterator[Evaluated]:
 def partial_operations(evaluated: Evaluated) -> list[int]:
     """Nodes of a function that are not defined everywhere; quotients by a constant, and products, are."""
     tape = evaluated.tape
-    products = by_reciprocal(tape, tape.needed(evaluated.outputs, evaluated.known), evaluated.known)
-    needed = tape.needed(evaluated.outputs, evaluated.known, products)
+    needed = tape.needed(evaluated.outputs, evaluated.known)
+    if products := by_reciprocal(tape, needed, evaluated.known):
+        needed = tape.needed(evaluated.outputs, evaluated.known, products)
     return [i for i in needed if i in tape.origins and i not in products and not _by_constant(tape, i)]
 
 

@@ -131,19 +131,26 @@ class _Copy:
 
     def urgency(self, i: int) -> tuple[float, int]:
         """Sorts operations, the most urgent first; it only grows."""
-        graph = self._graph
-        registers = sum(self._uses[a] == 1 for a in graph.args[i]) - graph.results[i]
+        graph, uses = self._graph, self._uses
+        registers = -graph.results[i]
+        for a in graph.args[i]:
+            registers += uses[a] == 1
         return self._lag - graph.height[i] - _REGISTER * registers, graph.rank[i]
 
     def start(self, i: int, time: float) -> tuple[list[int], list[int]]:
         """Start operation i; returns those that may come now, and those ready that have become more urgent."""
-        graph, finished = self._graph, max(time, self.possible[i]) + self._graph.latency[i]
+        graph, uses, waits, possible = self._graph, self._uses, self._waits, self.possible
+        finished = max(time, possible[i]) + graph.latency[i]
         self.ready.remove(i)
+        released, hastened = list[int](), list[int]()
         for a in graph.args[i]:
-            self._uses[a] -= 1
+            uses[a] -= 1
+            if uses[a] == 1:
+                hastened += [u for u in graph.users[a] if u in self.ready]
         for u in graph.users[i]:
-            self._waits[u] -= 1
-            self.possible[u] = max(self.possible[u], finished)
-        released = [u for u in graph.users[i] if not self._waits[u]]
-        last_used = (a for a in graph.args[i] if self._uses[a] == 1)
-        return released, [u for a in last_used for u in graph.users[a] if u in self.ready]
+            waits[u] -= 1
+            if possible[u] < finished:
+                possible[u] = finished
+            if not waits[u]:
+                released.append(u)
+        return released, hastened

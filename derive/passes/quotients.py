@@ -30,13 +30,13 @@ def by_reciprocal(tape: Tape, computed: Iterable[int], known: Iterable[int]) -> 
     """Quotient → its dividend and the reciprocal of its divisor, in a function that computes these nodes from those
     that it is given.
     """
-    one, order = tape.constant(1), {*computed}
-    at_hand = order.union(known)
+    one, order, nodes = tape.constant(1), {*computed}, tape.nodes
     factors: dict[int, tuple[int, int]] = {}
-    for i in order:
-        node = tape.nodes[i]
-        if node.op == "div" and node.args[0] != one:
-            reciprocal = tape.find("div", one, node.args[1])
-            if reciprocal is not None and reciprocal in at_hand:
-                factors[i] = (node.args[0], reciprocal)
+    quotients = [i for i in order if nodes[i].op == "div" and nodes[i].args[0] != one]
+    at_hand = order.union(known) if quotients else order
+    for i in quotients:
+        dividend, divisor = nodes[i].args
+        reciprocal = tape.find("div", one, divisor)
+        if reciprocal is not None and reciprocal in at_hand:
+            factors[i] = (dividend, reciprocal)
     return factors
