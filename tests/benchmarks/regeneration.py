@@ -1,5 +1,6 @@
 """How long it takes from a drive's definition to compiled C, and to prove and re-check the audit record."""
 
+import json
 import re
 import subprocess
 import sys
@@ -7,9 +8,16 @@ import tempfile
 import time
 from pathlib import Path
 
+from derive.packaged import packaged
 from tests.benchmarks.timing import FLAGS, compiler
 
 ROOT = Path(__file__).resolve().parents[2]
+
+#: Packaged designs of every family, whose drives are tried as if a line of a tool had been changed.
+DESIGNS = (
+    "recess-action-full", "plain-zc", "spherical-table-2-1", "face-worm-cylindrical-convex", "helical-crowned",
+    "bevel-formate", "bevel-hypoid", "bevel-face-hobbed",
+)  # fmt: skip
 
 #: How often one drive is derived and compiled; the quickest counts, as other work slows a process down.
 TURNS = 7
@@ -32,6 +40,19 @@ def report(drive):
     print(f"  {one + compiled:7.2f} python -m derive {drive} ({one:.2f}), its C compiled ({compiled:.2f}); quickest of")
     print(f"          {' '.join(f'{a + b:.2f}' for a, b, _ in turns)}")
     print(f"  {checked:7.2f} generated/audit/check.py")
+    print("from a changed line of a tool to what it changes: the drive derived and compiled, meshwright tca; seconds")
+    for design in DESIGNS:
+        print(f"  {_tried(design):7.2f} {design}")
+
+
+def _tried(design):
+    """Seconds from a changed line until ``meshwright tca`` has printed its table."""
+    families = json.loads((ROOT / "generated" / "families.json").read_text(encoding="utf-8"))
+    (drive,) = packaged(families, [design])
+    with tempfile.TemporaryDirectory() as folder:
+        _, made = _timed(sys.executable, "-m", "derive", drive, "--into", folder)
+        _, solved = _timed(sys.executable, "-m", "meshwright", "--drives", folder, "tca", design)
+    return made + solved
 
 
 def _derived_and_compiled(drive, folder):
