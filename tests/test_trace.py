@@ -30,3 +30,17 @@ def test_an_angle_out_of_range_is_bad_input_and_its_neighbours_are_not(name):
     alone, statuses = analysis.trace(drive, angles[~out])
     assert x[~out] == pytest.approx(alone, abs=1e-11)
     assert (statuses["status"] >= 0).all() and (records["status"][~out] >= 0).all()
+
+
+@pytest.mark.parametrize("name", ["recess-action-full", "helical-crowned", "bevel-hypoid", "face-worm-conical-convex"])
+def test_close_points_that_share_a_jacobian_are_the_solutions_of_each_alone(name):
+    """Their steps use the inverse of an earlier Jacobian, and leave no more than round-off does."""
+    drive = Drive.load(name)
+    error, middle = drive.design.description["error"], drive.design.reference_angle
+    angles = middle + np.linspace(-0.02, 0.02, 2001) * drive.pitch()
+    x, records = analysis.trace(drive, angles)
+    assert (records["status"] == 0).all()
+    for k in range(7, len(angles), 150):
+        alone, _ = drive.trace([angles[k]])
+        assert x[k] == pytest.approx(alone[0], abs=1e-11)
+        assert x[k, error] == pytest.approx(alone[0, error], abs=3e-15)

@@ -4,6 +4,7 @@
 #include "exact.h"
 #include "meshwright.h"
 #include "solver/choice.h"
+#include "solver/chord.h"
 
 /* Points of a trace go from one to the next in single steps. That none came out on another branch is checked against the
  * walk, every so many points for each station of it; where one did, the points since the last check are walked to. */
@@ -25,6 +26,8 @@ typedef struct trace {
     mw_info *info;
     mwi_pair pair;
     mwi_history history;
+    mwi_chord chord;
+    double step;                 /* size of the last */
     double beside[MW_MAX_UNKNOWNS];
     size_t checked, walked;      /* points before these numbers are on the branch; have to be walked to */
 } trace;
@@ -47,6 +50,30 @@ static void by_walk(trace *t, size_t k)
     if (mwi_by_walk(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
 }
 
+/* Solve for phi by a step from its prediction with the inverse Jacobian of a point before or, where that is not enough, of
+ * its own. Returns 0 where neither does. */
+static int by_chord(trace *t, double phi, double *x, mw_info *info)
+{
+    const mw_model *m = t->m;
+    mwi_chord *c = &t->chord;
+    const int tried = mwi_chord_reaches(c, phi, t->step);
+    if (!tried && !mwi_chord_is_due(c, t->step)) return 0;
+    m->set_phi(t->pair.s, phi);
+    if (!tried) m->scale(t->pair.s, c->scale);
+    mwi_predict(&t->history, phi, m->nx, x);
+    if (!mwi_chord_near(c, m->nx, x, t->history.x[0], MWI_STRIDE)) return 0;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    info->iterations = 1;
+    if (tried) info->step = t->step = mwi_chord_step(m, c, t->pair.s, x);
+    if (!tried || !mwi_chord_reaches(c, phi, t->step)) {
+        const double spacing = mwi_abs(phi - t->history.phi[0]), last = tried ? t->step : 0.0;
+        info->iterations += tried;
+        info->step = mwi_chord_renew(m, c, t->pair.s, phi, spacing, last, x);
+        t->step = mwi_larger(last, info->step);
+    }
+    return info->step <= MWI_CHORD_STEP && mwi_within_bounds(m, x);
+}
+
 /* Solve point k by a step from the points before it. Returns 0 where that does not succeed. */
 static int by_leap(trace *t, size_t k)
 {
@@ -54,7 +81,10 @@ static int by_leap(trace *t, size_t k)
     const double phi = t->phi[k];
     if (t->history.count == 0 || phi == t->history.phi[0]) return 0;
     if (t->history.count == 1) mwi_take_direction(t->m, &t->history, phi, t->pair.s, t->beside);
-    if (!mwi_leap(t->m, &t->history, phi, t->pair.s, x, t->info + k)) return 0;
+    if (!by_chord(t, phi, x, t->info + k)) {
+        if (!mwi_leap(t->m, &t->history, phi, t->pair.s, x, t->info + k)) return 0;
+        t->step = t->info[k].iterations == 1 ? t->info[k].step : HUGE_VAL;
+    }
     mwi_remember(&t->history, phi, x);
     return 1;
 }
@@ -117,6 +147,8 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     t.pair.p = p, t.pair.s = s, t.pair.work = work;
     t.phi = phi, t.n = n, t.x = x, t.info = info;
     t.history = mwi_no_history();
+    t.chord = mwi_no_chord();
+    t.step = HUGE_VAL;
     t.checked = t.walked = 0;
     mwi_find_reference(&t.pair);
     for (size_t k = trace_in_range(&t, 0); k < n;) k = trace_in_range(&t, k + 1);

@@ -1,9 +1,12 @@
 """``make bench``: points a second of every kernel in one table and one run.
 
 Quote ratios, not seconds: they are what one run on one machine can compare. Nothing here asserts a time. The baselines
-start each point from the one before; ``casadi-c-extrapolated`` starts from this runtime's own extrapolation.
+start each point from the one before; those named ``extrapolated`` from this runtime's own extrapolation. Of CasADi's
+generated C there are two readings: ``casadi-c`` solves the residual that this compiler has reduced, ``casadi-c-chain``
+what is written down without a compiler of gear meshing (:mod:`tests.benchmarks.chain`).
 """
 
+import json
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -18,6 +21,7 @@ from derive.program.tape import Stage
 from meshwright import Drive
 from meshwright.base.library import ffi, library
 from tests.benchmarks import baselines, calls, certified, latency, regeneration
+from tests.benchmarks.chain import Chain
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -69,8 +73,29 @@ class Case:
         return self.drive.design.description["name"]
 
     def text(self):
-        numbers = [*self.parameters, self.angles[0], self.angles[1] - self.angles[0], *self.start]
-        return f"{len(self.parameters)} " + " ".join(repr(float(v)) for v in numbers)
+        return _text(self.parameters, self.angles, self.start)
+
+
+@dataclass(frozen=True)
+class Chained:
+    """The same angles, solved by the chain as the description states it."""
+
+    case: Case
+    chain: Chain
+
+    @classmethod
+    def of(cls, case):
+        description = json.loads((ROOT / "generated" / "descriptions" / f"{case.name}.json").read_text("utf-8"))
+        return cls(case, Chain(description, case.parameters))
+
+    def text(self):
+        angles = self.case.angles
+        return _text(self.chain.numbers, angles, self.chain.start(angles[0], self.case.start))
+
+
+def _text(numbers, angles, start):
+    """What the programs read: count of numbers, numbers, first angle, step, start values."""
+    return f"{len(numbers)} " + " ".join(repr(float(v)) for v in (*numbers, angles[0], angles[1] - angles[0], *start))
 
 
 def case_of(design, first, step):
@@ -148,13 +173,14 @@ def casadi_function(case):
     return casadi.Function("g", [x, q], [values(q[:count], q[count], x)[0]])
 
 
-def casadi_program(case, folder):
-    solver = casadi.rootfinder("solver", "fast_newton", casadi_function(case), {"abstol": 1e-11, "abstolStep": 1e-9})
+def casadi_program(function, folder, name):
+    """A trace with CasADi's own C of the solver of function (x, q) → residual."""
+    solver = casadi.rootfinder("solver", "fast_newton", function, {"abstol": 1e-11, "abstolStep": 1e-9})
     generator = casadi.CodeGenerator("solver.c", {"with_header": True})
     generator.add(solver)
     generator.generate(f"{folder}/")
-    options = f"-I{folder}", f"-DUNKNOWNS={len(case.start)}"
-    return compile_c([HERE / "casadi_trace.c", folder / "solver.c"], folder / "casadi", *options)
+    options = f"-I{folder}", f"-DUNKNOWNS={function.size1_in(0)}"
+    return compile_c([HERE / "casadi_trace.c", folder / "solver.c"], folder / name, *options)
 
 
 def _in_turns(kernels):
@@ -170,7 +196,9 @@ def _in_turns(kernels):
 def measure(case, folder):
     """Points a second of every kernel, and instructions a point where callgrind counts them."""
     plan = schedule(drives.catalogue()[case.name]())
-    scalar, generated = scalar_program(case, folder), casadi_program(case, folder)
+    scalar, generated = scalar_program(case, folder), casadi_program(casadi_function(case), folder, "casadi")
+    chained = Chained.of(case)
+    by_chain = casadi_program(chained.chain.function, folder, "chain")
     rates = _in_turns(
         {
             "scalar": lambda: _run(scalar, case, POINTS, 20),
@@ -183,6 +211,8 @@ def measure(case, folder):
             "certified8": lambda: certified_points(case, 8),
             "casadi-c": lambda: _run(generated, case, POINTS, 20, 0),
             "casadi-c-extrapolated": lambda: _run(generated, case, POINTS, 20, 1),
+            "casadi-c-chain": lambda: _run(by_chain, chained, POINTS, 20, 0),
+            "casadi-c-chain-extrapolated": lambda: _run(by_chain, chained, POINTS, 20, 1),
             "casadi-rootfinder": lambda: baselines.casadi_rootfinder_points(casadi_function(case), case),
             "scipy": lambda: baselines.scipy_points(plan, case),
             "numpy-batched": lambda: baselines.numpy_points(plan, case),
@@ -192,6 +222,8 @@ def measure(case, folder):
         "scalar": _counted(scalar, case, folder),
         "casadi-c": _counted(generated, case, folder, 1, 0),
         "casadi-c-extrapolated": _counted(generated, case, folder, 1, 1),
+        "casadi-c-chain": _counted(by_chain, chained, folder, 1, 0),
+        "casadi-c-chain-extrapolated": _counted(by_chain, chained, folder, 1, 1),
     }
     return rates, counts, plan
 
