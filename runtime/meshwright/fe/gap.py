@@ -156,8 +156,7 @@ class _Flank:
     def under(self, feet: Floats) -> _Footprint:
         """Where normals through feet (N, 3) meet it."""
         curves, rotation, feet_body = self.rail.curves, self.pose[:3, :3], _in_body(self.pose, feet)
-        start = _nearest(self.rail, feet_body.mean(axis=0))
-        profile, _, points = self.surface.pierced(feet_body, self.axes[:2], start)
+        profile, _, points = self.surface.pierced(feet_body, self.axes[:2], self._below(feet_body.mean(axis=0)))
         pierced = np.abs((points - feet_body) @ self.axes[:2].T).max(axis=1) < _PIERCED
         points = np.where(np.isfinite(points), points, feet_body)
         section = curves.section.at(points)
@@ -176,6 +175,12 @@ class _Flank:
             beyond["measured grid"] = pierced & ~measured
         inside = pierced & ~np.any(list(beyond.values()), axis=0)
         return _Footprint(points @ rotation.T + self.pose[:3, 3], inside, beyond, excess, fraction, section)
+
+    def _below(self, foot: Floats) -> tuple[float, float]:
+        """Parameters where the normal through a foot (3,) meets it, or of a point of the section next to that."""
+        near = _nearest(self.rail, foot)
+        profile, face, _ = self.surface.pierced(foot[None], self.axes[:2], near)
+        return (float(profile[0]), float(face[0])) if np.isfinite(profile[0]) else near
 
     def place(self, of: _Footprint, middle: Floats | None) -> Floats:
         """Fractions (N, 2) of flank arc length, in the section of the contact or at another ``middle`` (3,), fixed

@@ -137,7 +137,7 @@ def loaded_contact(
         least = _LEAST_SHARE * load.torque
         known = {place.contact.pairs_later: force for place, force in zip(used, forces, strict=True)}
         laid = [
-            (place, _grid(gear, place, max(known.get(place.contact.pairs_later, 0.0), least / place.arm), rotation, cells))
+            (place, _grid(place, max(known.get(place.contact.pairs_later, 0.0), least / place.arm), rotation, cells))
             for place in places
         ]
         used, grids = tuple(place for place, grid in laid if grid), [grid for _, grid in laid if grid]
@@ -170,8 +170,8 @@ _Before = dict[int, tuple[ContactGrid, Floats]]
 
 @dataclass(frozen=True)
 class _Place:
-    """First contact of a pair of a gear with members at ``angles`` in rad: lever ``arm`` of the loaded member there, and
-    how far the flanks are ``apart`` there along the normal when the first of all pairs touches, mm.
+    """First contact of a pair with the members at ``angles`` in rad: lever ``arm`` of the loaded member there, and how
+    far the flanks are ``apart`` there along the normal when the first of all pairs touches, mm.
     """
 
     gear: GearPair
@@ -205,12 +205,12 @@ def _and_around(cells: Bools) -> Bools:
     return binary_dilation(cells.reshape(side, side), np.ones((3, 3))).ravel()
 
 
-def _grid(gear: GearPair, place: _Place, force: float, rotation: float, cells: int) -> ContactGrid | None:
+def _grid(place: _Place, force: float, rotation: float, cells: int) -> ContactGrid | None:
     """The cells of a pair; None of an edge that the load does not bring to the mate."""
     if place.contact.touch.edge:
         closing = rotation * place.arm
         return overlap_grid(place.plane, place.apart, closing, cells) if closing > place.apart else None
-    ellipse = hertz_of(gear, place.contact, force)
+    ellipse = hertz_of(place.gear, place.contact, force)
     reach = _REACH * np.array([ellipse.semi_major, ellipse.semi_minor])
     grid = contact_grid(place.plane, reach, cells)
     if grid.inside.mean() > _LEAST_USED:

@@ -133,8 +133,8 @@ class Flank:
 
     def places(self, factors, sizes, values, start):
         """Parameters (N, k), from nearby ones (N, k), at values (N, 2) of two coordinates: sums, with ``factors``
-        (2, k + 4) or (N, 2, k + 4), of the parameters, of x, y, z in the body frame and of the distance from the body's axis. ``sizes``
-        (k,) are natural sizes. NaN where Newton's method finds none.
+        (2, k + 4) or (N, 2, k + 4), of the parameters, of x, y, z in the body frame and of the distance from the
+        body's axis. ``sizes`` (k,) are natural sizes. NaN where Newton's method finds none.
         """
         evaluate, state, k, outputs, _, _ = self._evaluated
         q, values, o = start.copy(), np.ascontiguousarray(values), np.empty(outputs)
