@@ -81,8 +81,8 @@ class SectionCurves:
         """
         wanted = np.broadcast_to(values[:, None], profile.shape)
         if isinstance(self.surface, Cut):
-            sections = (np.repeat(of, profile.shape[1], axis=0) for of in self.section.factors(values))
-            face, *found = self.surface.on_sections(profile.ravel(), *sections, 0.0)
+            factors, sums = (np.repeat(of, profile.shape[1], axis=0) for of in self.section.factors(values))
+            face, *found = self.surface.on_sections(profile.ravel(), factors, sums, 0.0)
             points, normals = (of.reshape(*profile.shape, 3) for of in found)
             # the other half of a plane through the axis is none of the section
             if np.all(np.abs(self.section.at(points) - wanted) < _FOUND * _SECTION_TOLERANCE):

@@ -125,7 +125,7 @@ class HalfPlanes:
         return self.radius * np.arctan2(c * y - s * x, c * x + s * y)
 
     def factors(self, values: Floats) -> tuple[Floats, Floats]:
-        """Factors (K, 4) of x, y, z and the distance from the axis: they add up to 0 (K,) in planes of sections (K,)."""
+        """Factors (K, 4) of x, y, z and the distance from the axis: they add up to 0 (K,) in these planes (K,)."""
         azimuth = self.azimuth + values / self.radius
         nothing = np.zeros_like(azimuth)
         return np.stack([-np.sin(azimuth), np.cos(azimuth), nothing, nothing], axis=1), nothing
