@@ -1,5 +1,7 @@
 """Places of a flank on lines across a tooth: on their lines and on the flank, or none at all."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -64,5 +66,7 @@ def test_where_there_is_no_place_there_is_no_number(region, along):
 
 
 def test_what_is_no_surface_is_refused(region):
+    """Points without all of their tangents."""
+    flank, k = replace(region.flank, body=region.flank.body | {"outputs": 6}), len(region.seed)
     with pytest.raises(UsageError, match="no surface of two free parameters"):
-        region.flank.on_lines(99, None, region.chart.sizes, np.zeros((1, 2)), region.seed[None])
+        flank.places(np.eye(k + 4)[:2], region.chart.sizes, np.zeros((1, 2)), region.seed[None])

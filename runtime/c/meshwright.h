@@ -98,20 +98,19 @@ size_t mw_trace_angles(const mw_lane_set *set, const mw_model *m, const double *
 /* The flank of a body, or of a region, at n places: q[n*parameters] -> o[n*outputs]; s is set up. */
 void mw_flank(mw_surface flank, int parameters, int outputs, const double *s, const double *q, size_t n, double *o);
 
-/* Lines across a tooth: profile parameter number `profile` runs along one, and one has the same value of radial rho + axial z
- * everywhere, where rho and z are the distance from the body's axis and along it; of the last parameter, if both factors
- * are 0. A surface with as many implicit conditions as leave two of its parameters free; sizes[parameters]: natural. */
-typedef struct mw_section_lines {
+/* Two coordinates of a surface: sums, with factors[2][parameters + 4], of the parameters, of x, y and z in the body frame and of
+ * the distance from the body's axis; those of the next place stand so many numbers `apart`, 0 for the same everywhere. It has
+ * as many implicit conditions as leave two parameters free; sizes[parameters]: natural. */
+typedef struct mw_coordinates {
     mw_surface surface;
-    int parameters, outputs, profile;
-    double radial, axial;
-    const double *sizes;
-} mw_section_lines;
+    int parameters, outputs, apart;
+    const double *sizes, *factors;
+} mw_coordinates;
 
-/* Places q[n*parameters] with the profile parameters at[2*i] on the lines of the value at[2*i + 1], by Newton's method from
- * the places that q holds before; not a number where it finds none. s is set up; o[outputs] work. Returns MW_CONVERGED,
- * or MW_BAD_INPUT for numbers that describe no such surface. */
-int mw_on_lines(const mw_section_lines *lines, const double *s, const double *at, size_t n, double *o, double *q);
+/* Places q[n*parameters] with the coordinates at[2*i] and at[2*i + 1], by Newton's method from the places that q holds
+ * before; not a number where it finds none. s is set up; o[outputs] work. Returns MW_CONVERGED, or MW_BAD_INPUT for
+ * numbers that describe no such surface. */
+int mw_places(const mw_coordinates *by, const double *s, const double *at, size_t n, double *o, double *q);
 
 /* Follow the branch of contact through (phi0, x0) in arclength: up to count steps of |step| natural sizes, shorter where
  * the branch bends, towards larger angles first if step > 0. At each point of phi[count+1], x[(count+1)*nx]: slope = d(phi)/d(arclength), which

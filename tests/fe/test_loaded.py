@@ -14,7 +14,7 @@ from meshwright.fe.blocks import Block
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance, spline_weights, tooth_compliance
 from meshwright.fe.elastic import assemble, flexibility
-from meshwright.fe.gap import contact_grid
+from meshwright.fe.gap import ContactPlane, contact_grid
 from meshwright.fe.halfspace import equal_cells, mean_displacement, rectangle_displacement
 from meshwright.fe.hexahedra import nodal_areas
 from meshwright.fe.loaded import loaded_contact
@@ -211,7 +211,7 @@ def test_places_are_fractions_of_the_arc_length(concave, name):
     """Where the normals meet a flank, against the length of its section from the junction measured point by point."""
     angle = 0.2 * concave.pinion.pitch
     (contact,) = touches(concave, angle, 1)
-    grid = contact_grid(concave, contact, (angle, contact.wheel_angle), (1.0, 2.0), 9)
+    grid = contact_grid(ContactPlane.of(concave, contact, (angle, contact.wheel_angle)), np.array([1.0, 2.0]), 9)
     member = getattr(concave, name)
     to_body = np.linalg.inv(member.pose(angle if name == "pinion" else contact.wheel_angle))
     middle = np.flatnonzero(np.abs(grid.centres[:, 0]) < 1e-9)

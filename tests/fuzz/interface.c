@@ -219,20 +219,22 @@ static double *changes(reader *r, int n)
 }
 
 /* The functions of the table themselves; each counts as a call of the interface. */
-/* Places on lines through and near q[3*count]: no number means none, and each one found is on its line. */
+/* Places near q[3*count] with given coordinates, one of them a parameter: no number means none, and each one found has it. */
 static void across(reader *r, fuzzed *f, mw_surface flank, int count, int outputs, const double *q)
 {
     double *sizes = numbers((size_t)count), *at = numbers(6), *found = numbers((size_t)count * 3), *o = numbers((size_t)outputs);
-    const int profile = byte(r) % (count + 1);
+    double *factors = numbers(2 * (size_t)(count + 4));
+    const int profile = byte(r) % count;
     for (int i = 0; i < count; i++) sizes[i] = number(r, 1.0);
     for (int i = 0; i < 6; i++) at[i] = number(r, q[i % count]);
-    const mw_section_lines lines = { flank, count, outputs, profile, number(r, 0.0), number(r, 0.0), sizes };
+    for (int i = 0; i < count + 4; i++) factors[i] = i == profile, factors[count + 4 + i] = number(r, 0.0);
+    const mw_coordinates by = { flank, count, outputs - (byte(r) % 8 ? 0 : outputs), 0, sizes, factors };
     memcpy(found, q, sizeof *q * (size_t)count * 3);
-    const int status = mw_on_lines(&lines, f->s, at, 3, o, found);
-    if (profile == count && status != MW_BAD_INPUT) fail("a line along no parameter");
+    const int status = mw_places(&by, f->s, at, 3, o, found);
+    if (!by.outputs && status != MW_BAD_INPUT) fail("places on a surface without outputs");
     for (int i = 0; status == MW_CONVERGED && i < 3; i++) {
         const double off = fabs(found[i * count + profile] - at[2 * i]);
-        if (off > 1e-6 * (1.0 + fabs(at[2 * i]))) fail("a place beside its line");
+        if (off > 1e-6 * (1.0 + fabs(at[2 * i]))) fail("a place beside its coordinate");
     }
     note_numbers(r, found, (size_t)count * 3);
 }

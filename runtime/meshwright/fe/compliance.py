@@ -18,9 +18,10 @@ the length of a patch on the pressure.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 from scipy.linalg import eigh
 
 from meshwright.fe.body import mesh_body, placed_tooth, tooth_order
@@ -33,6 +34,8 @@ from meshwright.fe.pair import Member
 _MOST_NEIGHBOURS = 2
 # What is so small a part of the largest singular value is rounding.
 _NONE = 1e-13
+# Up to so many rows all eigenvalues are found in less time than some.
+_ALL_AT_ONCE = 640
 # Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
 # contact would tell too high a pressure.
 TOOTH_PATCHES = (6, 8)
@@ -206,8 +209,13 @@ def spline_weights(count: int, places: Floats) -> Floats:
 
     The mean of each is 0 on all other patches.
     """
+    return _spline(count)(places)
+
+
+@cache
+def _spline(count: int) -> PPoly:
     sums = np.tri(count + 1, count, -1) / count
-    return CubicSpline(np.linspace(0.0, 1.0, count + 1), sums).derivative()(places)
+    return CubicSpline(np.linspace(0.0, 1.0, count + 1), sums).derivative()
 
 
 def without_negative(compliance: Floats) -> Floats:
@@ -223,5 +231,10 @@ def without_negative(compliance: Floats) -> Floats:
         pass
     else:
         return compliance  # as often as not, and seen much faster
-    values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
+    if len(compliance) <= _ALL_AT_ONCE:
+        values, vectors = np.linalg.eigh(compliance)
+        few = values < -rounding
+        values, vectors = values[few], vectors[:, few]
+    else:
+        values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
     return compliance - (vectors * values) @ vectors.T

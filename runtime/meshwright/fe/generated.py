@@ -10,13 +10,13 @@ import numpy as np
 from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import Section, SectionCurves, Smooth, Surface
+from meshwright.fe.profile import Cut, Section, SectionCurves, Surface
 from meshwright.flank.surface import Flank
 
 _BISECTIONS = 60
 
 
-def region_surface(drive: Drive, member: str, region: str) -> Smooth:
+def region_surface(drive: Drive, member: str, region: str) -> Cut:
     """A generated region of two parameters as a function of two arrays."""
     return _Generated(drive.flank(member, region))
 
@@ -32,9 +32,30 @@ class _Generated:
         found = self.flank(np.stack([profile.ravel(), face.ravel()], axis=1))
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
-    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        found = self.flank(np.stack([profile, face], axis=1))
-        return found.points, found.tangents
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+        q = pierced(self.flank, feet, plane, np.array(start))
+        return q[:, 0], q[:, 1], self.flank(q).points
+
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+        found = self.flank(on_sections(self.flank, profile, factors, values, np.array([0.0, start])))
+        return found.parameters[:, 1], found.points, found.normals
+
+
+def on_sections(flank: Flank, profile: Floats, sections: Floats, values: Floats, start: Floats) -> Floats:
+    """Parameters (N, k), from nearby ones (k,), with given first ones (N,) where x, y, z and the distance from the axis
+    with factors (N, 4) add up to values (N,).
+    """
+    count, k = len(profile), len(start)
+    factors, near = np.zeros((count, 2, k + 4)), np.tile(start, (count, 1))
+    factors[:, 0, 0], factors[:, 1, k:], near[:, 0] = 1.0, sections, profile
+    return flank.places(factors, flank.sizes, np.stack([profile, values], axis=1), near)
+
+
+def pierced(flank: Flank, feet: Floats, plane: Floats, start: Floats) -> Floats:
+    """Parameters (N, k), from nearby ones (k,), where normals of a plane (2, 3) through feet (N, 3) meet a flank."""
+    factors = np.zeros((2, len(start) + 4))
+    factors[:, len(start) : len(start) + 3] = plane
+    return flank.places(factors, flank.sizes, feet @ plane.T, np.tile(start, (len(feet), 1)))
 
 
 def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, ends: tuple[float, float]) -> Floats:
@@ -53,7 +74,7 @@ def tip_parameter(drive: Drive, member: str, section: Section, values: Floats, e
 def turned(surface: Surface, angle: float, shift: float = 0.0) -> Surface:
     """The surface turned about z by an angle in rad, its face parameter counted from ``shift`` on."""
     rotation = about_z(angle)[:3, :3].T
-    if isinstance(surface, Smooth):
+    if isinstance(surface, Cut):
         return _Turned(surface, rotation, shift)
     return _TurnedRows(surface, rotation, shift)
 
@@ -71,11 +92,17 @@ class _TurnedRows:
 
 @dataclass(frozen=True)
 class _Turned(_TurnedRows):
-    surface: Smooth
+    surface: Cut
 
-    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        points, tangents = self.surface.tangents(profile, face - self.shift)
-        return points @ self.rotation, tangents @ self.rotation
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+        back = self.rotation.T
+        profile, face, points = self.surface.pierced(feet @ back, plane @ back, (start[0], start[1] - self.shift))
+        return profile, face + self.shift, points @ self.rotation
+
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+        turned_back = np.column_stack([factors[:, :3] @ self.rotation.T, factors[:, 3]])
+        face, *found = self.surface.on_sections(profile, turned_back, values, start - self.shift)
+        return face + self.shift, *(of @ self.rotation for of in found)
 
 
 def constant(value: float) -> Callable[[Floats], Floats]:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.ndimage import binary_dilation
 
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance
-from meshwright.fe.gap import Bools, ContactGrid, contact_grid
+from meshwright.fe.gap import Bools, ContactGrid, ContactPlane, contact_grid
 from meshwright.fe.gate import LARGEST_ROTATION
 from meshwright.fe.hertz import HertzContact
 from meshwright.fe.hexahedra import Floats
@@ -125,7 +126,7 @@ def loaded_contact(
         raise ValueError(f"no tooth pair touches at a pinion angle of {np.degrees(pinion_angle):g} deg")
     member, direction = loaded_side(gear, load)
     wheel_angle = unloaded_wheel_angle(gear, contacts)
-    places = tuple(_Place.of(gear, member, contact, wheel_angle) for contact in contacts)
+    places = tuple(_Place.of(gear, member, contact, (pinion_angle, wheel_angle)) for contact in contacts)
     used, forces, rotation = places, np.array([load.torque / place.arm for place in places]), math.nan
     passes = [_FIRST_CELLS, _CELLS]
     before: _Before = {}
@@ -133,13 +134,12 @@ def loaded_contact(
         passes, rotation = [_FIRST_CELLS, *passes], _first_rotation(gear, places, load)
     for cells in passes:
         # The first pass finds the forces, the last fits each grid to its own ellipse, or to what the load closes.
-        angles, least = (pinion_angle, wheel_angle), _LEAST_SHARE * load.torque
+        least = _LEAST_SHARE * load.torque
         known = {place.contact.pairs_later: force for place, force in zip(used, forces, strict=True)}
         laid = [
-            (place, _grid(gear, place, angles, max(known.get(place.contact.pairs_later, 0.0), least / place.arm),
-                          rotation, cells))
+            (place, _grid(place, max(known.get(place.contact.pairs_later, 0.0), least / place.arm), rotation, cells))
             for place in places
-        ]  # fmt: skip
+        ]
         used, grids = tuple(place for place, grid in laid if grid), [grid for _, grid in laid if grid]
         start = [
             _likely(place, grid, before.get(place.contact.pairs_later), rotation)
@@ -170,19 +170,27 @@ _Before = dict[int, tuple[ContactGrid, Floats]]
 
 @dataclass(frozen=True)
 class _Place:
-    """First contact of a pair: lever ``arm`` of the loaded member there, and how far the flanks are ``apart`` there
-    along the normal when the first of all pairs touches, mm.
+    """First contact of a pair with the members at ``angles`` in rad: lever ``arm`` of the loaded member there, and how
+    far the flanks are ``apart`` there along the normal when the first of all pairs touches, mm.
     """
 
+    gear: GearPair
     contact: PairTouch
+    angles: tuple[float, float]
     arm: float
     apart: float
 
     @classmethod
-    def of(cls, gear: GearPair, member: Member, contact: PairTouch, wheel_angle: float) -> _Place:
+    def of(cls, gear: GearPair, member: Member, contact: PairTouch, angles: tuple[float, float]) -> _Place:
         point, normal = contact.touch.point, contact.touch.normal
         lever = abs(lever_arm(gear.wheel, point, normal))
-        return cls(contact, abs(lever_arm(member, point, normal)), lever * abs(wheel_angle - contact.wheel_angle))
+        apart = lever * abs(angles[1] - contact.wheel_angle)
+        return cls(gear, contact, angles, abs(lever_arm(member, point, normal)), apart)
+
+    @cached_property
+    def plane(self) -> ContactPlane:
+        """The tangent plane there with the flanks over it."""
+        return ContactPlane.of(self.gear, self.contact, self.angles)
 
 
 def _first_rotation(gear: GearPair, places: tuple[_Place, ...], load: Load) -> float:
@@ -197,18 +205,17 @@ def _and_around(cells: Bools) -> Bools:
     return binary_dilation(cells.reshape(side, side), np.ones((3, 3))).ravel()
 
 
-def _grid(
-    gear: GearPair, place: _Place, angles: tuple[float, float], force: float, rotation: float, cells: int
-) -> ContactGrid | None:
+def _grid(place: _Place, force: float, rotation: float, cells: int) -> ContactGrid | None:
     """The cells of a pair; None of an edge that the load does not bring to the mate."""
     if place.contact.touch.edge:
-        return overlap_grid(gear, place.contact, angles, place.apart, rotation * place.arm, cells)
-    ellipse = hertz_of(gear, place.contact, force)
-    reach = (_REACH * ellipse.semi_major, _REACH * ellipse.semi_minor)
-    grid = contact_grid(gear, place.contact, angles, reach, cells)
+        closing = rotation * place.arm
+        return overlap_grid(place.plane, place.apart, closing, cells) if closing > place.apart else None
+    ellipse = hertz_of(place.gear, place.contact, force)
+    reach = _REACH * np.array([ellipse.semi_major, ellipse.semi_minor])
+    grid = contact_grid(place.plane, reach, cells)
     if grid.inside.mean() > _LEAST_USED:
         return grid
-    return fitted_grid(gear, place.contact, angles, np.array(reach), math.inf, cells) or grid
+    return fitted_grid(place.plane, reach, math.inf, cells) or grid
 
 
 def _likely(place: _Place, grid: ContactGrid, before: tuple[ContactGrid, Floats] | None, rotation: float) -> Bools:

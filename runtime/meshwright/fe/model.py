@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from meshwright.contact.placement import about_z
 from meshwright.fe.body import BodyMesh, PlacedTooth, mesh_body, placed_tooth, tooth_order
 from meshwright.fe.deck import ContactPair, Deck, Part, RigidRim
-from meshwright.fe.gap import contact_axes, gap_at
+from meshwright.fe.gap import ContactPlane
 from meshwright.fe.grading import ContactZone, MeshDensity
 from meshwright.fe.hertz import HertzContact, elliptic_contact
 from meshwright.fe.hexahedra import Floats, HexMesh
@@ -193,10 +192,10 @@ def _with_true_gaps(
     placed = {name: moved(member.pose(angles[name]), bodies[name].mesh.nodes) for name, member in members}
     to_body = gear.pinion.pose(angles["pinion"])[:3, :3]
     for contact, pair in zip(contacts, pairs, strict=True):
-        gap = partial(gap_at, gear, contact, (angles["pinion"], angles["wheel"]))
+        plane = ContactPlane.of(gear, contact, (angles["pinion"], angles["wheel"]))
         quads = bodies["pinion"].mesh.face_nodes(pair.slave)
         slave, master = placed["pinion"][quads], placed["wheel"][bodies["wheel"].mesh.face_nodes(pair.master)]
-        found, shifts = fitted_nodes(contact.touch.point, contact_axes(contact), gap, slave, master, quads, closing)
+        found, shifts = fitted_nodes(contact.touch.point, plane.axes, plane.gaps, slave, master, quads, closing)
         nodes[found] += shifts @ to_body
     return replace(bodies["pinion"], mesh=HexMesh(nodes, bodies["pinion"].mesh.elements))
 

@@ -9,36 +9,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshwright.fe.gap import Bools, ContactGrid, contact_grid
+from meshwright.fe.gap import Bools, ContactGrid, ContactPlane, cell_centres, contact_grid
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.pair import GearPair, PairTouch
 
 # Cells along a side with which the rectangle is looked for, and how many of these it has to fill, in parts; rounds of
 # that, and how much wider than what overlaps the rectangle is, in parts of its sides.
 _CELLS, _FILLED, _ROUNDS, _ROOM = 15, 0.4, 10, 0.08
 
 
-def overlap_grid(
-    gear: GearPair, contact: PairTouch, angles: tuple[float, float], apart: float, closing: float, cells: int
-) -> ContactGrid | None:
+def overlap_grid(plane: ContactPlane, apart: float, closing: float, cells: int) -> ContactGrid | None:
     """Grid of cells x cells over the part of the contact plane where the gap is less than what the load closes.
 
-    apart: gap of the pair at its first contact, mm, where the load closes ``closing``.  None where nothing overlaps.
+    apart: gap of the pair at its first contact, mm, where the load closes ``closing``, which is more.  None where
+    nothing overlaps.
     """
-    if not closing > apart:
-        return None
-    curvatures = np.array([contact.touch.curvature_min, contact.touch.curvature_max])
-    return fitted_grid(gear, contact, angles, np.sqrt(2.0 * (closing - apart) / curvatures), closing, cells)
+    touch = plane.contact.touch
+    curvatures = np.array([touch.curvature_min, touch.curvature_max])
+    return fitted_grid(plane, np.sqrt(2.0 * (closing - apart) / curvatures), closing, cells)
 
 
-def fitted_grid(
-    gear: GearPair, contact: PairTouch, angles: tuple[float, float], reach: Floats, closing: float, cells: int
-) -> ContactGrid | None:
+def fitted_grid(plane: ContactPlane, reach: Floats, closing: float, cells: int) -> ContactGrid | None:
     """The same, looked for from a rectangle of half sides ``reach`` (2,) in mm about the contact point."""
     centre, found = np.zeros(2), False
     for _ in range(_ROUNDS):
-        grid = contact_grid(gear, contact, angles, (float(reach[0]), float(reach[1])), _CELLS, centre)
-        overlaps = (grid.inside & (grid.gap < closing)).reshape(_CELLS, _CELLS)
+        gap, inside = plane.gaps(plane.feet(cell_centres(reach, _CELLS, centre)))
+        overlaps = (inside & (gap < closing)).reshape(_CELLS, _CELLS)
         if not overlaps.any():
             if found:
                 break
@@ -47,7 +42,7 @@ def fitted_grid(
         found, (centre, reach, done) = True, _fitted(overlaps, centre, reach)
         if done:
             break
-    return contact_grid(gear, contact, angles, (float(reach[0]), float(reach[1])), cells, centre) if found else None
+    return contact_grid(plane, reach, cells, centre) if found else None
 
 
 def _fitted(overlaps: Bools, centre: Floats, reach: Floats) -> tuple[Floats, Floats, bool]:

@@ -16,12 +16,14 @@ Surface = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 @runtime_checkable
 class Smooth(Protocol):
-    """A :data:`Surface` that knows its tangents, as that of every flank does."""
+    """A :data:`Surface` that tells where straight lines meet it, as that of every flank does."""
 
     def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]: ...
 
-    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        """Points (N, 3) at parameters (N,) and their derivatives (N, 2, 3) by the two."""
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+        """Both parameters (N,) and points (N, 3) where the normals of a plane through feet (N, 3) meet it, from nearby
+        parameters; not a number where they do not. ``plane`` (2, 3): directions that span it.
+        """
         ...
 
 
@@ -32,13 +34,31 @@ class Section(Protocol):
         """The coordinate (...,) that is constant on a section."""
         ...
 
+    def factors(self, values: Floats) -> tuple[Floats, Floats]:
+        """Factors (K, 4) of x, y, z and the distance from the axis, and what (K,) they add up to on sections (K,)."""
+        ...
+
     def across(self, points: Floats) -> Floats:
         """Unit normals (..., 3) of the sections."""
         ...
 
 
+@runtime_checkable
+class Cut(Smooth, Protocol):
+    """A surface that also tells where sections of a tooth cut it."""
+
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+        """Face parameter (N,), points and outward unit normals (N, 3) at profile parameters (N,) where x, y, z and the
+        distance from the axis with ``factors`` (N, 4) add up to ``values`` (N,), from a nearby face parameter; not a
+        number where there are none.
+        """
+        ...
+
+
 _SECANT_STEPS = 30
 _SECTION_TOLERANCE = 1e-12
+# So many times the tolerance is as good as surfaces can be evaluated.
+_FOUND = 1e3
 _TABLE_POINTS = 129
 
 
@@ -55,29 +75,47 @@ class SectionCurves:
     first: Callable[[Floats], Floats]
     last: Callable[[Floats], Floats]
 
-    def solve(self, values: Floats, profile: Floats) -> Floats:
-        """Face parameter, shape of ``profile`` (K, J), where the section coordinate is ``values`` (K,)."""
+    def places(self, values: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
+        """Face parameter, shape of ``profile`` (K, J), where the section coordinate is ``values`` (K,), and points and
+        outward normals (K, J, 3) there.
+        """
         wanted = np.broadcast_to(values[:, None], profile.shape)
+        if isinstance(self.surface, Cut):
+            factors, sums = (np.repeat(of, profile.shape[1], axis=0) for of in self.section.factors(values))
+            face, *found = self.surface.on_sections(profile.ravel(), factors, sums, 0.0)
+            points, normals = (of.reshape(*profile.shape, 3) for of in found)
+            # the other half of a plane through the axis is none of the section
+            if np.all(np.abs(self.section.at(points) - wanted) < _FOUND * _SECTION_TOLERANCE):
+                return face.reshape(profile.shape), points, normals
+        return self._by_secants(wanted, profile)
+
+    def _by_secants(self, wanted: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
+        """The same at section values (K, J)."""
         older, newer = np.zeros_like(profile), np.full_like(profile, 1e-3)
         miss_older = self.section.at(self.surface(profile, older)[0]) - wanted
         for _ in range(_SECANT_STEPS):
-            miss = self.section.at(self.surface(profile, newer)[0]) - wanted
+            points, normals = self.surface(profile, newer)
+            miss = self.section.at(points) - wanted
             if np.all(np.abs(miss) < _SECTION_TOLERANCE):
-                return newer
+                return newer, points, normals
             change = miss - miss_older
             step = np.where(change == 0.0, 0.0, -miss * (newer - older) / np.where(change == 0.0, 1.0, change))
             older, newer, miss_older = newer, newer + step, miss
-        if np.max(np.abs(miss)) > 1e3 * _SECTION_TOLERANCE:
+        if np.max(np.abs(miss)) > _FOUND * _SECTION_TOLERANCE:
             raise ValueError(f"the flank does not reach a section of its face (miss {np.max(np.abs(miss)):.3g} mm)")
-        return newer
+        return newer, *self.surface(profile, newer)
+
+    def solve(self, values: Floats, profile: Floats) -> Floats:
+        """Face parameter, shape of ``profile`` (K, J), where the section coordinate is ``values`` (K,)."""
+        return self.places(values, profile)[0]
 
     def points(self, values: Floats, profile: Floats) -> Floats:
         """Points (K, J, 3) on the surface at section values (K,) and profile parameters (K, J)."""
-        return self.surface(profile, self.solve(values, profile))[0]
+        return self.places(values, profile)[1]
 
     def normals(self, values: Floats, profile: Floats) -> Floats:
         """Outward normals (K, J, 3) at the same points."""
-        return self.surface(profile, self.solve(values, profile))[1]
+        return self.places(values, profile)[2]
 
     def rail(self, values: Floats) -> Rail:
         """The curves at given section values (K,), ready to be divided by arc length."""
@@ -88,6 +126,14 @@ class SectionCurves:
         steps = np.linalg.norm(np.diff(points, axis=1), axis=-1)
         lengths = np.concatenate([np.zeros((len(values), 1)), np.cumsum(steps, axis=1)], axis=1)
         return Rail(self, values, profile, points, lengths)
+
+
+class OfSections(SectionCurves):
+    """Curves of a surface whose second parameter is the section itself."""
+
+    def places(self, values: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
+        face = np.broadcast_to(values[:, None], profile.shape).copy()
+        return face, *self.surface(profile, face)
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,14 @@ from meshwright.base.errors import UsageError
 from meshwright.contact.placement import about_z
 from meshwright.drive import Drive
 from meshwright.fe.closed_body import gear_tooth
+from meshwright.fe.generated import pierced
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import SectionCurves
+from meshwright.fe.profile import OfSections, SectionCurves
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide
 from meshwright.fe.tooth_patches import Tooth
 from meshwright.flank.known_side import KnownSide
-from meshwright.flank.lines import solve, tangents
+from meshwright.flank.lines import solve
+from meshwright.flank.sections import lengthwise
 from meshwright.flank.sides import RegionSide, Side
 from meshwright.flank.surface import FlankPoints
 
@@ -95,7 +97,7 @@ class _Curves:
     def curves(self, low: float, high: float) -> SectionCurves:
         """Their part between two shares of the way up."""
         first, last = (lambda values, share=share: self._ends(values, share) for share in (low, high))
-        return _OfSections(self, self.known.side.sections, first, last)
+        return OfSections(self, self.known.side.sections, first, last)
 
     def _ends(self, values: Floats, share: float) -> Floats:
         """Profile parameters (K,) at a share of the way from the root end to the tip end."""
@@ -110,10 +112,12 @@ class _Curves:
         points, normals = ((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
         return points, normals
 
-    def tangents(self, profile: Floats, section: Floats) -> tuple[Floats, Floats]:
-        """Points (N, 3) and their derivatives (N, 2, 3) by profile parameter and section."""
-        found = self._at(profile, section)
-        return found.points @ self.motion, tangents(self.known.lines(self.region).region, found) @ self.motion
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+        """Profile parameters, sections (N,) and points (N, 3) where normals of a plane meet the surface."""
+        region, back = self.known.lines(self.region).region, self.motion.T
+        near = self._near(*np.array(start)[:, None])[0]
+        found = region.flank(pierced(region.flank, feet @ back, plane @ back, near))
+        return found.parameters[:, region.profile], lengthwise(region.flank, found)[0], found.points @ self.motion
 
     def _at(self, profile: Floats, section: Floats) -> FlankPoints:
         region = self.known.lines(self.region).region
@@ -132,10 +136,3 @@ class _Curves:
         part = (share - row)[:, None]
         pairs = [(1.0 - part) * table[row, c] + part * table[row + 1, c] for c in (column, column + 1)]
         return (1.0 - rest) * pairs[0] + rest * pairs[1]
-
-
-class _OfSections(SectionCurves):
-    """Curves of a surface whose second parameter is the section itself."""
-
-    def solve(self, values: Floats, profile: Floats) -> Floats:
-        return np.broadcast_to(values[:, None], profile.shape).copy()

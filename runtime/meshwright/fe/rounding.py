@@ -16,7 +16,7 @@ from scipy.optimize import elementwise
 
 from meshwright.fe.generated import constant
 from meshwright.fe.hexahedra import Floats
-from meshwright.fe.profile import Section, SectionCurves, Surface
+from meshwright.fe.profile import OfSections, Section, SectionCurves, Surface
 from meshwright.fe.tooth import ToothSide
 
 _SAMPLES = 17
@@ -78,7 +78,7 @@ def rounded_side(
         joint[reaches] = crossing(arcs.overlap, values[reaches], (span.root, span.middle))
     joint_of = CubicSpline(values, joint)
     flank = SectionCurves(surface, section, joint_of, tip)
-    fillet = SectionCurves(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
+    fillet = OfSections(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
     return ToothSide(fillet, flank)
 
 
@@ -105,8 +105,7 @@ def crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends:
 
 def _at(curves: SectionCurves, values: Floats, profile: Floats) -> tuple[Floats, Floats]:
     """Points and normals (K, 3), (K, 3) at section values and profile parameters (K,)."""
-    face = curves.solve(values, profile[:, None])
-    points, normals = curves.surface(profile[:, None], face)
+    _, points, normals = curves.places(values, profile[:, None])
     return points[:, 0], normals[:, 0]
 
 
@@ -126,7 +125,10 @@ class _Arcs:
         return self.outline.above_root(self.centre(profile, values)[0])[0] - self.outline.radius
 
     def surface(self, joint: Callable[[Floats], Floats]) -> Surface:
-        """The arcs as a surface: (share of the arc from root to flank, section value) to points and normals."""
+        """The arcs as a surface: (share of the arc from root to flank, section value) to points and normals.
+
+        An arc lies in its section, where that is a half plane.
+        """
 
         def evaluate(profile: Floats, face: Floats) -> tuple[Floats, Floats]:
             profile, face = np.broadcast_arrays(profile, face)

@@ -91,8 +91,7 @@ def thread_teeth(
     @cache
     def at(angle: float) -> ToothForm:
         return ToothForm(
-            side(angle, "left"),
-            side(angle, "right"),
+            lambda name: side(angle, name),
             faces,
             lambda values: moved(about_z(pitch), cut(angle + pitch, values)),
             lambda values: cut(angle, values),
@@ -124,6 +123,12 @@ class HalfPlanes:
         """The length (...,) at points (..., 3)."""
         c, s, x, y = np.cos(self.azimuth), np.sin(self.azimuth), points[..., 0], points[..., 1]
         return self.radius * np.arctan2(c * y - s * x, c * x + s * y)
+
+    def factors(self, values: Floats) -> tuple[Floats, Floats]:
+        """Factors (K, 4) of x, y, z and the distance from the axis: they add up to 0 (K,) in these planes (K,)."""
+        azimuth = self.azimuth + values / self.radius
+        nothing = np.zeros_like(azimuth)
+        return np.stack([-np.sin(azimuth), np.cos(azimuth), nothing, nothing], axis=1), nothing
 
     def across(self, points: Floats) -> Floats:
         """Unit vectors (..., 3) around the axis."""

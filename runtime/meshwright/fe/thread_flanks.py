@@ -15,7 +15,7 @@ import numpy as np
 from meshwright.base.errors import DesignError
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.fe.generated import constant, region_surface, turned
+from meshwright.fe.generated import constant, on_sections, pierced, region_surface, turned
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import SectionCurves, Surface
 from meshwright.fe.rim import bore_radius
@@ -27,7 +27,8 @@ from meshwright.flank.surface import Flank, FlankPoints
 
 # A flank is followed so far beyond its tip, and stops so far before its deepest end, in parts of its half.
 _BEYOND_TIP, _BEFORE_ROOT = 0.05, 0.02
-_NEWTON_STEPS = 30
+# Factors of the first and of the last of three parameters, of x, y, z and the distance from the axis.
+_FIRST_AND_LAST = np.eye(7)[[0, 2]]
 _FIXED_POINT_STEPS = 20
 _THICKNESS_TOLERANCE = 1e-9
 # Step of the face parameter that shows which way it runs, rad.
@@ -160,7 +161,7 @@ def _turn_to_thickness(
 
 def _surface(drive: Drive, member: str) -> Surface:
     """A member's flank over its first and last parameter; of three, the one between follows from the equation of
-    meshing by Newton's method.
+    meshing.
     """
     generated = drive.flank(member)
     if len(generated.parameters) == 2:
@@ -170,7 +171,7 @@ def _surface(drive: Drive, member: str) -> Surface:
 
 @dataclass(frozen=True)
 class _Enveloped:
-    """A flank over the first and the last of its three parameters: :class:`~meshwright.fe.profile.Smooth`."""
+    """A flank over the first and the last of its three parameters: :class:`~meshwright.fe.profile.Cut`."""
 
     generated: Flank
 
@@ -179,19 +180,17 @@ class _Enveloped:
         found = self._at(profile.ravel(), face.ravel())
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
-    def tangents(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]:
-        found = self._at(profile, face)
-        _, by_profile, by_between, by_face = found.conditions[:, 0].T
-        along = [found.tangents[:, k] - found.tangents[:, 1] * (slope / by_between)[:, None]
-                 for k, slope in ((0, by_profile), (2, by_face))]  # fmt: skip
-        return found.points, np.stack(along, axis=1)
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+        q = pierced(self.generated, feet, plane, self._places(*np.array(start)[:, None])[0])
+        return q[:, 0], q[:, 2], self.generated(q).points
+
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+        found = self.generated(on_sections(self.generated, profile, factors, values, np.array([0.0, 0.0, start])))
+        return found.parameters[:, 2], found.points, found.normals
 
     def _at(self, profile: Floats, face: Floats) -> FlankPoints:
-        places = np.stack([profile, np.zeros_like(profile), face], axis=1)
-        for _ in range(_NEWTON_STEPS):
-            found = self.generated(places)
-            step = found.conditions[:, 0, 0] / found.conditions[:, 0, 2]
-            places[:, 1] -= step
-            if np.abs(step).max() < 1e-14:
-                break
-        return self.generated(places)
+        return self.generated(self._places(profile, face))
+
+    def _places(self, profile: Floats, face: Floats) -> Floats:
+        start = np.stack([profile, np.zeros_like(profile), face], axis=1)
+        return self.generated.places(_FIRST_AND_LAST, self.generated.sizes, start[:, ::2], start)

@@ -51,14 +51,14 @@ Cut = Callable[[Floats], Floats]
 class ToothForm:
     """What a drive says of its tooth, or of the portion of a thread that meets one tooth.
 
-    left and right are so named that (left to right, root to tip, growing section coordinate) is right-handed.
+    side: the left or the right one, so named that (left to right, root to tip, growing section coordinate) is
+    right-handed.
     faces: section coordinate of both end faces.  left_cut, right_cut: where the rim ends and the neighbour's begins.
     bore: points (..., 3) of the root to the points (..., 3) of the bore below them.  cut_ends: the end faces are cuts
     through a body that goes on, as a shaft does, and are held like its bore.
     """
 
-    left: ToothSide
-    right: ToothSide
+    side: Callable[[SideName], ToothSide]
     faces: tuple[float, float]
     left_cut: Cut
     right_cut: Cut
@@ -82,11 +82,18 @@ class ToothForm:
         def left_cut(values: Floats) -> Floats:
             return moved(np.linalg.inv(next_tooth), right_cut(values))
 
-        return cls(left, right, faces, left_cut, right_cut, bore)
+        sides: dict[SideName, ToothSide] = {"left": left, "right": right}
+        return cls(sides.__getitem__, faces, left_cut, right_cut, bore)
 
-    def side(self, name: SideName) -> ToothSide:
-        """The named side."""
-        return self.left if name == "left" else self.right
+    @property
+    def left(self) -> ToothSide:
+        """The left side."""
+        return self.side("left")
+
+    @property
+    def right(self) -> ToothSide:
+        """The right side."""
+        return self.side("right")
 
 
 @dataclass(frozen=True)

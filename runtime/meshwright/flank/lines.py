@@ -418,7 +418,11 @@ def tangents(region, found):
 
 def solve(region, profile, along, start):
     """Parameters (N, k) at profile parameters and lengthwise coordinates (N,), from nearby ones; NaN for none."""
-    flank = region.flank
-    sections = Sections.of(flank)
-    places = np.stack([profile, along], axis=1)
-    return flank.on_lines(region.profile, sections and sections.sides, region.chart.sizes, places, start)
+    k, sections = start.shape[1], Sections.of(region.flank)
+    factors = np.zeros((2, k + 4))
+    factors[0, region.profile] = 1.0
+    if sections:
+        factors[1, -1], factors[1, -2] = sections.sides
+    else:
+        factors[1, k - 1] = 1.0
+    return region.flank.places(factors, region.chart.sizes, np.stack([profile, along], axis=1), start)

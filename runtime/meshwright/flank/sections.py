@@ -62,6 +62,11 @@ class Sections:
         sine, cosine = self.sides
         return cosine * points[..., 2] + (sine * np.hypot(points[..., 0], points[..., 1]) if sine else 0.0)
 
+    def factors(self, values):
+        """Factors (K, 4) of x, y, z and the distance from the axis, and what (K,) they add up to in sections (K,)."""
+        sine, cosine = self.sides
+        return np.tile([0.0, 0.0, cosine, sine], (len(values), 1)), values
+
     def across(self, points):
         """Unit normals (..., 3) of the sections at points (..., 3)."""
         sine, cosine = self.sides

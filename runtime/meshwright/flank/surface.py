@@ -80,6 +80,15 @@ class Flank:
         compiled.setup(pointer(self.drive.design.parameters), pointer(s))
         return s
 
+    @cached_property
+    def sizes(self):
+        """Natural sizes (k,) of the parameters: those of contact, 1 of what other regions have of their own."""
+        compiled, of = self.drive.design.model, Flank.of(self.drive, self.body["name"]).body
+        scale = np.empty(compiled.nx)
+        compiled.scale(pointer(self.state), pointer(scale))
+        known = dict(zip(of["parameters"], scale[of["unknowns"]], strict=True))
+        return np.array([known.get(name, 1.0) for name in self.parameters])
+
     @property
     def parameters(self):
         """Names of the surface parameters."""
@@ -122,15 +131,16 @@ class Flank:
         full[:, :, rows, columns] = full[:, :, columns, rows] = pairs
         return full[:, :3], full[:, 3 + limits :]
 
-    def on_lines(self, profile, sides, sizes, places, start):
-        """Parameters (N, k), from nearby ones (N, k), at values (N, 2) of the parameter number ``profile`` and of the
-        coordinate along the tooth: that of sections with ``sides``, sine and cosine of their angle, or with None the
-        last parameter. ``sizes`` (k,) are natural sizes. NaN where Newton's method finds none.
+    def places(self, factors, sizes, values, start):
+        """Parameters (N, k), from nearby ones (N, k), at values (N, 2) of two coordinates: sums, with ``factors``
+        (2, k + 4) or (N, 2, k + 4), of the parameters, of x, y, z in the body frame and of the distance from the
+        body's axis. ``sizes`` (k,) are natural sizes. NaN where Newton's method finds none.
         """
         evaluate, state, k, outputs, _, _ = self._evaluated
-        q, places, o = start.copy(), np.ascontiguousarray(places), np.empty(outputs)
-        across = ffi.new("mw_section_lines *", (evaluate, k, outputs, profile, *(sides or (0.0, 0.0)), pointer(sizes)))
-        if library().mw_on_lines(across, state, pointer(places), len(q), pointer(o), pointer(q)) < 0:
+        q, values, o = start.copy(), np.ascontiguousarray(values), np.empty(outputs)
+        apart = factors[0].size if factors.ndim == 3 else 0
+        by = ffi.new("mw_coordinates *", (evaluate, k, outputs, apart, pointer(sizes), pointer(factors)))
+        if library().mw_places(by, state, pointer(values), len(q), pointer(o), pointer(q)) < 0:
             raise UsageError(f"the {self.region} of the {self.body['name']} is no surface of two free parameters")
         return q
 
