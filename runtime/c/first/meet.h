@@ -17,7 +17,7 @@ enum {
 
 /* Newton's method ends with a step below this, in natural sizes, or one that the next would follow with one far below it. */
 static const double STEP_DONE = 1e-10, NEXT_DONE = 1e-13, QUADRATIC = 1e-3;
-/* Newton's method that moves more than so many times its first step and this, or than that, in natural sizes, or turns
+/* Newton's method that has moved more than so many times its first step and this, or than that, in natural sizes, or turns
  * the wheel by more, rad, may have left its sheet or come to the next tooth. */
 static const double JUMP = 3.0, JUMP_LEAST = 0.02, FARTHEST = 0.5, LARGEST_TURN = 0.1;
 
@@ -159,6 +159,16 @@ static void slopes_at(const search *h, const double *ow, const double *op, place
     }
 }
 
+/* Whether Newton's method of such a first step, now `at` unknowns that were `from`, may have left its sheet or come to the
+ * next tooth. */
+static int strayed(const double *size, int n, const double *at, const double *from, double turned, double first)
+{
+    double moved = fabs(turned);
+    if (moved > LARGEST_TURN) return 1;
+    for (int j = 0; j < n; j++) moved = fmax(moved, fabs(at[j] - from[j]) / size[j]);
+    return moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST);
+}
+
 /* Where the given member's point, at P->q or P->p, meets the other one's flank, from the other parameters and P->delta on;
  * 0 where that does not lead to a place on the same sheet. */
 static int meet(const search *h, place *P)
@@ -171,7 +181,7 @@ static int meet(const search *h, place *P)
     P->good = 0;
     P->inner = -HUGE_VAL;
     if (!on_flank(h, h->given, known, h->given ? ow : op)) return 0;
-    double before = HUGE_VAL, first = 0.0, moved = 0.0, from[MAX_K];
+    double before = HUGE_VAL, first = 0.0, from[MAX_K];
     int done = 0;
     memcpy(from, unknown, sizeof from);
     const double delta = P->delta;
@@ -203,13 +213,11 @@ static int meet(const search *h, place *P)
         const double share = largest > 0.5 ? 0.5 / largest : 1.0;
         for (int j = 0; j < parameters; j++) unknown[j] -= share * r[j];
         P->delta -= share * r[parameters];
+        if (strayed(size, parameters, unknown, from, P->delta - delta, first)) return 0;
         done = largest < STEP_DONE || converged(largest, before) || (largest < 1e-8 && largest > 0.5 * before);
         before = largest;
     }
-    if (!done || fabs(P->delta - delta) > LARGEST_TURN) return 0;
-    moved = fabs(P->delta - delta);
-    for (int j = 0; j < parameters; j++) moved = fmax(moved, fabs(unknown[j] - from[j]) / size[j]);
-    if (moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST)) return 0;
+    if (!done) return 0;
     h->m->bodies[sought].flank(h->s, unknown, sought ? ow : op);
     carried(h, ow, P->delta, x, rate);
     P->lever = dot(op + 3, rate);

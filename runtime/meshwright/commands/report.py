@@ -85,8 +85,16 @@ def _misalignment(text):
 def _report():
     """The report package, whose drawing libraries are an extra."""
     try:
+        _leave_artists_undescribed()
         from meshwright import report
     except ModuleNotFoundError as error:
         remedy = "`pip install 'meshwright[plot]'` brings it"
         raise UsageError(f"report: {error.name} is not installed; {remedy}") from error
     return report
+
+
+def _leave_artists_undescribed():
+    """Matplotlib writes a docstring for every kind of artist while it is imported, longer than it draws a figure."""
+    from matplotlib import artist
+
+    artist.Artist._update_set_signature_and_doc = classmethod(lambda kind: None)

@@ -126,6 +126,8 @@ def lengthwise_bending(flank, found, second):
 
 def solved(matrix, residual):
     """Solutions (N, c), or (N, c, m) of m at once, of N systems of linear equations; NaN for singular ones."""
+    if matrix.shape[1] == 1:  # the one condition of a surface is solved so often that the library's detour counts
+        return _quotients(residual, matrix.reshape(-1, *[1] * (residual.ndim - 1)))
     each = residual if residual.ndim == 3 else residual[:, :, None]
     step = np.full(each.shape, np.nan)
     good = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(each).all(axis=(1, 2))
@@ -135,3 +137,10 @@ def solved(matrix, residual):
         good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
         step[good] = np.linalg.solve(matrix[good], each[good])
     return step.reshape(residual.shape)
+
+
+def _quotients(residual, slope):
+    """Residuals by slopes that broadcast; NaN where a slope is zero or either is not finite."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        step = residual / slope
+    return np.where(np.isfinite(step) & np.isfinite(slope), step, np.nan)
