@@ -9,6 +9,7 @@ import json
 import re
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
 
 from derive import beside, compiler
@@ -62,7 +63,7 @@ def write(page, name, record, folder, log, source=None):
     """
     from meshwright.base import compile as build
 
-    open_, made = {}, []
+    open_, made, found = {}, [], []
 
     def kept():
         made.append(page())
@@ -73,14 +74,16 @@ def write(page, name, record, folder, log, source=None):
         with build.Begun(name, fresh, compiler.package(), objects) as begun:
 
             def emitted(path, text):
+                if path == f"c/{name}.h":  # the first of all: no thread is there yet to be copied
+                    found.append(beside.begun(partial(checked, text)))
                 if path.endswith(".h"):
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
             files = compiler.compile_drive(kept, name, record, log, open_, emitted, beside.begun)
-            header, described = files[f"c/{name}.h"], json.loads(files[f"c/{name}.json"])
+            described = json.loads(files[f"c/{name}.json"])
             with log("audit", name):
-                entry = audit_entry(described, open_, header, source)
+                entry = audit_entry(described, open_, found[0](), source)
             with log("compile", name):
                 begun.wait()
                 build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
@@ -103,12 +106,11 @@ def _place(path):
     return f"include/{name}" if kind == "c" and name.endswith(".h") else name
 
 
-def audit_entry(description, open_, header, source):
+def audit_entry(description, open_, found, source):
     """What is proved for a drive and what is not, as plain data.
 
     ``proved``: the statements of the audit record behind it, by the functions that rest on them. ``not_proved``:
-    statements that it names and the record does not prove, with the reason. ``checked``: what its generated C was found
-    to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`), with the reason where it is not.
+    statements that it names and the record does not prove, with the reason. ``checked``: see :func:`checked`.
     ``not_checked``: what nothing here decides.
     """
     origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
@@ -123,7 +125,7 @@ def audit_entry(description, open_, header, source):
             for key in description["equations"]
         },
         "not_proved": open_,
-        "checked": _checked(header),
+        "checked": found,
         "not_checked": [
             "that the description is the drive that is meant: compare it with a source, or with measured parts",
             "conversions of keys, rules and derived sizes: their formulas are taken from the description as they are",
@@ -132,8 +134,10 @@ def audit_entry(description, open_, header, source):
     }
 
 
-def _checked(header):
-    """Words → "holds", or why not."""
+def checked(header):
+    """What a drive's generated C was found to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`):
+    words → "holds", or why not.
+    """
     found = {}
     for words, check in check_code.checks_of(straight_line.read_header(header)):
         try:
