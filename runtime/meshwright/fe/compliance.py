@@ -34,8 +34,6 @@ from meshwright.fe.pair import Member
 _MOST_NEIGHBOURS = 2
 # What is so small a part of the largest singular value is rounding.
 _NONE = 1e-13
-# Up to so many rows all eigenvalues are found in less time than some.
-_ALL_AT_ONCE = 640
 # Patches along the flank's profile and face.  The portion of a thread is several faces long: patches longer than the
 # contact would tell too high a pressure.
 TOOTH_PATCHES = (6, 8)
@@ -231,10 +229,5 @@ def without_negative(compliance: Floats) -> Floats:
         pass
     else:
         return compliance  # as often as not, and seen much faster
-    if len(compliance) <= _ALL_AT_ONCE:
-        values, vectors = np.linalg.eigh(compliance)
-        few = values < -rounding
-        values, vectors = values[few], vectors[:, few]
-    else:
-        values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
+    values, vectors = eigh(compliance, subset_by_value=(-np.inf, -rounding), check_finite=False)
     return compliance - (vectors * values) @ vectors.T
