@@ -21,7 +21,7 @@ def begun(work: Callable[[], T]) -> Callable[[], T]:
         return work
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_send, args=(sender, work))
+    process = context.Process(target=_send, args=(sender, work), daemon=True)  # ends with this one, asked for or not
     process.start()
     sender.close()
 

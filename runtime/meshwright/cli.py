@@ -39,7 +39,7 @@ def parser(names=None):
     subparsers = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in commands.every() if names is None else names:
         module, summary = commands.module(name), commands.summary(name)
-        text = summary + module.__doc__.strip().partition("\n")[2]
+        text = (summary + module.__doc__.strip().partition("\n")[2]).replace("``", "`")
         sub = subparsers.add_parser(name, help=summary, description=text)
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
