@@ -1,6 +1,8 @@
 """Write a first design of a family from module and numbers of teeth: a commented TOML file to change from there.
 
 Sizes follow proportions that the family declares; each is written with the reason. --set gives any key its own value.
+Members of a family that a first design is not are among the packaged ones: `meshwright drives` lists these and all
+keys, `meshwright show DESIGN` prints one to copy and change.
 """
 
 import argparse
