@@ -45,9 +45,7 @@ OVERSHOOT = 1.05
 #: The end of a ray is located in so many rounds, each of which divides the length that holds it into so many parts.
 ROUNDS, PARTS = 11, 32
 
-#: Newton steps to a surface's condition at most; one so much shorter than that before it, after which the next would be
-#: below this, in natural sizes, is the last.
-NEWTON_STEPS, FALLING, LAST_STEP = 40, 1e-3, 1e-15
+NEWTON_STEPS = 40
 
 
 @dataclass(frozen=True)
@@ -121,22 +119,12 @@ class Chart:
         """Parameters (N, k) at coordinates (N, 2), from nearby ones (N, k); NaN where there are none."""
         q = start.copy()
         q[:, self.free] = coordinates
-        bound = [i for i in range(q.shape[1]) if i not in self.free]
-        if not bound:
+        k = q.shape[1]
+        if k == 2:
             return q
-        before = np.zeros(len(q))
-        for _ in range(NEWTON_STEPS):
-            conditions = self.flank(q).conditions
-            step = solved(conditions[:, :, [1 + i for i in bound]], conditions[:, :, 0])
-            largest = np.abs(step / self.sizes[bound]).max(axis=1)
-            q[:, bound] -= step * np.minimum(1.0, 0.5 / np.maximum(largest, 1e-300))[:, None]
-            # by quadratic convergence the next step would be shorter by the square of what this one is shorter by
-            done = (largest < FALLING * before) & (largest**3 < LAST_STEP * before**2)
-            if not (~done & (largest > 1e-13)).any():
-                break
-            before = largest
-        q[~(done | (largest < 1e-9))] = np.nan
-        return q
+        factors = np.zeros((2, k + 4))
+        factors[[0, 1], self.free] = 1.0
+        return self.flank.places(factors, self.sizes, coordinates, q)
 
     def by_coordinates(self, found, slopes):
         """Slopes (N, L, 2) by the coordinates, conditions kept, of what has the slopes (N, L, k) by the parameters."""
