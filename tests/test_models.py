@@ -32,6 +32,7 @@ def test_a_model_fits_the_runtime(name):
     assert m.nstart <= MOST["UNKNOWNS"]
     assert m.no <= MOST["OBSERVATION"]
     assert m.np <= MOST["PARAMETERS"]
+    assert m.nanchor <= MOST["ANCHOR"]
     assert all(m.systems[k].n <= MOST["UNKNOWNS"] for k in range(m.nsystems))
     assert text(m.hash) == metadata.described(name)["specification_hash"]
 
@@ -55,6 +56,27 @@ def test_newton_comes_from_the_start_of_a_self_test_to_its_solution(name):
     sizes = [m.step(pointer(s), pointer(x)) for _ in range(8)]
     assert sizes[0] > 0.01
     assert np.abs(x - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_close_to_an_anchor_the_residual_is_that_of_eval(name):
+    m, test = model(name), metadata.described(name)["self_test"]
+    p, x = (np.array([float.fromhex(v) for v in test[key]]) for key in ("p", "x"))
+    phi, rng = float.fromhex(test["phi"]), np.random.default_rng(3)
+    s, at, scale, close, there = np.empty(m.ns), np.empty(m.nanchor), np.empty(m.nx), np.empty(m.nx), np.empty(m.nx)
+    m.setup(pointer(p), pointer(s))
+    m.set_phi(pointer(s), phi)
+    m.scale(pointer(s), pointer(scale))
+    m.anchor(pointer(s), phi, pointer(x), pointer(at))
+    for size in (0.0, 1e-9, 1e-6, 1e-4, 3e-4):
+        change = size * rng.uniform(-1.0, 1.0, m.nx + 1)
+        moved = x + change[1:] * scale
+        assert m.by_anchor(pointer(s), pointer(at), phi + change[0], pointer(moved), pointer(close)) <= m.nearest
+        m.set_phi(pointer(s), phi + change[0])
+        m.eval(pointer(s), pointer(moved), pointer(there), ffi.NULL)
+        assert close == pytest.approx(there, abs=3e-13)
+    assert not m.by_anchor(pointer(s), pointer(at), phi + 1.0, pointer(x + scale), pointer(close)) <= m.nearest
+    assert not m.by_anchor(pointer(s), pointer(at), phi, pointer(x * np.nan), pointer(close)) <= m.nearest
 
 
 def test_the_version_of_the_table_is_one_everywhere():

@@ -8,6 +8,10 @@ from functools import cache
 
 import mpmath
 
+#: Square of the distance between two angles below which the series r − r³/6 + r⁵/120 and r²/2 − r⁴/24 are exact to
+#: double precision of the sine and cosine to which they are added.
+NEAR = 2.0**-18
+
 
 def _fit(function, upper, terms):
     with mpmath.workdps(40):

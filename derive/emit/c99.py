@@ -134,10 +134,23 @@ class Printer:
             if (node := self.tape.find(op, argument)) is not None:
                 operands[node] = f"{letter}{serial}"
         words = f"  /* of {self.names[argument]} */" if argument in self.names else ""
-        return [
-            f"double s{serial}, c{serial};{words}",
-            f"{self.sincos}({operand}, &s{serial}, &c{serial});",
-        ]
+        return [f"double s{serial}, c{serial};{words}", self.turned(argument, operand, f"&s{serial}, &c{serial}")]
+
+    def turned(self, argument, operand, results):
+        """The call that writes sine and cosine of a node."""
+        return f"{self.sincos}({operand}, {results});"
+
+
+class AnchoredPrinter(Printer):
+    """Writes sines and cosines by those of an anchor close by, whose ``angles`` these nodes are in their order."""
+
+    def __init__(self, tape, prefix, leaves, names=None):
+        super().__init__(tape, prefix, leaves, names=names)
+        self.angles = []
+
+    def turned(self, argument, operand, results):
+        self.angles.append(argument)
+        return f"{self.prefix}_near_sincos({operand}, {results}, at + {3 * len(self.angles) - 3}, &away);"
 
 
 #: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
@@ -166,6 +179,7 @@ class Leaves:
     design: dict
     instant: dict
     iterate: dict
+    moving: dict  #: of functions of input angle and unknowns
     state: dict
 
     @classmethod
@@ -173,10 +187,13 @@ class Leaves:
         tape, lower = plan.tape, plan.lower
         state = {node: f"s[{slot}]" for node, slot in plan.state.items()}
         before = {n: text for n, text in state.items() if tape.stages[n] == Stage.DESIGN}
+        instant = before | {lower(plan.drive.instant): "phi"}
+        unknowns = {lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
         return cls(
             design={lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)},
-            instant=before | {lower(plan.drive.instant): "phi"},
-            iterate=state | {lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)},
+            instant=instant,
+            iterate=state | unknowns,
+            moving=instant | unknowns,
             state=state,
         )
 
@@ -212,6 +229,8 @@ def header(plan: Schedule, description: dict, runtime):
     instant = Printer(tape, prefix, leaves.instant)
     iterate = Printer(tape, prefix, leaves.iterate, names=names)
     solved = Printer(tape, prefix, leaves.iterate, seldom=True, names=names)
+    anchored = AnchoredPrinter(tape, prefix, leaves.moving, names=names)
+    anchored_residual = anchored.body(plan.residual)[0]
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)
@@ -235,6 +254,8 @@ def header(plan: Schedule, description: dict, runtime):
         residual=residual,
         jacobian=jacobian,
         step=iterate.body(plan.newton_step)[0],
+        anchored=anchored_residual,
+        anchor=Printer(tape, prefix, leaves.moving, seldom=True).body(anchored.angles)[0],
         scale=iterate.body(plan.scales)[0],
         guess=iterate.body(plan.start_guess)[0],
         start_scale=iterate.body(plan.start_scales)[0],
@@ -294,9 +315,8 @@ def _on_arguments(plan, arguments, outputs, state, tests=None):
 
 def _along(plan, leaves):
     """Bodies of the residual's first derivative along a direction v, and of the second that may follow it."""
-    own = {plan.lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
-    own |= {node: f"v[{k}]" for k, node in enumerate(plan.along.direction)}
-    printer = Printer(plan.tape, plan.drive.name, leaves.instant | own, seldom=True)
+    own = {node: f"v[{k}]" for k, node in enumerate(plan.along.direction)}
+    printer = Printer(plan.tape, plan.drive.name, leaves.moving | own, seldom=True)
     body, known = printer.body(plan.along.first, later=plan.along.second)
     return {"first": body, "second": printer.body(plan.along.second, known)[0]}
 

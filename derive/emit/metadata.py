@@ -16,7 +16,7 @@ from derive.program.tape import Stage
 GENERATOR = "0.1.0"
 
 #: Version of the model table in runtime/c/mw_model.h, for which headers are generated.
-ABI = 5
+ABI = 6
 
 
 def describe(plan, provenance):

@@ -34,7 +34,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -113,6 +113,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -158,8 +165,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -186,7 +193,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -196,7 +203,9 @@ typedef struct mw_contact {
 #define bevel_face_hobbed_NO 71
 #define bevel_face_hobbed_ND 1
 #define bevel_face_hobbed_NSTART 0
-#define bevel_face_hobbed_ABI 5
+#define bevel_face_hobbed_NANCHOR 30
+#define bevel_face_hobbed_NEAREST 3.814697265625e-06
+#define bevel_face_hobbed_ABI 6
 #define bevel_face_hobbed_SPEC_HASH "b0f15e076baf094033cd746ee5aa808e2d4233580245a1ce2a9bda00c714d507"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -405,7 +414,19 @@ MW_INLINE void bevel_face_hobbed_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void bevel_face_hobbed_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void bevel_face_hobbed_seldom_sincos(double a, double *sine, double *cosine)
 {
     bevel_face_hobbed_sincos(a, sine, cosine);
@@ -6466,11 +6487,571 @@ static inline double bevel_face_hobbed_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t1499), s[206], MW_FMA(MW_ABS(t1486), s[207], MW_FMA(MW_ABS(t1495), 1.0, MW_FMA(MW_ABS(t1471), s[208], MW_FMA(MW_ABS(t1472), s[209], MW_FMA(MW_ABS(t1480), 1.0, MW_ABS(t1500) * 1.0))))));
 }
 
+/* Residual R[bevel_face_hobbed_NX] at input angle phi and x[bevel_face_hobbed_NX], close to those at which bevel_face_hobbed_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * bevel_face_hobbed_NEAREST. */
+/* Equations: derivation/swept, derivation/screw, derivation/invariance, derivation/envelope, derivation/translation,
+ *   conventions/rotations, conventions/sums, derivation/rotation, cylindrical_worm/contact, derivation/angles. */
+static inline double bevel_face_hobbed_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = s[23] + x[2];
+    const double t1 = s[49] + x[5];
+    double s2, c2;
+    bevel_face_hobbed_near_sincos(t0, &s2, &c2, at + 0, &away);
+    double s4, c4;
+    bevel_face_hobbed_near_sincos(t1, &s4, &c4, at + 3, &away);
+    const double t6 = x[0] - s[0];
+    const double t7 = x[3] - s[33];
+    const double t8 = s[3] * t6;
+    const double t9 = t6 * s[1];
+    const double t10 = s[36] * t7;
+    const double t11 = t7 * s[34];
+    double s12, c12;  /* of theta_pinion */
+    bevel_face_hobbed_near_sincos(x[1], &s12, &c12, at + 6, &away);
+    double s14, c14;
+    bevel_face_hobbed_near_sincos(t8, &s14, &c14, at + 9, &away);
+    double s16, c16;
+    bevel_face_hobbed_near_sincos(t10, &s16, &c16, at + 12, &away);
+    double s18, c18;  /* of theta_gear */
+    bevel_face_hobbed_near_sincos(x[4], &s18, &c18, at + 15, &away);
+    double s20, c20;
+    bevel_face_hobbed_near_sincos(t9, &s20, &c20, at + 18, &away);
+    double s22, c22;
+    bevel_face_hobbed_near_sincos(t11, &s22, &c22, at + 21, &away);
+    const double t24 = MW_FMA(x[2], s[64], s[65]);
+    const double t25 = MW_FMA(x[2], t24, s[66]);
+    const double t26 = MW_FMA(x[5], s[57], s[58]);
+    const double t27 = MW_FMA(x[5], t26, s[59]);
+    const double t28 = s12 * s[25];
+    const double t29 = s18 * s[51];
+    const double t30 = MW_FMA(phi, s[218], x[6]);  /* wheel angle */
+    const double t31 = MW_FMA(x[4], s[56], t30);
+    const double t32 = MW_FMA(x[2], t25, s[67]);
+    const double t33 = MW_FMA(x[1], s[63], phi);
+    const double t34 = MW_FMA(x[5], t27, s[60]);
+    const double t35 = s[69] * x[2];
+    const double t36 = MW_FMA(c18, s[50], t29);
+    const double t37 = MW_FNMA(s12, s[22], s[21]);
+    const double t38 = MW_FMA(c12, s[17], t37);
+    const double t39 = MW_FMA(c12, s[24], t28);
+    const double t40 = MW_FMA(x[2], t32, s[68]);
+    const double t41 = MW_FMA(s[8], x[2], s[7]);
+    const double t42 = MW_FMA(x[5], t34, s[61]);
+    const double t43 = s[62] * x[5];
+    const double t44 = MW_FNMA(s18, s[48], s[47]);
+    const double t45 = MW_FMA(c18, s[32], t44);
+    const double t46 = MW_FMA(s[75], x[5], s[74]);
+    const double t47 = c4 * t36;
+    const double t48 = s4 * t36;
+    const double t49 = MW_FNMA(x[2], t40, 1.0);
+    const double t50 = MW_FNMA(x[5], t42, 1.0);
+    const double t51 = s2 * t39;
+    const double t52 = MW_FMS(c2, t38, t51);
+    const double t53 = c2 * t39;
+    const double t54 = MW_FMS(c4, t45, t48);
+    const double t55 = MW_FMA(c12, s[15], t41);
+    const double t56 = MW_FNMA(t49, t35, t33);
+    const double t57 = s[29] * t55;
+    const double t58 = MW_FNMA(t50, t43, t31);
+    const double t59 = s2 * s[106];
+    const double t60 = MW_FMA(c2, s[107], t59);
+    const double t61 = MW_FMA(c18, s[77], t46);
+    const double t62 = s[78] * t61;
+    const double t63 = MW_FMA(s[16], t52, t57);
+    double s64, c64;
+    bevel_face_hobbed_near_sincos(t56, &s64, &c64, at + 24, &away);
+    const double t66 = s[63] * t60;
+    const double t67 = MW_FMA(s[72], t54, t62);
+    const double t68 = s[55] - t47;
+    const double t69 = MW_FNMA(s4, t45, t68);
+    const double t70 = MW_FMA(s4, t45, t47);
+    const double t71 = s4 * s[83];
+    const double t72 = MW_FMS(c4, s[84], t71);
+    const double t73 = s2 * s[107];
+    const double t74 = MW_FMS(c2, s[106], t73);
+    const double t75 = MW_FMS(s2, t38, s[70]);
+    const double t76 = t53 + t75;
+    const double t77 = MW_FMA(s2, t38, t53);
+    double s78, c78;
+    bevel_face_hobbed_near_sincos(t58, &s78, &c78, at + 27, &away);
+    const double t80 = t76 * t66;
+    const double t81 = s[63] * t76;
+    const double t82 = s4 * s[84];
+    const double t83 = MW_FMA(c4, s[83], t82);
+    const double t84 = s[20] * s2;
+    const double t85 = MW_FMS(s[26], c2, t84);
+    const double t86 = MW_FMA(s[73], t72, s[85]);
+    const double t87 = MW_FMS(s[76], t72, s[97]);
+    const double t88 = s[56] * t69;
+    const double t89 = t86 * t88;
+    const double t90 = t88 * t87;
+    const double t91 = s[56] * t83;
+    const double t92 = s[52] * s4;
+    const double t93 = MW_FMA(s[46], c4, t92);
+    const double t94 = s4 * s[89];
+    const double t95 = MW_FMS(c4, s[88], t94);
+    const double t96 = s4 * s[88];
+    const double t97 = MW_FMA(c4, s[89], t96);
+    const double t98 = t69 * t91;
+    const double t99 = s[26] * s2;
+    const double t100 = MW_FMA(s[20], c2, t99);
+    const double t101 = MW_FMA(s[6], t74, s[108]);
+    const double t102 = t101 * t81;
+    const double t103 = MW_FMS(s[14], t74, s[117]);
+    const double t104 = t81 * t103;
+    const double t105 = s[63] * t63;
+    const double t106 = MW_FMA(t85, t105, t80);
+    const double t107 = s2 * s[111];
+    const double t108 = MW_FMS(c2, s[110], t107);
+    const double t109 = s2 * s[110];
+    const double t110 = MW_FMA(c2, s[111], t109);
+    const double t111 = s[29] * t41;
+    const double t112 = s[78] * t46;
+    const double t113 = s[46] * s4;
+    const double t114 = MW_FMS(s[52], c4, t113);
+    const double t115 = t67 * s[86];
+    const double t116 = MW_FMA(t93, t115, t89);
+    const double t117 = c18 * s[56];
+    const double t118 = s18 * s[56];
+    const double t119 = t63 * s[105];
+    const double t120 = MW_FMS(t100, t119, t102);
+    const double t121 = t63 * s[116];
+    const double t122 = MW_FMS(t100, t121, t104);  /* v_hobbing_pinion_z: its advance over theta_pinion */
+    const double t123 = c12 * s[63];
+    const double t124 = MW_FMA(s14, s[4], s[0]);
+    const double t125 = s12 * s[13];
+    const double t126 = MW_FMS(s[12], c12, t125);
+    const double t127 = MW_FMA(s16, s[37], s[33]);
+    const double t128 = c18 * s[44];
+    const double t129 = MW_FMA(s[43], s18, t128);
+    const double t130 = s[56] * t67;
+    const double t131 = MW_FMS(t114, t130, t98);
+    const double t132 = t67 * s[98];
+    const double t133 = MW_FMA(t93, t132, t90);  /* v_hobbing_gear_z: its advance over theta_gear */
+    const double t134 = MW_FMS(s[73], t95, s[91]);
+    const double t135 = MW_FMA(s[76], t95, s[90]);
+    const double t136 = MW_FMA(s[56], t135, 1.0);  /* omega_hobbing_gear_z: turn of the section over theta_gear */
+    const double t137 = t97 * t118;
+    const double t138 = t97 * t117;
+    const double t139 = MW_FMS(t117, t134, t137);
+    const double t140 = MW_FMA(t134, t118, t138);
+    const double t141 = s12 * t106;
+    const double t142 = MW_FMA(c12, t120, t141);
+    const double t143 = c12 * t106;
+    const double t144 = MW_FMS(s12, t120, t143);
+    const double t145 = s12 * s[63];
+    const double t146 = MW_FMS(s[6], t108, s[113]);
+    const double t147 = MW_FMA(s[14], t108, s[112]);
+    const double t148 = MW_FNMA(s[63], t147, (-1.0));  /* omega_hobbing_pinion_z: turn of the section over theta_pinion */
+    const double t149 = t110 * t123;
+    const double t150 = t110 * t145;
+    const double t151 = MW_FMA(t145, t146, t149);
+    const double t152 = MW_FMS(x[2], s[122], s[65]);
+    const double t153 = MW_FNMA(t146, t123, t150);
+    const double t154 = MW_FMS(x[2], t152, t25);
+    const double t155 = MW_FMS(x[5], s[127], s[58]);
+    const double t156 = MW_FMS(x[5], t155, t27);
+    const double t157 = s20 * s20;
+    const double t158 = MW_FMS(t124, s[10], s[11]);
+    const double t159 = MW_FMA(t157, s[9], t158);
+    const double t160 = MW_FMS(x[2], t154, t32);
+    const double t161 = t157 * s[2];
+    const double t162 = c12 * s[13];
+    const double t163 = MW_FMS(x[5], t156, t34);
+    const double t164 = MW_FMA(s[12], s12, t162);
+    const double t165 = MW_FNMA(t124, s[5], t161);
+    const double t166 = t159 * t148;
+    const double t167 = s22 * s22;
+    const double t168 = MW_FMS(x[2], t160, t40);
+    const double t169 = MW_FNMA(t127, s[41], s[42]);
+    const double t170 = MW_FMA(t167, s[40], t169);
+    const double t171 = MW_FMS(x[5], t163, t42);
+    const double t172 = t167 * s[35];
+    const double t173 = s18 * s[44];
+    const double t174 = MW_FMS(s[43], c18, t173);
+    const double t175 = MW_FNMA(t127, s[38], t172);
+    const double t176 = t35 * t168;
+    const double t177 = t170 * t136;
+    const double t178 = s18 * t116;
+    const double t179 = t43 * t171;
+    const double t180 = MW_FMS(c18, t131, t178);
+    const double t181 = c18 * t116;
+    const double t182 = MW_FMA(s18, t131, t181);
+    const double t183 = t126 * s[27];
+    const double t184 = MW_FMA(s[69], t49, t176);
+    const double t185 = MW_FMA(t164, s[26], t183);
+    const double t186 = t129 * s[46];
+    const double t187 = MW_FMA(s[62], t50, t179);
+    const double t188 = MW_FMS(t174, s[45], t186);
+    const double t189 = s[44] * t140;
+    const double t190 = MW_FMS(s[43], t139, t189);  /* omega_hobbing_gear_x: turn of the section over theta_gear */
+    const double t191 = s[44] * t139;
+    const double t192 = MW_FMA(s[43], t140, t191);
+    const double t193 = t184 * t111;
+    const double t194 = s22 * s[92];
+    const double t195 = t187 * t112;
+    const double t196 = s[41] * c16;
+    const double t197 = MW_FMS(c22, t194, t196);
+    const double t198 = MW_FNMA(t175, t190, t177);
+    const double t199 = s[38] * c16;
+    const double t200 = MW_FMA(t170, t192, t133);  /* v_u_gear_z: velocity over theta_gear */
+    const double t201 = s[13] * t151;
+    const double t202 = s[12] * t151;
+    const double t203 = MW_FMA(s[12], t153, t201);  /* omega_hobbing_pinion_x: turn of the section over theta_pinion */
+    const double t204 = MW_FMS(s[13], t153, t202);  /* omega_hobbing_pinion_y: turn of the section over theta_pinion */
+    const double t205 = MW_FMA(s[12], t142, s[115]);
+    const double t206 = MW_FNMA(s[13], t144, t205);  /* v_hobbing_pinion_x: its advance over theta_pinion */
+    const double t207 = MW_FMS(s[12], t144, s[109]);
+    const double t208 = MW_FMA(s[13], t142, t207);  /* v_hobbing_pinion_y: its advance over theta_pinion */
+    const double t209 = MW_FNMA(t165, t203, t166);
+    const double t210 = MW_FNMA(t159, t204, t122);  /* v_u_pinion_z: velocity over theta_pinion */
+    const double t211 = t164 * s[20];
+    const double t212 = MW_FMS(t126, s[19], t211);
+    const double t213 = MW_FMA(t165, t204, t206);  /* v_u_pinion_x: velocity over theta_pinion */
+    const double t214 = t174 * s[53];
+    const double t215 = MW_FMA(t129, s[52], t214);
+    const double t216 = s20 * s[82];
+    const double t217 = t208 + t209;  /* v_u_pinion_y: velocity over theta_pinion */
+    const double t218 = s[5] * c14;
+    const double t219 = MW_FMS(c20, t216, t218);
+    const double t220 = s[10] * c14;
+    const double t221 = MW_FMA(s[43], t180, s[87]);
+    const double t222 = MW_FMA(s[44], t180, s[94]);
+    const double t223 = MW_FNMA(s[44], t182, t221);  /* v_hobbing_gear_y: its advance over theta_gear */
+    const double t224 = MW_FMA(s[43], t182, t222);  /* v_hobbing_gear_x: its advance over theta_gear */
+    const double t225 = s22 * s[95];
+    const double t226 = MW_FMS(c22, t225, t199);
+    const double t227 = t164 * s[27];
+    const double t228 = MW_FMS(s[26], t126, t227);
+    const double t229 = t223 + t198;  /* v_u_gear_y: velocity over theta_gear */
+    const double t230 = MW_FNMA(t175, t192, t224);  /* v_u_gear_x: velocity over theta_gear */
+    const double t231 = t165 * s[28];
+    const double t232 = MW_FMA(t185, t159, t231);
+    const double t233 = s20 * s[81];
+    const double t234 = MW_FMA(c20, t233, t220);
+    const double t235 = s[96] * t197;
+    const double t236 = t200 * t235;
+    const double t237 = t129 * s[45];
+    const double t238 = MW_FMA(t174, s[46], t237);
+    const double t239 = t28 + t232;
+    const double t240 = t188 * s[100];
+    const double t241 = t226 * t240;
+    const double t242 = t185 * s[114];
+    const double t243 = t213 * t242;
+    const double t244 = t126 * s[14];
+    const double t245 = MW_FMA(t159, t212, s[21]);
+    const double t246 = MW_FMA(t165, s[18], t245);
+    const double t247 = MW_FMA(c12, s[24], t239);
+    const double t248 = t229 * t241;
+    const double t249 = s[28] * t219;
+    const double t250 = MW_FMA(t185, t234, t249);
+    const double t251 = t226 * s[96];
+    const double t252 = MW_FMS(t230, t251, t236);
+    const double t253 = MW_FNMA(s12, s[22], t246);
+    const double t254 = t129 * s[53];
+    const double t255 = MW_FMS(s[52], t174, t254);
+    const double t256 = t215 * s[100];
+    const double t257 = t226 * t256;
+    const double t258 = t228 * s[114];
+    const double t259 = MW_FMS(t217, t258, t243);
+    const double t260 = t164 * s[19];
+    const double t261 = MW_FMA(t126, s[20], t260);
+    const double t262 = t126 * s[121];
+    const double t263 = MW_FMA(c12, s[17], t253);
+    const double t264 = t229 * t257;
+    const double t265 = t212 * s[114];
+    const double t266 = t213 * t265;
+    const double t267 = MW_FNMA(t210, s[118], t259);
+    const double t268 = s[28] * s2;
+    const double t269 = MW_FMS(s[18], c2, t268);
+    const double t270 = s[54] * s4;
+    const double t271 = MW_FMS(c4, s[39], t270);
+    const double t272 = MW_FMS(s[6], t165, s[7]);
+    const double t273 = MW_FNMA(s[8], x[2], t272);
+    const double t274 = t175 * s[54];
+    const double t275 = MW_FMA(t215, t170, t274);
+    const double t276 = s[18] * t219;
+    const double t277 = MW_FMA(t212, t234, t276);
+    const double t278 = t244 * t234;
+    const double t279 = MW_FMS(s[6], t219, t278);
+    const double t280 = MW_FNMA(t159, t244, t273);
+    const double t281 = s[99] * t238;
+    const double t282 = MW_FMA(t252, t281, t248);
+    const double t283 = t29 + t275;
+    const double t284 = t197 * s[104];
+    const double t285 = t229 * t284;
+    const double t286 = t217 * s[114];
+    const double t287 = MW_FMA(t261, t286, t266);
+    const double t288 = MW_FNMA(c12, s[15], t280);
+    const double t289 = c12 * s[124];
+    const double t290 = MW_FMA(c18, s[50], t283);
+    const double t291 = t210 * s[120];
+    const double t292 = MW_FNMA(t213, t262, t291);
+    const double t293 = s[29] * t184;
+    const double t294 = MW_FMA(t210, s[119], t287);
+    const double t295 = s[78] * t187;
+    const double t296 = MW_FMA(t170, t188, s[47]);
+    const double t297 = MW_FMA(t175, s[39], t296);
+    const double t298 = MW_FMS(s[73], t175, s[74]);
+    const double t299 = MW_FNMA(s[75], x[5], t298);
+    const double t300 = s2 * t250;
+    const double t301 = MW_FMS(c2, t277, t300);
+    const double t302 = s2 * t277;
+    const double t303 = MW_FMA(c2, t250, t302);
+    const double t304 = MW_FNMA(s18, s[48], t297);
+    const double t305 = t197 * s[93];
+    const double t306 = MW_FMS(t229, t305, t282);
+    const double t307 = s[99] * t252;
+    const double t308 = MW_FMS(t255, t307, t264);
+    const double t309 = t174 * s[102];
+    const double t310 = t174 * s[76];
+    const double t311 = t226 * t309;
+    const double t312 = MW_FNMA(t170, t310, t299);
+    const double t313 = MW_FMA(c18, s[32], t304);
+    const double t314 = t226 * s[100];
+    const double t315 = t229 * t314;
+    const double t316 = t129 * s[103];
+    const double t317 = MW_FMA(t252, t316, t285);
+    const double t318 = t129 * s[76];
+    const double t319 = MW_FNMA(c18, s[77], t312);
+    const double t320 = c18 * s[128];
+    const double t321 = t164 * s[121];
+    const double t322 = MW_FNMA(t217, t321, t292);
+    const double t323 = t164 * s[14];
+    const double t324 = MW_FMA(t229, t311, t317);
+    const double t325 = c2 * t261;
+    const double t326 = MW_FMA(s2, t228, t325);
+    const double t327 = s2 * t261;
+    const double t328 = MW_FMS(c2, t228, t327);
+    const double t329 = MW_FMA(s[16], t184, (-1.0));
+    const double t330 = MW_FMA(t52, t329, t193);
+    const double t331 = t184 * s[123];
+    const double t332 = MW_FMS(t329, t77, t331);
+    const double t333 = MW_FMA(t293, t77, s[8]);
+    const double t334 = MW_FMS(t184, s[125], t333);
+    const double t335 = t185 * s2;
+    const double t336 = MW_FMS(t212, c2, t335);
+    const double t337 = MW_FMA(t184, t289, t330);
+    const double t338 = s2 * t212;
+    const double t339 = MW_FMA(t185, c2, t338);
+    const double t340 = t269 * t293;
+    const double t341 = MW_FMA(s[6], t329, t340);
+    const double t342 = t269 * t332;
+    const double t343 = s4 * t255;
+    const double t344 = MW_FMA(c4, t238, t343);
+    const double t345 = s4 * t238;
+    const double t346 = MW_FMS(c4, t255, t345);
+    const double t347 = MW_FNMA(s[72], t187, 1.0);
+    const double t348 = MW_FMS(t54, t347, t195);
+    const double t349 = t159 * t341;
+    const double t350 = t187 * s[129];
+    const double t351 = MW_FMA(t347, t70, t350);
+    const double t352 = MW_FMA(t295, t70, s[75]);
+    const double t353 = MW_FMS(t187, s[130], t352);
+    const double t354 = t215 * s4;
+    const double t355 = MW_FNMA(t187, t320, t348);
+    const double t356 = MW_FMA(t328, t337, t349);
+    const double t357 = MW_FMS(c4, t188, t354);
+    const double t358 = t188 * s4;
+    const double t359 = MW_FMA(t215, c4, t358);
+    const double t360 = t271 * t295;
+    const double t361 = MW_FMS(s[73], t347, t360);
+    const double t362 = t271 * t351;
+    const double t363 = t247 * s2;
+    const double t364 = MW_FMS(t263, c2, t363);
+    const double t365 = MW_FNMA(t247, c2, s[70]);
+    const double t366 = MW_FNMA(s2, t263, t365);
+    const double t367 = MW_FMA(t326, t332, t356);
+    const double t368 = t293 * t326;
+    const double t369 = t332 * t336;
+    const double t370 = MW_FNMA(t337, t339, t369);
+    const double t371 = t293 * t336;
+    const double t372 = t170 * t361;
+    const double t373 = MW_FNMA(t329, t323, t368);
+    const double t374 = MW_FNMA(t244, t329, t371);
+    const double t375 = s[29] * t279;
+    const double t376 = MW_FMA(t346, t355, t372);
+    const double t377 = MW_FMS(s[16], t301, t375);
+    const double t378 = s[16] * t279;
+    const double t379 = MW_FMA(s[29], t301, t378);
+    const double t380 = MW_FNMA(t165, t374, t367);
+    const double t381 = MW_FMA(t165, t373, t370);
+    const double t382 = t197 * s[101];
+    const double t383 = MW_FMA(t229, t382, t308);
+    const double t384 = MW_FMA(t344, t351, t376);
+    const double t385 = MW_FNMA(t244, t334, t381);
+    const double t386 = t295 * t344;
+    const double t387 = MW_FNMA(t334, t323, t380);
+    const double t388 = t351 * t357;
+    const double t389 = MW_FMS(t355, t359, t388);
+    const double t390 = t295 * t357;
+    const double t391 = MW_FMA(t347, t318, t386);
+    const double t392 = MW_FMA(t310, t347, t390);
+    const double t393 = t197 * s[100];
+    const double t394 = t229 * t393;
+    const double t395 = s2 * t267;
+    const double t396 = c2 * t267;
+    const double t397 = MW_FMA(c2, t294, t395);
+    const double t398 = MW_FNMA(s2, t294, t396);
+    const double t399 = MW_FMA(t175, t392, t384);
+    const double t400 = MW_FMA(t175, t391, t389);
+    const double t401 = c4 * t306;
+    const double t402 = s4 * t306;
+    const double t403 = MW_FNMA(s4, t383, t401);
+    const double t404 = MW_FMA(c4, t383, t402);
+    const double t405 = MW_FNMA(t310, t353, t400);
+    const double t406 = MW_FMA(t353, t318, t399);
+    const double t407 = s[29] * t322;
+    const double t408 = s[16] * t322;
+    const double t409 = MW_FMS(s[16], t397, t407);
+    const double t410 = MW_FMA(s[29], t397, t408);
+    const double t411 = MW_FMA(t364, s[29], s[30]);
+    const double t412 = t405 * t315;
+    const double t413 = MW_FMA(s[16], t288, t411);
+    const double t414 = t288 * s[29];
+    const double t415 = MW_FMS(t364, s[16], t414);
+    const double t416 = MW_FMS(t290, c4, s[55]);
+    const double t417 = t290 * s4;
+    const double t418 = MW_FMA(t313, s4, t416);
+    const double t419 = MW_FMS(c4, t313, t417);
+    const double t420 = MW_FNMA(t307, t406, t412);
+    const double t421 = s[78] * t324;
+    const double t422 = MW_FMS(s[72], t403, t421);
+    const double t423 = s[72] * t324;
+    const double t424 = MW_FMA(s[78], t403, t423);
+    const double t425 = c64 * t377;
+    const double t426 = MW_FMS(s64, t303, t425);
+    const double t427 = c64 * t303;
+    const double t428 = MW_FMA(s64, t377, t427);
+    const double t429 = s64 * t398;
+    const double t430 = MW_FMA(c64, t409, t429);
+    const double t431 = c64 * t398;
+    const double t432 = MW_FMS(s64, t409, t431);
+    const double t433 = t234 * s[114];
+    const double t434 = t210 * t433;
+    const double t435 = t234 * s[126];
+    const double t436 = t217 * t435;
+    const double t437 = s2 * s[18];
+    const double t438 = MW_FMA(s[28], c2, t437);
+    const double t439 = s[39] * s4;
+    const double t440 = MW_FMA(s[54], c4, t439);
+    const double t441 = t366 * s64;
+    const double t442 = MW_FMA(t415, c64, t441);
+    const double t443 = MW_FMA(t415, s64, s[79]);
+    const double t444 = t319 * s[78];
+    const double t445 = MW_FNMA(t337, t438, t342);
+    const double t446 = MW_FMS(t419, s[72], t444);
+    const double t447 = MW_FMS(t355, t440, t362);
+    const double t448 = s[71] * t379;
+    const double t449 = MW_FNMA(s[31], t426, t448);
+    const double t450 = s[31] * t379;
+    const double t451 = MW_FMA(s[71], t426, t450);
+    const double t452 = MW_FNMA(s78, t446, t443);
+    const double t453 = MW_FMA(s[6], t334, t445);
+    const double t454 = s78 * t404;
+    const double t455 = MW_FMA(s[73], t353, t447);
+    const double t456 = MW_FMS(c78, t422, t454);
+    const double t457 = c78 * t404;
+    const double t458 = MW_FMA(s78, t422, t457);
+    const double t459 = t449 * t424;
+    const double t460 = MW_FNMA(t418, c78, t452);
+    const double t461 = MW_FNMA(t159, t373, t453);
+    const double t462 = t418 * s78;
+    const double t463 = MW_FNMA(t170, t391, t455);
+    const double t464 = MW_FMA(t451, t456, t459);
+    const double t465 = MW_FNMA(t442, s[71], t462);
+    const double t466 = s[31] * t410;
+    const double t467 = s[71] * t410;
+    const double t468 = MW_FNMA(c64, t366, t460);  /* row 1 of the contact equations */
+    const double t469 = MW_FNMA(s[71], t430, t466);
+    const double t470 = MW_FMA(s[31], t430, t467);
+    const double t471 = MW_FNMA(t463, t394, t420);  /* row 6 of the contact equations */
+    const double t472 = MW_FMA(t428, t458, t464);  /* row 3 of the contact equations */
+    const double t473 = MW_FMA(t413, s[31], t465);
+    const double t474 = t456 * t469;
+    const double t475 = MW_FMA(s[71], t413, s[80]);
+    const double t476 = MW_FNMA(t419, s[78], t475);
+    const double t477 = t219 * s[126];
+    const double t478 = MW_FNMA(t446, c78, t473);  /* row 0 of the contact equations */
+    const double t479 = t217 * t477;
+    const double t480 = t219 * s[114];
+    const double t481 = MW_FMS(t213, t480, t434);
+    const double t482 = MW_FMA(t424, t470, t474);
+    const double t483 = MW_FMA(t442, s[31], t476);
+    const double t484 = t385 * t479;
+    const double t485 = s[99] * t481;
+    const double t486 = MW_FMA(t458, t432, t482);  /* row 4 of the contact equations */
+    const double t487 = MW_FNMA(s[72], t319, t483);  /* row 2 of the contact equations */
+    const double t488 = MW_FNMA(t387, t485, t484);
+    const double t489 = MW_FNMA(t461, t436, t488);  /* row 5 of the contact equations */
+    R[0] = t478;
+    R[1] = t468;
+    R[2] = t487;
+    R[3] = t472;
+    R[4] = t486;
+    R[5] = t489;
+    R[6] = t471;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which bevel_face_hobbed_by_anchor reads sine and cosine, each with these: at[bevel_face_hobbed_NANCHOR]. */
+static inline void bevel_face_hobbed_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = MW_FMA(x[2], s[64], s[65]);
+    const double t1 = MW_FMA(x[2], t0, s[66]);
+    const double t2 = MW_FMA(x[5], s[57], s[58]);
+    const double t3 = MW_FMA(x[5], t2, s[59]);
+    const double t4 = MW_FMA(phi, s[218], x[6]);
+    const double t5 = MW_FMA(x[4], s[56], t4);
+    const double t6 = x[0] - s[0];
+    const double t7 = x[3] - s[33];
+    const double t8 = MW_FMA(x[2], t1, s[67]);
+    const double t9 = MW_FMA(x[1], s[63], phi);
+    const double t10 = MW_FMA(x[5], t3, s[60]);
+    const double t11 = s[69] * x[2];
+    const double t12 = s[62] * x[5];
+    const double t13 = s[23] + x[2];
+    const double t14 = s[49] + x[5];
+    const double t15 = s[3] * t6;
+    const double t16 = MW_FMA(x[2], t8, s[68]);
+    const double t17 = t6 * s[1];
+    const double t18 = MW_FMA(x[5], t10, s[61]);
+    const double t19 = s[36] * t7;
+    const double t20 = t7 * s[34];
+    const double t21 = MW_FNMA(x[2], t16, 1.0);
+    const double t22 = MW_FNMA(x[5], t18, 1.0);
+    const double t23 = MW_FNMA(t21, t11, t9);
+    const double t24 = MW_FNMA(t22, t12, t5);
+    at[0] = t13;
+    bevel_face_hobbed_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t14;
+    bevel_face_hobbed_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[1];
+    bevel_face_hobbed_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t15;
+    bevel_face_hobbed_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t19;
+    bevel_face_hobbed_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = x[4];
+    bevel_face_hobbed_seldom_sincos(at[15], at + 16, at + 17);
+    at[18] = t17;
+    bevel_face_hobbed_seldom_sincos(at[18], at + 19, at + 20);
+    at[21] = t20;
+    bevel_face_hobbed_seldom_sincos(at[21], at + 22, at + 23);
+    at[24] = t23;
+    bevel_face_hobbed_seldom_sincos(at[24], at + 25, at + 26);
+    at[27] = t24;
+    bevel_face_hobbed_seldom_sincos(at[27], at + 28, at + 29);
+}
 
 /* Derivatives of the residual at input angle phi and x[bevel_face_hobbed_NX] along v[bevel_face_hobbed_NX + 1], a direction of (x, phi): the first,
  * d1[bevel_face_hobbed_NX], and unless d2 is NULL the second, d2[bevel_face_hobbed_NX]. Of the state only the design part is read. */
@@ -16521,7 +17102,8 @@ static const mw_model bevel_face_hobbed_model = {
     6, 18, 67, 51,
     bevel_face_hobbed_unknown_names, bevel_face_hobbed_parameter_names, bevel_face_hobbed_size_names,
     bevel_face_hobbed_output_names, 31, bevel_face_hobbed_output_sizes, bevel_face_hobbed_guard_texts, bevel_face_hobbed_bodies,
-    bevel_face_hobbed_derive, bevel_face_hobbed_size, bevel_face_hobbed_setup, bevel_face_hobbed_set_phi, bevel_face_hobbed_eval, bevel_face_hobbed_step, bevel_face_hobbed_along,
+    bevel_face_hobbed_derive, bevel_face_hobbed_size, bevel_face_hobbed_setup, bevel_face_hobbed_set_phi, bevel_face_hobbed_eval, bevel_face_hobbed_step,
+    bevel_face_hobbed_NANCHOR, bevel_face_hobbed_NEAREST, bevel_face_hobbed_anchor, bevel_face_hobbed_by_anchor, bevel_face_hobbed_along,
     bevel_face_hobbed_guess, bevel_face_hobbed_start_scale, bevel_face_hobbed_start_eval, bevel_face_hobbed_start_solution, bevel_face_hobbed_observe, bevel_face_hobbed_scale,
     3, bevel_face_hobbed_systems, 2, bevel_face_hobbed_regions,
     1, bevel_face_hobbed_functions, MW_KERNELS
@@ -16585,6 +17167,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

@@ -39,7 +39,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -118,6 +118,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -163,8 +170,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -191,7 +198,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -201,7 +208,9 @@ typedef struct mw_contact {
 #define bevel_formate_NO 60
 #define bevel_formate_ND 1
 #define bevel_formate_NSTART 0
-#define bevel_formate_ABI 5
+#define bevel_formate_NANCHOR 21
+#define bevel_formate_NEAREST 3.814697265625e-06
+#define bevel_formate_ABI 6
 #define bevel_formate_SPEC_HASH "5ab06aecbacf3dbe5cbd382915a8d72e94a9f783b70a8ee0f4122a139e2a1396"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -393,7 +402,19 @@ MW_INLINE void bevel_formate_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void bevel_formate_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void bevel_formate_seldom_sincos(double a, double *sine, double *cosine)
 {
     bevel_formate_sincos(a, sine, cosine);
@@ -3584,11 +3605,297 @@ static inline double bevel_formate_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t717), 1.0, MW_FMA(MW_ABS(t709), s[141], MW_FMA(MW_ABS(t723), s[142], MW_FMA(MW_ABS(t704), s[143], MW_ABS(t718) * 1.0))));
 }
 
+/* Residual R[bevel_formate_NX] at input angle phi and x[bevel_formate_NX], close to those at which bevel_formate_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * bevel_formate_NEAREST. */
+/* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
+ *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
+ *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/root, derivation/quotient. */
+static inline double bevel_formate_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = s[0] + x[0];
+    double s1, c1;
+    bevel_formate_near_sincos(t0, &s1, &c1, at + 0, &away);
+    const double t3 = MW_FMA(x[0], s[3], s[4]);
+    const double t4 = MW_FMA(x[0], t3, s[5]);
+    double s5, c5;  /* of theta_pinion */
+    bevel_formate_near_sincos(x[1], &s5, &c5, at + 3, &away);
+    const double t7 = MW_FMS(x[0], s[9], s[4]);
+    const double t8 = MW_FMS(x[0], t7, t4);
+    const double t9 = MW_FMA(x[0], t4, s[6]);
+    const double t10 = MW_FMA(x[0], t9, s[7]);
+    const double t11 = s[8] * x[0];
+    const double t12 = MW_FMA(s[11], x[0], s[17]);
+    const double t13 = MW_FMA(phi, s[151], x[4]);  /* wheel angle */
+    double s14, c14;  /* of wheel angle */
+    bevel_formate_near_sincos(t13, &s14, &c14, at + 6, &away);
+    const double t16 = MW_FMS(x[0], t8, t9);
+    const double t17 = MW_FMS(x[0], t16, t10);
+    const double t18 = MW_FNMA(x[0], t10, 1.0);
+    const double t19 = s[15] * c1;
+    const double t20 = s1 * s[1];
+    const double t21 = MW_FMA(c1, s[2], t20);
+    const double t22 = s1 * s[2];
+    const double t23 = MW_FMS(c1, s[1], t22);
+    const double t24 = t17 * t11;
+    const double t25 = s5 * s[22];
+    const double t26 = s5 * s[21];
+    const double t27 = s5 * s[20];
+    const double t28 = c5 * s[20];
+    const double t29 = s[15] * s1;
+    const double t30 = s1 * s[12];
+    const double t31 = s5 * s[23];
+    const double t32 = MW_FMA(s[8], t18, t24);
+    const double t33 = MW_FMA(c5, s[21], t25);
+    const double t34 = MW_FMS(c5, s[22], t26);
+    const double t35 = MW_FMS(s[19], c5, t27);
+    const double t36 = MW_FMA(s[19], s5, t28);
+    const double t37 = c5 * s[23];
+    const double t38 = MW_FMS(t18, t11, phi);
+    double s39, c39;
+    bevel_formate_near_sincos(t38, &s39, &c39, at + 9, &away);
+    const double t41 = t32 * s[18];
+    const double t42 = t12 * t41;
+    const double t43 = MW_FMA(t32, s[14], (-1.0));
+    const double t44 = t32 * s[16];
+    const double t45 = MW_FMS(t43, t29, t44);
+    const double t46 = c1 * t33;
+    const double t47 = MW_FMA(s1, t35, t46);
+    const double t48 = s1 * t34;
+    const double t49 = MW_FMA(t43, t19, t42);
+    const double t50 = MW_FMA(t36, c1, t48);
+    const double t51 = t36 * s1;
+    const double t52 = MW_FMS(t34, c1, t51);
+    const double t53 = MW_FMS(t32, s[10], s[11]);
+    const double t54 = MW_FNMA(t32, t30, t53);
+    const double t55 = t41 * t47;
+    const double t56 = x[2] - s[56];
+    const double t57 = t49 * t21;
+    const double t58 = t49 * t50;
+    const double t59 = s1 * t33;
+    const double t60 = MW_FMS(c1, t35, t59);
+    const double t61 = t56 * s[57];
+    const double t62 = MW_FNMA(t43, t31, t55);
+    const double t63 = s[59] * t56;
+    double s64, c64;
+    bevel_formate_near_sincos(t61, &s64, &c64, at + 12, &away);
+    const double t66 = MW_FMS(t45, t23, t57);
+    const double t67 = MW_FMS(t52, t45, t58);
+    const double t68 = MW_FMA(s[13], t54, t66);
+    const double t69 = MW_FNMA(t62, s[26], t67);
+    const double t70 = t62 * s[29];
+    double s71, c71;
+    bevel_formate_near_sincos(t63, &s71, &c71, at + 15, &away);
+    const double t73 = MW_FNMA(t54, t37, t69);
+    const double t74 = MW_FNMA(t62, s[24], t68);
+    const double t75 = MW_FMS(t74, s[28], t70);
+    const double t76 = t73 * s[27];
+    const double t77 = s5 * s[68];
+    const double t78 = MW_FMA(s[14], t47, t77);
+    const double t79 = s5 * s[69];
+    const double t80 = MW_FMS(s[18], t47, t79);
+    const double t81 = MW_FMA(s[25], t74, t76);
+    const double t82 = MW_FNMA(t62, s[30], t75);
+    const double t83 = c39 * t60;
+    double s84, c84;  /* of theta_gear */
+    bevel_formate_near_sincos(x[3], &s84, &c84, at + 18, &away);
+    const double t86 = MW_FNMA(t73, s[31], t82);
+    const double t87 = t81 / t86;  /* derivation/explicit: slope of the equation of meshing in w_pinion */
+    const double t88 = MW_FMA(s39, t78, t83);
+    const double t89 = c39 * t78;
+    const double t90 = MW_FMS(s39, t60, t89);
+    const double t91 = s[44] * t80;
+    const double t92 = s[42] * t80;
+    const double t93 = s14 * t88;
+    const double t94 = c14 * t88;
+    const double t95 = s[64] * c71;
+    const double t96 = s64 * s[67];
+    const double t97 = MW_FMA(c64, t96, t95);
+    const double t98 = MW_FMA(s[42], t90, t91);
+    const double t99 = MW_FNMA(s[44], t90, t92);
+    const double t100 = MW_FMA(s71, s[60], s[56]);
+    const double t101 = s[61] * c71;
+    const double t102 = s64 * s[65];
+    const double t103 = MW_FMS(c64, t102, t101);
+    const double t104 = s64 * s64;
+    const double t105 = MW_FMS(c14, t98, t93);
+    const double t106 = MW_FMA(s14, t98, t94);
+    const double t107 = s[48] * t99;
+    const double t108 = s[46] * t99;
+    const double t109 = t100 * s[64];
+    const double t110 = MW_FNMA(t100, s[61], s[62]);
+    const double t111 = MW_FMA(t104, s[58], t110);
+    const double t112 = s[66] * t103;
+    const double t113 = MW_FMA(s[46], t105, t107);
+    const double t114 = MW_FNMA(s[48], t105, t108);
+    const double t115 = s[45] * t106;
+    const double t116 = s[49] * t106;
+    const double t117 = MW_FMA(s[49], t113, t115);
+    const double t118 = MW_FMS(s[45], t113, t116);
+    const double t119 = s[55] * t114;
+    const double t120 = s[53] * t114;
+    const double t121 = s[50] * t117;
+    const double t122 = s[50] * t118;
+    const double t123 = t87 * t87;
+    const double t124 = MW_FNMA(t87, s[36], s[37]);
+    const double t125 = MW_FMA(t87, s[32], s[35]);
+    const double t126 = MW_FMS(s[52], t118, t121);
+    const double t127 = MW_FMA(s[52], t117, t122);
+    const double t128 = MW_FMA(s[33], t123, 1.0);
+    const double t129 = t123 * s[32];
+    const double t130 = t123 * s[36];
+    const double t131 = t37 * t124;
+    const double t132 = t23 * t125;
+    const double t133 = t50 * t124;
+    const double t134 = MW_FMS(s[53], t126, t119);
+    const double t135 = MW_FMA(s[55], t126, t120);
+    const double t136 = sqrt(t128);  /* secant_pinion: secant of the turn along the arc */
+    const double t137 = MW_FMS(t52, t124, t132);
+    const double t138 = MW_FMA(s[13], t125, t131);
+    const double t139 = MW_FMS(t21, t125, t133);
+    const double t140 = s[66] * c84;
+    const double t141 = t97 * t140;
+    const double t142 = s[14] * t138;
+    const double t143 = s[18] * t138;
+    const double t144 = s39 * t139;
+    const double t145 = c39 * t139;
+    const double t146 = s[66] * s84;
+    const double t147 = t97 * t146;
+    const double t148 = t134 * t141;
+    const double t149 = MW_FMS(s[18], t137, t142);
+    const double t150 = MW_FMA(s[14], t137, t143);
+    const double t151 = MW_FMA(t135, t112, t148);
+    const double t152 = MW_FNMA(c39, t150, t144);
+    const double t153 = MW_FMA(s39, t150, t145);
+    const double t154 = s[42] * t149;
+    const double t155 = s[44] * t149;
+    const double t156 = MW_FNMA(t147, t127, t151);  /* row 4 of the contact equations */
+    const double t157 = MW_FNMA(s[44], t152, t154);
+    const double t158 = MW_FMA(s[42], t152, t155);
+    const double t159 = s14 * t153;
+    const double t160 = c14 * t153;
+    const double t161 = MW_FMS(c14, t158, t159);
+    const double t162 = MW_FMA(s14, t158, t160);
+    const double t163 = s[48] * t157;
+    const double t164 = s[46] * t157;
+    const double t165 = MW_FMA(s[46], t161, t163);
+    const double t166 = MW_FNMA(s[48], t161, t164);
+    const double t167 = s[45] * t162;
+    const double t168 = s[49] * t162;
+    const double t169 = MW_FMA(s[49], t165, t167);
+    const double t170 = MW_FMS(s[45], t165, t168);
+    const double t171 = s[55] * t166;
+    const double t172 = s[53] * t166;
+    const double t173 = t87 / t136;
+    const double t174 = 1.0 + t136;
+    const double t175 = s[50] * t169;
+    const double t176 = s[50] * t170;
+    const double t177 = t136 * t174;
+    const double t178 = MW_FMS(s[52], t170, t175);
+    const double t179 = MW_FMA(s[52], t169, t176);
+    const double t180 = t129 / t177;
+    const double t181 = t130 / t177;
+    const double t182 = MW_FMS(s[53], t178, t171);
+    const double t183 = MW_FMA(s[55], t178, t172);
+    const double t184 = t182 * t140;
+    const double t185 = s[66] * t183;
+    const double t186 = t97 * t184;
+    const double t187 = MW_FMA(t103, t185, t186);
+    const double t188 = s[34] - t173;
+    const double t189 = MW_FNMA(t179, t147, t187);  /* row 3 of the contact equations */
+    const double t190 = MW_FMA(t188, s[37], s[38]);
+    const double t191 = MW_FNMA(s[35], t188, t180);
+    const double t192 = t181 + t190;
+    const double t193 = MW_FMA(t52, t192, t19);
+    const double t194 = MW_FNMA(t50, t192, s[40]);
+    const double t195 = MW_FMS(s[13], t191, s[17]);
+    const double t196 = MW_FMA(t23, t191, t193);
+    const double t197 = MW_FNMA(t21, t191, t194);
+    const double t198 = MW_FNMA(s[11], x[0], t195);
+    const double t199 = MW_FNMA(t37, t192, t198);
+    const double t200 = t197 - t29;
+    const double t201 = MW_FMA(s[18], t196, s[43]);
+    const double t202 = MW_FMA(s[14], t199, t201);
+    const double t203 = s[18] * t199;
+    const double t204 = s39 * t200;
+    const double t205 = MW_FMS(s[14], t196, t203);
+    const double t206 = t202 * s[44];
+    const double t207 = MW_FMA(s[42], t202, s[47]);
+    const double t208 = MW_FNMA(t205, c39, t204);
+    const double t209 = MW_FNMA(t205, s39, s[39]);
+    const double t210 = MW_FNMA(t200, c39, t209);
+    const double t211 = MW_FMA(t208, s[42], t206);
+    const double t212 = MW_FNMA(t208, s[44], t207);
+    const double t213 = MW_FMA(t210, c14, s[41]);
+    const double t214 = t210 * s14;
+    const double t215 = t212 * s[48];
+    const double t216 = MW_FMA(s[46], t212, s[54]);
+    const double t217 = MW_FNMA(t211, s14, t213);
+    const double t218 = MW_FMA(c14, t211, t214);
+    const double t219 = MW_FMA(t218, s[46], t215);
+    const double t220 = MW_FNMA(t218, s[48], t216);
+    const double t221 = t217 * s[45];
+    const double t222 = MW_FNMA(t219, s[49], t221);
+    const double t223 = MW_FMS(s[45], t219, s[51]);
+    const double t224 = t220 * s[55];
+    const double t225 = MW_FMA(t217, s[49], t223);
+    const double t226 = t222 * s[50];
+    const double t227 = t222 * s[52];
+    const double t228 = MW_FMA(t225, s[52], t226);
+    const double t229 = MW_FNMA(s[50], t225, t227);
+    const double t230 = MW_FMA(t228, s[55], t109);
+    const double t231 = MW_FMS(t228, s[53], t224);
+    const double t232 = MW_FNMA(t111, s84, t229);  /* row 1 of the contact equations */
+    const double t233 = MW_FNMA(t111, c84, t231);  /* row 0 of the contact equations */
+    const double t234 = MW_FMA(s[53], t220, t230);
+    const double t235 = MW_FMA(t104, s[63], t234);  /* row 2 of the contact equations */
+    R[0] = t233;
+    R[1] = t232;
+    R[2] = t235;
+    R[3] = t189;
+    R[4] = t156;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which bevel_formate_by_anchor reads sine and cosine, each with these: at[bevel_formate_NANCHOR]. */
+static inline void bevel_formate_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = MW_FMA(x[0], s[3], s[4]);
+    const double t1 = MW_FMA(x[0], t0, s[5]);
+    const double t2 = s[8] * x[0];
+    const double t3 = x[2] - s[56];
+    const double t4 = s[0] + x[0];
+    const double t5 = MW_FMA(phi, s[151], x[4]);
+    const double t6 = t3 * s[57];
+    const double t7 = s[59] * t3;
+    const double t8 = MW_FMA(x[0], t1, s[6]);
+    const double t9 = MW_FMA(x[0], t8, s[7]);
+    const double t10 = MW_FNMA(x[0], t9, 1.0);
+    const double t11 = MW_FMS(t10, t2, phi);
+    at[0] = t4;
+    bevel_formate_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = x[1];
+    bevel_formate_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t5;
+    bevel_formate_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t11;
+    bevel_formate_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t6;
+    bevel_formate_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t7;
+    bevel_formate_seldom_sincos(at[15], at + 16, at + 17);
+    at[18] = x[3];
+    bevel_formate_seldom_sincos(at[18], at + 19, at + 20);
+}
 
 /* Derivatives of the residual at input angle phi and x[bevel_formate_NX] along v[bevel_formate_NX + 1], a direction of (x, phi): the first,
  * d1[bevel_formate_NX], and unless d2 is NULL the second, d2[bevel_formate_NX]. Of the state only the design part is read. */
@@ -8029,7 +8336,8 @@ static const mw_model bevel_formate_model = {
     4, 18, 55, 40,
     bevel_formate_unknown_names, bevel_formate_parameter_names, bevel_formate_size_names,
     bevel_formate_output_names, 28, bevel_formate_output_sizes, bevel_formate_guard_texts, bevel_formate_bodies,
-    bevel_formate_derive, bevel_formate_size, bevel_formate_setup, bevel_formate_set_phi, bevel_formate_eval, bevel_formate_step, bevel_formate_along,
+    bevel_formate_derive, bevel_formate_size, bevel_formate_setup, bevel_formate_set_phi, bevel_formate_eval, bevel_formate_step,
+    bevel_formate_NANCHOR, bevel_formate_NEAREST, bevel_formate_anchor, bevel_formate_by_anchor, bevel_formate_along,
     bevel_formate_guess, bevel_formate_start_scale, bevel_formate_start_eval, bevel_formate_start_solution, bevel_formate_observe, bevel_formate_scale,
     3, bevel_formate_systems, 2, bevel_formate_regions,
     1, bevel_formate_functions, MW_KERNELS
@@ -8093,6 +8401,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

@@ -39,7 +39,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -118,6 +118,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -163,8 +170,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -191,7 +198,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -201,7 +208,9 @@ typedef struct mw_contact {
 #define bevel_generated_NO 61
 #define bevel_generated_ND 1
 #define bevel_generated_NSTART 0
-#define bevel_generated_ABI 5
+#define bevel_generated_NANCHOR 18
+#define bevel_generated_NEAREST 3.814697265625e-06
+#define bevel_generated_ABI 6
 #define bevel_generated_SPEC_HASH "f1de97616015032c96bda360442475e953d1617a018eeadeeabf13486f3aebff"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -401,7 +410,19 @@ MW_INLINE void bevel_generated_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void bevel_generated_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void bevel_generated_seldom_sincos(double a, double *sine, double *cosine)
 {
     bevel_generated_sincos(a, sine, cosine);
@@ -4018,11 +4039,323 @@ static inline double bevel_generated_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t763), 1.0, MW_FMA(MW_ABS(t755), s[146], MW_FMA(MW_ABS(t748), 1.0, MW_FMA(MW_ABS(t742), s[147], MW_ABS(t765) * 1.0))));
 }
 
+/* Residual R[bevel_generated_NX] at input angle phi and x[bevel_generated_NX], close to those at which bevel_generated_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * bevel_generated_NEAREST. */
+/* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
+ *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
+ *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/root, derivation/quotient. */
+static inline double bevel_generated_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = s[9] + x[0];
+    double s1, c1;
+    bevel_generated_near_sincos(t0, &s1, &c1, at + 0, &away);
+    const double t3 = s[43] + x[2];
+    double s4, c4;
+    bevel_generated_near_sincos(t3, &s4, &c4, at + 3, &away);
+    const double t6 = MW_FMA(x[0], s[0], s[1]);
+    const double t7 = MW_FMA(x[0], t6, s[2]);
+    double s8, c8;  /* of theta_pinion */
+    bevel_generated_near_sincos(x[1], &s8, &c8, at + 6, &away);
+    const double t10 = MW_FMS(x[0], s[6], s[1]);
+    const double t11 = MW_FMS(x[0], t10, t7);
+    const double t12 = MW_FMA(x[0], t7, s[3]);
+    double s13, c13;  /* of theta_gear */
+    bevel_generated_near_sincos(x[3], &s13, &c13, at + 9, &away);
+    const double t15 = MW_FMS(x[0], t11, t12);
+    const double t16 = MW_FMA(x[0], t12, s[4]);
+    const double t17 = MW_FMS(x[0], t15, t16);
+    const double t18 = MW_FNMA(x[0], t16, 1.0);
+    const double t19 = MW_FMA(x[2], s[50], s[51]);
+    const double t20 = MW_FMA(x[2], t19, s[52]);
+    const double t21 = s[5] * x[0];
+    const double t22 = MW_FMS(x[2], s[56], s[51]);
+    const double t23 = MW_FMA(s[8], x[0], s[17]);
+    const double t24 = t17 * t21;
+    const double t25 = s[55] * x[2];
+    const double t26 = s[13] * c1;
+    const double t27 = MW_FMS(x[2], t22, t20);
+    const double t28 = MW_FMA(x[2], t20, s[53]);
+    const double t29 = s8 * s[22];
+    const double t30 = s8 * s[21];
+    const double t31 = s1 * s[15];
+    const double t32 = MW_FMA(s[5], t18, t24);
+    const double t33 = MW_FMA(c1, s[16], t31);
+    const double t34 = s8 * s[20];
+    const double t35 = MW_FMS(x[2], t27, t28);
+    const double t36 = MW_FMA(x[2], t28, s[54]);
+    const double t37 = MW_FMA(c8, s[21], t29);
+    const double t38 = MW_FMS(c8, s[22], t30);
+    const double t39 = MW_FMS(s[19], c8, t34);
+    const double t40 = t32 * s[18];
+    const double t41 = MW_FMA(t32, s[12], (-1.0));
+    const double t42 = c8 * s[20];
+    const double t43 = MW_FMS(x[2], t35, t36);
+    const double t44 = MW_FNMA(x[2], t36, 1.0);
+    const double t45 = MW_FMA(s[19], s8, t42);
+    const double t46 = s[13] * s1;
+    const double t47 = t32 * s[14];
+    const double t48 = t23 * t40;
+    const double t49 = MW_FMS(t41, t46, t47);
+    const double t50 = s1 * s[16];
+    const double t51 = t43 * t25;
+    const double t52 = MW_FMS(c1, s[15], t50);
+    const double t53 = c1 * t37;
+    const double t54 = MW_FMA(s1, t39, t53);
+    const double t55 = t38 * s1;
+    const double t56 = MW_FMA(t41, t26, t48);
+    const double t57 = MW_FMA(t45, c1, t55);
+    const double t58 = t45 * s1;
+    const double t59 = MW_FMS(c1, t38, t58);
+    const double t60 = MW_FMA(s[55], t44, t51);
+    const double t61 = t40 * t54;
+    const double t62 = MW_FMS(t32, s[7], s[8]);
+    const double t63 = s1 * s[10];
+    const double t64 = MW_FNMA(t32, t63, t62);
+    const double t65 = t56 * t33;
+    const double t66 = t57 * t56;
+    const double t67 = MW_FNMA(t60, s[57], 1.0);
+    const double t68 = t60 * s[59];
+    const double t69 = MW_FMA(s[60], x[2], s[61]);
+    const double t70 = t60 * s[62];
+    const double t71 = s[58] * s4;
+    const double t72 = MW_FMS(t49, t52, t65);
+    const double t73 = MW_FMS(t49, t59, t66);
+    const double t74 = s4 * s[44];
+    const double t75 = t68 * t69;
+    const double t76 = MW_FMA(t67, t71, t70);
+    const double t77 = MW_FMS(c4, s[45], t74);
+    const double t78 = s13 * s[47];
+    const double t79 = c13 * s[47];
+    const double t80 = MW_FMA(s[11], t64, t72);
+    const double t81 = s13 * s[48];
+    const double t82 = s13 * s[49];
+    const double t83 = MW_FMS(s[46], c13, t78);
+    const double t84 = MW_FMA(s[46], s13, t79);
+    const double t85 = MW_FMA(c13, s[49], t81);
+    const double t86 = MW_FMS(c13, s[48], t82);
+    const double t87 = s8 * s[23];
+    const double t88 = MW_FNMA(t41, t87, t61);
+    const double t89 = s4 * s[45];
+    const double t90 = MW_FMA(c4, s[44], t89);
+    const double t91 = s4 * t83;
+    const double t92 = s[58] * c4;
+    const double t93 = MW_FMS(t67, t92, t75);
+    const double t94 = t84 * s4;
+    const double t95 = MW_FNMA(t88, s[24], t80);
+    const double t96 = MW_FNMA(t88, s[26], t73);
+    const double t97 = t86 * s4;
+    const double t98 = s13 * s[63];
+    const double t99 = MW_FMA(c4, t85, t91);
+    const double t100 = MW_FMS(c4, t86, t94);
+    const double t101 = MW_FMA(t84, c4, t97);
+    const double t102 = s4 * s[66];
+    const double t103 = c13 * s[63];
+    const double t104 = MW_FMS(t60, s[65], s[60]);
+    const double t105 = MW_FNMA(t60, t102, t104);
+    const double t106 = t76 * t77;
+    const double t107 = t99 * t68;
+    const double t108 = t76 * t100;
+    const double t109 = MW_FMS(t93, t90, t106);
+    const double t110 = c8 * s[23];
+    const double t111 = MW_FNMA(t64, t110, t96);
+    const double t112 = t88 * s[29];
+    const double t113 = MW_FMS(t95, s[28], t112);
+    const double t114 = MW_FMA(s[68], t105, t109);
+    const double t115 = MW_FMA(t67, t98, t107);
+    const double t116 = MW_FMS(t101, t93, t108);
+    const double t117 = MW_FMS(t18, t21, phi);
+    const double t118 = t111 * s[27];
+    const double t119 = MW_FMA(phi, s[154], x[4]);  /* wheel angle */
+    const double t120 = MW_FNMA(t88, s[30], t113);
+    const double t121 = MW_FNMA(t44, t25, t119);
+    double s122, c122;
+    bevel_generated_near_sincos(t117, &s122, &c122, at + 12, &away);
+    const double t124 = MW_FMA(s[25], t95, t118);
+    const double t125 = MW_FNMA(t111, s[31], t120);
+    const double t126 = t124 / t125;  /* derivation/explicit: slope of the equation of meshing in w_pinion */
+    const double t127 = MW_FNMA(t115, s[64], t116);
+    const double t128 = MW_FNMA(t105, t103, t127);
+    const double t129 = MW_FNMA(t115, s[69], t114);
+    const double t130 = t115 * s[74];
+    const double t131 = MW_FMA(t115, s[73], t130);
+    const double t132 = s[70] * t129;
+    double s133, c133;
+    bevel_generated_near_sincos(t121, &s133, &c133, at + 15, &away);
+    const double t135 = MW_FMA(t129, s[72], t131);
+    const double t136 = MW_FMS(t128, s[67], t132);
+    const double t137 = MW_FMA(t128, s[71], t135);
+    const double t138 = t126 * t126;
+    const double t139 = MW_FMA(s[33], t138, 1.0);
+    const double t140 = t138 * s[32];
+    const double t141 = t138 * s[36];
+    const double t142 = t71 - s[82];
+    const double t143 = t136 / t137;  /* w_gear: where the blade's normal meets its line, from where they touch */
+    const double t144 = sqrt(t139);  /* secant_pinion: secant of the turn along the arc */
+    const double t145 = s1 * t37;
+    const double t146 = MW_FMS(c1, t39, t145);
+    const double t147 = MW_FNMA(t126, s[36], s[37]);
+    const double t148 = MW_FMA(t126, s[32], s[35]);
+    const double t149 = t110 * t147;
+    const double t150 = s8 * s[85];
+    const double t151 = MW_FMA(s[12], t54, t150);
+    const double t152 = s8 * s[86];
+    const double t153 = MW_FMS(s[18], t54, t152);
+    const double t154 = t52 * t148;
+    const double t155 = MW_FMA(s[11], t148, t149);
+    const double t156 = MW_FMS(t59, t147, t154);
+    const double t157 = t57 * t147;
+    const double t158 = MW_FMS(t33, t148, t157);
+    const double t159 = c122 * t151;
+    const double t160 = s[42] * t153;
+    const double t161 = s[40] * t153;
+    const double t162 = c122 * t146;
+    const double t163 = MW_FMA(s122, t151, t162);
+    const double t164 = s[12] * t155;
+    const double t165 = s[18] * t155;
+    const double t166 = MW_FMS(s122, t146, t159);
+    const double t167 = s122 * t158;
+    const double t168 = c122 * t158;
+    const double t169 = MW_FMS(s[18], t156, t164);
+    const double t170 = MW_FMA(s[12], t156, t165);
+    const double t171 = MW_FNMA(s[40], t166, t160);
+    const double t172 = MW_FMA(s[42], t166, t161);
+    const double t173 = MW_FNMA(c122, t170, t167);
+    const double t174 = MW_FMA(s122, t170, t168);
+    const double t175 = s[42] * t169;
+    const double t176 = s[40] * t169;
+    const double t177 = t143 * t143;
+    const double t178 = MW_FNMA(s[40], t173, t175);
+    const double t179 = MW_FMA(s[42], t173, t176);
+    const double t180 = MW_FNMA(s[71], t143, s[67]);
+    const double t181 = MW_FMA(s[72], t143, s[70]);
+    const double t182 = MW_FMA(s[76], t177, 1.0);
+    const double t183 = t177 * s[75];
+    const double t184 = t177 * s[81];
+    const double t185 = t103 * t180;
+    const double t186 = t77 * t181;
+    const double t187 = t90 * t181;
+    const double t188 = t126 / t144;
+    const double t189 = sqrt(t182);  /* secant_gear: secant of the turn along the arc */
+    const double t190 = MW_FMA(s[68], t181, t185);
+    const double t191 = 1.0 + t144;
+    const double t192 = t144 * t191;
+    const double t193 = MW_FMS(t100, t180, t186);
+    const double t194 = MW_FMS(t101, t180, t187);
+    const double t195 = s[59] * t190;
+    const double t196 = s[57] * t190;
+    const double t197 = c133 * t194;
+    const double t198 = s133 * t194;
+    const double t199 = t140 / t192;
+    const double t200 = t141 / t192;
+    const double t201 = MW_FMA(s[57], t193, t195);
+    const double t202 = MW_FMS(s[59], t193, t196);
+    const double t203 = MW_FMA(s133, t201, t197);
+    const double t204 = MW_FMS(c133, t201, t198);
+    const double t205 = t202 * t171;
+    const double t206 = MW_FNMA(t203, t163, t205);
+    const double t207 = t203 * t174;
+    const double t208 = MW_FMS(t202, t178, t207);
+    const double t209 = MW_FMA(t204, t172, t206);  /* row 4 of the contact equations */
+    const double t210 = s[34] - t188;
+    const double t211 = MW_FMA(t179, t204, t208);  /* row 3 of the contact equations */
+    const double t212 = MW_FMA(t210, s[37], s[38]);
+    const double t213 = t143 / t189;
+    const double t214 = MW_FNMA(s[35], t210, t199);
+    const double t215 = t200 + t212;
+    const double t216 = 1.0 + t189;
+    const double t217 = t189 * t216;
+    const double t218 = MW_FMA(t59, t215, t26);
+    const double t219 = MW_FNMA(t57, t215, s[41]);
+    const double t220 = MW_FMS(s[11], t214, s[17]);
+    const double t221 = t183 / t217;
+    const double t222 = t184 / t217;
+    const double t223 = MW_FMA(t52, t214, t218);
+    const double t224 = MW_FNMA(t33, t214, t219);
+    const double t225 = MW_FNMA(s[8], x[0], t220);
+    const double t226 = MW_FNMA(t110, t215, t225);
+    const double t227 = t224 - t46;
+    const double t228 = MW_FMA(s[18], t223, s[39]);
+    const double t229 = MW_FMA(s[12], t226, t228);
+    const double t230 = s[18] * t226;
+    const double t231 = t227 * s122;
+    const double t232 = MW_FMS(s[12], t223, t230);
+    const double t233 = MW_FMA(s[42], t229, s[84]);
+    const double t234 = s[77] + t213;
+    const double t235 = MW_FNMA(t232, c122, t231);
+    const double t236 = MW_FNMA(s122, t232, s[83]);
+    const double t237 = MW_FNMA(t234, s[79], s[80]);
+    const double t238 = MW_FNMA(t235, s[40], t233);
+    const double t239 = MW_FNMA(s[78], t234, t221);
+    const double t240 = t237 - t222;
+    const double t241 = MW_FMA(t101, t240, t142);
+    const double t242 = MW_FMA(t100, t240, t92);
+    const double t243 = MW_FMS(s[68], t239, s[61]);
+    const double t244 = MW_FMA(t90, t239, t241);
+    const double t245 = MW_FMA(t77, t239, t242);
+    const double t246 = MW_FNMA(s[60], x[2], t243);
+    const double t247 = MW_FNMA(t103, t240, t246);
+    const double t248 = MW_FNMA(s[59], t245, t238);
+    const double t249 = t244 * s133;
+    const double t250 = MW_FMA(t235, s[42], t249);
+    const double t251 = MW_FNMA(s[57], t247, t248);  /* row 2 of the contact equations */
+    const double t252 = s[59] * t247;
+    const double t253 = MW_FMS(s[57], t245, t252);
+    const double t254 = MW_FMA(t229, s[40], t250);
+    const double t255 = MW_FNMA(s133, t253, t236);
+    const double t256 = MW_FNMA(t253, c133, t254);  /* row 0 of the contact equations */
+    const double t257 = MW_FNMA(t244, c133, t255);
+    const double t258 = MW_FNMA(t227, c122, t257);  /* row 1 of the contact equations */
+    R[0] = t256;
+    R[1] = t258;
+    R[2] = t251;
+    R[3] = t211;
+    R[4] = t209;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which bevel_generated_by_anchor reads sine and cosine, each with these: at[bevel_generated_NANCHOR]. */
+static inline void bevel_generated_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = MW_FMA(x[0], s[0], s[1]);
+    const double t1 = MW_FMA(x[0], t0, s[2]);
+    const double t2 = MW_FMA(x[2], s[50], s[51]);
+    const double t3 = MW_FMA(x[2], t2, s[52]);
+    const double t4 = s[5] * x[0];
+    const double t5 = MW_FMA(phi, s[154], x[4]);
+    const double t6 = s[55] * x[2];
+    const double t7 = s[9] + x[0];
+    const double t8 = MW_FMA(x[0], t1, s[3]);
+    const double t9 = s[43] + x[2];
+    const double t10 = MW_FMA(x[2], t3, s[53]);
+    const double t11 = MW_FMA(x[0], t8, s[4]);
+    const double t12 = MW_FMA(x[2], t10, s[54]);
+    const double t13 = MW_FNMA(x[0], t11, 1.0);
+    const double t14 = MW_FNMA(x[2], t12, 1.0);
+    const double t15 = MW_FMS(t13, t4, phi);
+    const double t16 = MW_FNMA(t14, t6, t5);
+    at[0] = t7;
+    bevel_generated_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t9;
+    bevel_generated_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[1];
+    bevel_generated_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = x[3];
+    bevel_generated_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t15;
+    bevel_generated_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t16;
+    bevel_generated_seldom_sincos(at[15], at + 16, at + 17);
+}
 
 /* Derivatives of the residual at input angle phi and x[bevel_generated_NX] along v[bevel_generated_NX + 1], a direction of (x, phi): the first,
  * d1[bevel_generated_NX], and unless d2 is NULL the second, d2[bevel_generated_NX]. Of the state only the design part is read. */
@@ -9531,7 +9864,8 @@ static const mw_model bevel_generated_model = {
     4, 18, 62, 41,
     bevel_generated_unknown_names, bevel_generated_parameter_names, bevel_generated_size_names,
     bevel_generated_output_names, 29, bevel_generated_output_sizes, bevel_generated_guard_texts, bevel_generated_bodies,
-    bevel_generated_derive, bevel_generated_size, bevel_generated_setup, bevel_generated_set_phi, bevel_generated_eval, bevel_generated_step, bevel_generated_along,
+    bevel_generated_derive, bevel_generated_size, bevel_generated_setup, bevel_generated_set_phi, bevel_generated_eval, bevel_generated_step,
+    bevel_generated_NANCHOR, bevel_generated_NEAREST, bevel_generated_anchor, bevel_generated_by_anchor, bevel_generated_along,
     bevel_generated_guess, bevel_generated_start_scale, bevel_generated_start_eval, bevel_generated_start_solution, bevel_generated_observe, bevel_generated_scale,
     3, bevel_generated_systems, 2, bevel_generated_regions,
     1, bevel_generated_functions, MW_KERNELS
@@ -9595,6 +9929,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

@@ -42,7 +42,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -121,6 +121,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -166,8 +173,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -194,7 +201,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -204,7 +211,9 @@ typedef struct mw_contact {
 #define cylindrical_gears_NO 61
 #define cylindrical_gears_ND 23
 #define cylindrical_gears_NSTART 0
-#define cylindrical_gears_ABI 5
+#define cylindrical_gears_NANCHOR 6
+#define cylindrical_gears_NEAREST 3.814697265625e-06
+#define cylindrical_gears_ABI 6
 #define cylindrical_gears_SPEC_HASH "8d1292e786d41d4c43219ef57f027a94859cceab0bed5f139c3c5b21c84dc769"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -369,7 +378,19 @@ MW_INLINE void cylindrical_gears_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_gears_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_gears_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_gears_sincos(a, sine, cosine);
@@ -3573,11 +3594,335 @@ static inline double cylindrical_gears_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t507), s[158], MW_FMA(MW_ABS(t511), s[159], MW_FMA(MW_ABS(t494), s[158], MW_FMA(MW_ABS(t495), s[160], MW_ABS(t504) * 1.0))));
 }
 
+/* Residual R[cylindrical_gears_NX] at input angle phi and x[cylindrical_gears_NX], close to those at which cylindrical_gears_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_gears_NEAREST. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit,
+ *   cylindrical_gears/meshing, cylindrical_gears/explicit, cylindrical_gears/tangent,
+ *   cylindrical_gears/undercut, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/translation, derivation/placement, cylindrical_worm/contact, derivation/angles. */
+static inline double cylindrical_gears_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = s[7] - x[0];
+    const double t1 = x[0] - s[3];
+    const double t2 = MW_SIGN(t0);
+    const double t3 = MW_SIGN(t1);
+    const double t4 = s[43] - x[2];
+    const double t5 = x[2] - s[40];
+    const double t6 = 1.0 + t2;
+    const double t7 = 1.0 + t3;
+    const double t8 = MW_SIGN(t4);
+    const double t9 = MW_FMS(x[0], 2.0, s[1]);
+    const double t10 = MW_FMA(x[0], 8.0, s[20]);
+    const double t11 = 1.0 + t8;
+    const double t12 = MW_FMA(s[10], t10, s[21]);
+    const double t13 = 0.5 * t6;
+    const double t14 = 0.5 * t7;
+    const double t15 = MW_SIGN(t5);
+    const double t16 = 1.0 + t15;
+    const double t17 = MW_FMA(x[1], s[19], t12);
+    const double t18 = t9 * t9;
+    const double t19 = t9 * s[11];
+    const double t20 = t0 * t13;
+    const double t21 = t1 * t14;
+    const double t22 = MW_FMA(t18, s[10], t19);
+    const double t23 = 0.5 * t11;
+    const double t24 = t7 * s[18];
+    const double t25 = t7 * s[16];
+    const double t26 = t4 * t23;
+    const double t27 = MW_FMS(x[2], 2.0, s[38]);
+    const double t28 = t20 * t20;
+    const double t29 = t21 * t25;
+    const double t30 = t21 * t21;
+    const double t31 = MW_FMA(t21, s[4], s[5]);
+    const double t32 = MW_FMA(t20, s[8], s[5]);
+    const double t33 = 0.5 * t16;
+    const double t34 = t5 * t33;
+    const double t35 = MW_FMA(x[2], 8.0, s[53]);
+    const double t36 = MW_FMA(s[46], t35, s[54]);
+    const double t37 = MW_FMA(t30, t24, t17);
+    const double t38 = t30 * s[6];
+    const double t39 = t28 * s[9];
+    const double t40 = t6 * s[17];
+    const double t41 = t20 * t40;
+    const double t42 = t6 * s[22];
+    const double t43 = MW_FMA(x[3], s[52], t36);
+    const double t44 = MW_FMA(t32, t39, t22);
+    const double t45 = MW_FNMA(t28, t42, t37);
+    const double t46 = t26 * t26;
+    const double t47 = t27 * t27;
+    const double t48 = t27 * s[47];
+    const double t49 = MW_FMA(t47, s[46], t48);
+    const double t50 = x[1] * s[2];
+    const double t51 = t34 * t34;
+    const double t52 = MW_FMA(t31, t38, t44);
+    const double t53 = MW_FMA(t32, t41, t45);
+    const double t54 = MW_FMA(t26, s[44], s[5]);
+    const double t55 = t46 * s[45];
+    const double t56 = MW_FMA(t54, t55, t49);
+    const double t57 = t16 * s[51];
+    const double t58 = MW_FMA(t51, t57, t43);
+    const double t59 = t51 * s[42];
+    const double t60 = MW_FMA(t9, t50, t52);  /* E_pinion: modification of the profile, pinion */
+    const double t61 = MW_FMA(t31, t29, t53);  /* E_pinion_l_pinion */
+    const double t62 = t16 * s[49];
+    const double t63 = t34 * t62;
+    const double t64 = MW_FMA(t34, s[41], s[5]);
+    const double t65 = MW_FMA(t64, t59, t56);
+    const double t66 = t11 * s[50];
+    const double t67 = t26 * t66;
+    const double t68 = t11 * s[55];
+    const double t69 = MW_FNMA(t46, t68, t58);
+    const double t70 = MW_FNMA(s[12], t60, s[13]);
+    const double t71 = MW_FMA(x[0], s[12], s[29]);
+    const double t72 = MW_FNMA(s[14], t60, t71);
+    const double t73 = x[3] * s[39];
+    const double t74 = MW_FMA(t27, t73, t65);  /* E_wheel: modification of the profile, wheel */
+    const double t75 = x[1] * s[0];
+    const double t76 = MW_FMA(t54, t67, t69);
+    const double t77 = MW_FNMA(x[0], s[14], t70);
+    const double t78 = MW_FMS(s[14], t61, s[12]);
+    const double t79 = MW_FMA(t61, s[25], s[26]);
+    const double t80 = x[1] * x[1];
+    const double t81 = MW_FMA(t80, s[28], t72);
+    const double t82 = s[27] * t78;
+    const double t83 = MW_FNMA(s[12], t74, s[13]);
+    const double t84 = MW_FMA(t64, t63, t76);  /* E_wheel_l_wheel */
+    const double t85 = MW_FMA(t77, s[15], t75);
+    const double t86 = MW_FMA(x[2], s[12], s[61]);
+    const double t87 = MW_FNMA(s[14], t74, t86);
+    const double t88 = t81 * t82;
+    const double t89 = MW_FNMA(x[2], s[14], t83);
+    const double t90 = s[27] * t79;
+    const double t91 = x[3] * s[37];
+    const double t92 = MW_FMS(x[1], s[24], t85);
+    const double t93 = MW_FMS(s[14], t84, s[12]);
+    const double t94 = MW_FMA(t84, s[58], s[59]);
+    const double t95 = x[3] * x[3];
+    const double t96 = MW_FMA(t95, s[60], t87);
+    const double t97 = MW_FMA(t89, s[48], t91);
+    const double t98 = phi + s[151];
+    const double t99 = MW_FMA(phi, s[176], s[152]);
+    const double t100 = MW_FMS(t92, t90, t88);
+    const double t101 = s[27] * t93;
+    const double t102 = s[27] * t94;
+    const double t103 = x[4] + t99;
+    const double t104 = x[1] * s[71];
+    const double t105 = MW_FMS(x[3], s[57], t97);
+    const double t106 = MW_FNMA(t9, s[72], t104);
+    const double t107 = MW_FNMA(t9, s[73], s[74]);
+    const double t108 = MW_FMA(t78, s[23], t100);
+    const double t109 = t96 * t101;
+    const double t110 = x[3] * s[66];
+    const double t111 = MW_FNMA(t27, s[67], t110);
+    const double t112 = MW_FNMA(t27, s[68], s[69]);
+    const double t113 = t93 * t112;
+    const double t114 = x[1] * s[33];
+    const double t115 = x[1] * s[32];
+    const double t116 = MW_FMS(t105, t102, t109);
+    const double t117 = t108 * s[30];
+    const double t118 = s[64] + x[3];
+    const double t119 = MW_FMS(t94, t111, t113);
+    const double t120 = MW_FMA(t93, s[56], t116);
+    const double t121 = t117 / t79;  /* derivation/explicit: slope of the equation of meshing in phi_gen_pinion */
+    const double t122 = s[27] * t119;
+    const double t123 = t120 * s[62];
+    const double t124 = t123 / t94;  /* derivation/explicit: slope of the equation of meshing in phi_gen_wheel */
+    const double t125 = t98 - t121;
+    const double t126 = MW_FMA(t121, s[31], t85);
+    double s127, c127;
+    cylindrical_gears_near_sincos(t125, &s127, &c127, at + 0, &away);
+    const double t129 = t124 + t103;
+    double s130, c130;
+    cylindrical_gears_near_sincos(t129, &s130, &c130, at + 3, &away);
+    const double t132 = MW_FMA(t124, s[63], t97);
+    const double t133 = MW_FNMA(x[1], s[24], t126);
+    const double t134 = MW_FNMA(x[3], s[57], t132);
+    const double t135 = t79 * c127;
+    const double t136 = t78 * c127;
+    const double t137 = t81 * s127;
+    const double t138 = MW_FMS(t81, c127, s[35]);
+    const double t139 = c127 * t107;
+    const double t140 = s127 * t107;
+    const double t141 = MW_FMA(t78, s127, t135);
+    const double t142 = MW_FMS(t79, s127, t136);
+    const double t143 = MW_FMA(t133, c127, t137);
+    const double t144 = MW_FNMA(t133, s127, t138);
+    const double t145 = MW_FMA(s127, t106, t139);
+    const double t146 = MW_FMS(c127, t106, t140);
+    const double t147 = MW_FMA(t143, s[32], t114);
+    const double t148 = t141 * s[65];
+    const double t149 = t141 * s[70];
+    const double t150 = s[33] * t141;
+    const double t151 = t144 * s[36];
+    const double t152 = MW_FMA(s[32], t145, s[33]);
+    const double t153 = MW_FNMA(s[33], t145, s[32]);
+    const double t154 = s[36] * t146;
+    const double t155 = MW_FMA(s[36], t142, t148);
+    const double t156 = MW_FMS(s[34], t142, t149);
+    const double t157 = MW_FMS(t147, s[34], t151);
+    const double t158 = MW_FMS(t147, s[36], t118);
+    const double t159 = MW_FMS(s[34], t152, t154);
+    const double t160 = s[34] * t146;
+    const double t161 = MW_FMA(s[36], t152, t160);
+    const double t162 = MW_FMA(s[34], t144, t158);  /* row 2 of the contact equations */
+    const double t163 = s[27] * t156;
+    const double t164 = MW_FMA(t96, s130, t115);
+    const double t165 = MW_FNMA(t134, s130, t157);
+    const double t166 = t101 * s130;
+    const double t167 = t101 * c130;
+    const double t168 = MW_FNMA(t143, s[33], t164);
+    const double t169 = MW_FNMA(t96, c130, t165);  /* row 0 of the contact equations */
+    const double t170 = MW_FMS(t102, c130, t166);
+    const double t171 = MW_FMA(t102, s130, t167);
+    const double t172 = MW_FNMA(t134, c130, t168);  /* row 1 of the contact equations */
+    const double t173 = t155 * t170;
+    const double t174 = t171 * t153;
+    const double t175 = MW_FMA(t119, t163, t173);
+    const double t176 = MW_FMS(t170, t159, t174);
+    const double t177 = MW_FMA(t171, t150, t175);
+    const double t178 = MW_FNMA(t161, t122, t176);  /* row 4 of the contact equations */
+    const double t179 = -t177;  /* row 3 of the contact equations */
+    R[0] = t169;
+    R[1] = t172;
+    R[2] = t162;
+    R[3] = t179;
+    R[4] = t178;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_gears_by_anchor reads sine and cosine, each with these: at[cylindrical_gears_NANCHOR]. */
+static inline void cylindrical_gears_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = s[7] - x[0];
+    const double t1 = s[43] - x[2];
+    const double t2 = x[0] - s[3];
+    const double t3 = MW_SIGN(t0);
+    const double t4 = x[2] - s[40];
+    const double t5 = MW_SIGN(t1);
+    const double t6 = 1.0 + t3;
+    const double t7 = 1.0 + t5;
+    const double t8 = MW_SIGN(t2);
+    const double t9 = 1.0 + t8;
+    const double t10 = MW_SIGN(t4);
+    const double t11 = 1.0 + t10;
+    const double t12 = 0.5 * t6;
+    const double t13 = 0.5 * t7;
+    const double t14 = 0.5 * t9;
+    const double t15 = MW_FMA(x[0], 8.0, s[20]);
+    const double t16 = MW_FMA(s[10], t15, s[21]);
+    const double t17 = MW_FMS(x[0], 2.0, s[1]);
+    const double t18 = 0.5 * t11;
+    const double t19 = MW_FMA(x[2], 8.0, s[53]);
+    const double t20 = t0 * t12;
+    const double t21 = t1 * t13;
+    const double t22 = t2 * t14;
+    const double t23 = MW_FMA(s[46], t19, s[54]);
+    const double t24 = MW_FMA(x[1], s[19], t16);
+    const double t25 = t4 * t18;
+    const double t26 = MW_FMS(x[2], 2.0, s[38]);
+    const double t27 = MW_FMA(x[3], s[52], t23);
+    const double t28 = t20 * t20;
+    const double t29 = t17 * t17;
+    const double t30 = t17 * s[11];
+    const double t31 = MW_FMA(t29, s[10], t30);
+    const double t32 = t21 * t21;
+    const double t33 = t26 * t26;
+    const double t34 = t26 * s[47];
+    const double t35 = MW_FMA(t33, s[46], t34);
+    const double t36 = MW_FMA(t20, s[8], s[5]);
+    const double t37 = t22 * t22;
+    const double t38 = t9 * s[18];
+    const double t39 = MW_FMA(t37, t38, t24);
+    const double t40 = t37 * s[6];
+    const double t41 = t9 * s[16];
+    const double t42 = t22 * t41;
+    const double t43 = MW_FMA(t22, s[4], s[5]);
+    const double t44 = t28 * s[9];
+    const double t45 = MW_FMA(t36, t44, t31);
+    const double t46 = MW_FMA(t21, s[44], s[5]);
+    const double t47 = t25 * t25;
+    const double t48 = t11 * s[51];
+    const double t49 = MW_FMA(t47, t48, t27);
+    const double t50 = t47 * s[42];
+    const double t51 = t11 * s[49];
+    const double t52 = MW_FMA(t43, t40, t45);
+    const double t53 = t25 * t51;
+    const double t54 = MW_FMA(t25, s[41], s[5]);
+    const double t55 = t32 * s[45];
+    const double t56 = MW_FMA(t46, t55, t35);
+    const double t57 = t6 * s[17];
+    const double t58 = t20 * t57;
+    const double t59 = t6 * s[22];
+    const double t60 = MW_FNMA(t28, t59, t39);
+    const double t61 = t7 * s[50];
+    const double t62 = t21 * t61;
+    const double t63 = MW_FMA(t54, t50, t56);
+    const double t64 = t7 * s[55];
+    const double t65 = MW_FNMA(t32, t64, t49);
+    const double t66 = x[1] * s[2];
+    const double t67 = MW_FMA(t36, t58, t60);
+    const double t68 = MW_FMA(t17, t66, t52);
+    const double t69 = x[3] * s[39];
+    const double t70 = MW_FMA(x[0], s[12], s[29]);
+    const double t71 = MW_FMA(t26, t69, t63);
+    const double t72 = MW_FMA(t46, t62, t65);
+    const double t73 = MW_FMA(x[2], s[12], s[61]);
+    const double t74 = MW_FNMA(s[14], t68, t70);
+    const double t75 = MW_FMA(t43, t42, t67);
+    const double t76 = MW_FNMA(s[12], t68, s[13]);
+    const double t77 = x[1] * s[0];
+    const double t78 = x[1] * x[1];
+    const double t79 = MW_FNMA(s[14], t71, t73);
+    const double t80 = MW_FMA(t54, t53, t72);
+    const double t81 = MW_FNMA(s[12], t71, s[13]);
+    const double t82 = MW_FMA(t78, s[28], t74);
+    const double t83 = MW_FNMA(x[0], s[14], t76);
+    const double t84 = MW_FMS(s[14], t75, s[12]);
+    const double t85 = MW_FMA(t75, s[25], s[26]);
+    const double t86 = x[3] * s[37];
+    const double t87 = MW_FNMA(x[2], s[14], t81);
+    const double t88 = MW_FMS(s[14], t80, s[12]);
+    const double t89 = MW_FMA(t80, s[58], s[59]);
+    const double t90 = MW_FMA(t83, s[15], t77);
+    const double t91 = x[3] * x[3];
+    const double t92 = MW_FMA(t91, s[60], t79);
+    const double t93 = s[27] * t84;
+    const double t94 = s[27] * t85;
+    const double t95 = MW_FMA(t87, s[48], t86);
+    const double t96 = s[27] * t88;
+    const double t97 = s[27] * t89;
+    const double t98 = MW_FMS(x[1], s[24], t90);
+    const double t99 = t82 * t93;
+    const double t100 = MW_FMA(phi, s[176], s[152]);
+    const double t101 = x[4] + t100;
+    const double t102 = phi + s[151];
+    const double t103 = MW_FMS(x[3], s[57], t95);
+    const double t104 = t92 * t96;
+    const double t105 = MW_FMS(t98, t94, t99);
+    const double t106 = MW_FMS(t103, t97, t104);
+    const double t107 = MW_FMA(t84, s[23], t105);
+    const double t108 = MW_FMA(t88, s[56], t106);
+    const double t109 = t107 * s[30];
+    const double t110 = t108 * s[62];
+    const double t111 = t109 / t85;
+    const double t112 = t110 / t89;
+    const double t113 = t102 - t111;
+    const double t114 = t112 + t101;
+    at[0] = t113;
+    cylindrical_gears_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t114;
+    cylindrical_gears_seldom_sincos(at[3], at + 4, at + 5);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_gears_NX] along v[cylindrical_gears_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_gears_NX], and unless d2 is NULL the second, d2[cylindrical_gears_NX]. Of the state only the design part is read. */
@@ -7166,7 +7511,8 @@ static const mw_model cylindrical_gears_model = {
     4, 18, -1, 41,
     cylindrical_gears_unknown_names, cylindrical_gears_parameter_names, cylindrical_gears_size_names,
     cylindrical_gears_output_names, 29, cylindrical_gears_output_sizes, cylindrical_gears_guard_texts, cylindrical_gears_bodies,
-    cylindrical_gears_derive, cylindrical_gears_size, cylindrical_gears_setup, cylindrical_gears_set_phi, cylindrical_gears_eval, cylindrical_gears_step, cylindrical_gears_along,
+    cylindrical_gears_derive, cylindrical_gears_size, cylindrical_gears_setup, cylindrical_gears_set_phi, cylindrical_gears_eval, cylindrical_gears_step,
+    cylindrical_gears_NANCHOR, cylindrical_gears_NEAREST, cylindrical_gears_anchor, cylindrical_gears_by_anchor, cylindrical_gears_along,
     cylindrical_gears_guess, cylindrical_gears_start_scale, cylindrical_gears_start_eval, cylindrical_gears_start_solution, cylindrical_gears_observe, cylindrical_gears_scale,
     1, cylindrical_gears_systems, 2, cylindrical_gears_regions,
     7, cylindrical_gears_functions, MW_KERNELS
@@ -7230,6 +7576,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

@@ -59,7 +59,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -138,6 +138,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -183,8 +190,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -211,7 +218,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -221,7 +228,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_za_za_NO 62
 #define cylindrical_worm_za_za_ND 7
 #define cylindrical_worm_za_za_NSTART 2
-#define cylindrical_worm_za_za_ABI 5
+#define cylindrical_worm_za_za_NANCHOR 9
+#define cylindrical_worm_za_za_NEAREST 3.814697265625e-06
+#define cylindrical_worm_za_za_ABI 6
 #define cylindrical_worm_za_za_SPEC_HASH "46112155080f825fe408030efda5a3ea4e24e76a0a60b3a33141add54f3cc823"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -377,7 +386,19 @@ MW_INLINE void cylindrical_worm_za_za_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_za_za_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_za_za_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_za_za_sincos(a, sine, cosine);
@@ -1626,11 +1647,150 @@ static inline double cylindrical_worm_za_za_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t245), s[95], MW_FMA(MW_ABS(t230), 1.0, MW_FMA(MW_ABS(t229), s[95], MW_FMA(MW_ABS(t235), 1.0, MW_ABS(t246) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_za_za_NX] at input angle phi and x[cylindrical_worm_za_za_NX], close to those at which cylindrical_worm_za_za_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_za_za_NEAREST. */
+/* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/za-normal, derivation/translation,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance, derivation/envelope,
+ *   derivation/merge-sum, derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
+static inline double cylindrical_worm_za_za_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    double s0, c0;  /* of psi_fixed_hob */
+    cylindrical_worm_za_za_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    const double t2 = x[2] * s[4];
+    const double t3 = x[2] - s[8];
+    const double t4 = MW_FMA(s[9], t3, s[10]);
+    const double t5 = x[2] * s[5];
+    const double t6 = x[2] * s[6];
+    const double t7 = phi + x[1];
+    const double t8 = MW_FMA(phi, s[114], x[4]);  /* wheel angle */
+    double s9, c9;
+    cylindrical_worm_za_za_near_sincos(t7, &s9, &c9, at + 3, &away);
+    const double t11 = x[0] - s[14];
+    const double t12 = MW_FMA(s[15], t11, s[10]);
+    const double t13 = x[1] * s[13];
+    const double t14 = x[0] * s[18];
+    const double t15 = t4 * s[20];  /* P_hob_z: blade edge */
+    const double t16 = x[0] * s[1];
+    const double t17 = x[0] * s[17];
+    const double t18 = x[0] * s[19];
+    const double t19 = MW_FMA(t12, s[16], t13);
+    const double t20 = s0 * t5;
+    const double t21 = s0 * s[3];
+    const double t22 = c0 * s[3];
+    const double t23 = MW_FMS(x[2], c0, s[2]);
+    const double t24 = x[2] * s[25];
+    const double t25 = x[2] * s[22];
+    const double t26 = MW_FMS(c0, t2, t21);
+    const double t27 = MW_FMA(t2, s0, t22);
+    const double t28 = MW_FMS(t4, s[11], t20);
+    const double t29 = t23 * s[7];
+    const double t30 = MW_FMA(t27, s[5], t6);
+    const double t31 = t26 * s[7];
+    const double t32 = MW_FNMA(s[22], t27, t24);
+    const double t33 = t28 * t31;
+    const double t34 = MW_FMA(t30, t29, t33);
+    const double t35 = MW_FMA(x[2], s[3], t34);
+    const double t36 = t35 * s[12];
+    const double t37 = t36 / t26;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
+    const double t38 = s9 * t16;
+    const double t39 = s9 * t18;
+    const double t40 = s9 * t14;
+    const double t41 = MW_FMA(c9, t14, s[27]);
+    const double t42 = MW_FMS(x[0], c9, s[0]);
+    const double t43 = MW_FMA(s[18], s9, s[24]);
+    const double t44 = MW_FMA(t19, s[17], t40);
+    const double t45 = MW_FMA(s[19], t41, t38);
+    const double t46 = MW_FMS(s[1], t41, t39);
+    const double t47 = c9 * s[1];
+    const double t48 = MW_FNMA(s[19], t43, t47);
+    const double t49 = t42 * s[1];
+    const double t50 = c9 * s[19];
+    const double t51 = MW_FMA(s[1], t43, t50);
+    const double t52 = MW_FMS(s[1], t44, s[23]);
+    const double t53 = MW_FMS(s[17], s9, s[26]);
+    const double t54 = MW_FMS(c9, t17, s[28]);
+    const double t55 = MW_FMA(t42, s[19], t52);
+    const double t56 = x[3] + t37;  /* phi_hob: angle of the hob in cutting */
+    const double t57 = MW_FNMA(t37, s[21], t15);
+    const double t58 = MW_FNMA(s[7], t56, t8);
+    const double t59 = MW_FNMA(s[22], t57, t20);
+    const double t60 = MW_FNMA(s[5], t57, t55);
+    const double t61 = MW_FNMA(s0, t25, t60);  /* row 2 of the contact equations */
+    double s62, c62;
+    cylindrical_worm_za_za_near_sincos(t58, &s62, &c62, at + 6, &away);
+    const double t64 = MW_FNMA(t23, c62, t49);
+    const double t65 = t26 * c62;
+    const double t66 = c62 * t59;
+    const double t67 = t30 * c62;
+    const double t68 = MW_FMA(t30, s62, t65);
+    const double t69 = MW_FMS(t23, s62, t66);
+    const double t70 = MW_FMS(t26, s62, t67);
+    const double t71 = MW_FNMA(t44, s[19], t64);
+    const double t72 = MW_FNMA(t59, s62, t71);  /* row 0 of the contact equations */
+    const double t73 = MW_FNMA(t19, s[18], t69);
+    const double t74 = t68 * t48;
+    const double t75 = t68 * t45;
+    const double t76 = MW_FMA(s9, t17, t73);  /* row 1 of the contact equations */
+    const double t77 = MW_FMS(t70, t53, t74);
+    const double t78 = MW_FMA(t70, t54, t75);
+    const double t79 = MW_FMA(t51, t32, t77);  /* row 3 of the contact equations */
+    const double t80 = MW_FMA(t32, t46, t78);  /* row 4 of the contact equations */
+    R[0] = t72;
+    R[1] = t76;
+    R[2] = t61;
+    R[3] = t79;
+    R[4] = t80;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_za_za_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_za_za_NANCHOR]. */
+static inline void cylindrical_worm_za_za_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    double s0, c0;
+    cylindrical_worm_za_za_seldom_sincos(x[3], &s0, &c0);
+    const double t2 = x[2] * s[4];
+    const double t3 = x[2] - s[8];
+    const double t4 = MW_FMA(s[9], t3, s[10]);
+    const double t5 = x[2] * s[5];
+    const double t6 = x[2] * s[6];
+    const double t7 = MW_FMA(phi, s[114], x[4]);
+    const double t8 = phi + x[1];
+    const double t9 = s0 * t5;
+    const double t10 = s0 * s[3];
+    const double t11 = c0 * s[3];
+    const double t12 = MW_FMS(x[2], c0, s[2]);
+    const double t13 = MW_FMS(t4, s[11], t9);
+    const double t14 = MW_FMS(c0, t2, t10);
+    const double t15 = MW_FMA(t2, s0, t11);
+    const double t16 = t12 * s[7];
+    const double t17 = MW_FMA(t15, s[5], t6);
+    const double t18 = t14 * s[7];
+    const double t19 = t13 * t18;
+    const double t20 = MW_FMA(t17, t16, t19);
+    const double t21 = MW_FMA(x[2], s[3], t20);
+    const double t22 = t21 * s[12];
+    const double t23 = t22 / t14;
+    const double t24 = x[3] + t23;
+    const double t25 = MW_FNMA(s[7], t24, t7);
+    at[0] = x[3];
+    cylindrical_worm_za_za_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t8;
+    cylindrical_worm_za_za_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t25;
+    cylindrical_worm_za_za_seldom_sincos(at[6], at + 7, at + 8);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_za_za_NX] along v[cylindrical_worm_za_za_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_za_za_NX], and unless d2 is NULL the second, d2[cylindrical_worm_za_za_NX]. Of the state only the design part is read. */
@@ -4602,7 +4762,8 @@ static const mw_model cylindrical_worm_za_za_model = {
     4, 18, -1, 42,
     cylindrical_worm_za_za_unknown_names, cylindrical_worm_za_za_parameter_names, cylindrical_worm_za_za_size_names,
     cylindrical_worm_za_za_output_names, 30, cylindrical_worm_za_za_output_sizes, cylindrical_worm_za_za_guard_texts, cylindrical_worm_za_za_bodies,
-    cylindrical_worm_za_za_derive, cylindrical_worm_za_za_size, cylindrical_worm_za_za_setup, cylindrical_worm_za_za_set_phi, cylindrical_worm_za_za_eval, cylindrical_worm_za_za_step, cylindrical_worm_za_za_along,
+    cylindrical_worm_za_za_derive, cylindrical_worm_za_za_size, cylindrical_worm_za_za_setup, cylindrical_worm_za_za_set_phi, cylindrical_worm_za_za_eval, cylindrical_worm_za_za_step,
+    cylindrical_worm_za_za_NANCHOR, cylindrical_worm_za_za_NEAREST, cylindrical_worm_za_za_anchor, cylindrical_worm_za_za_by_anchor, cylindrical_worm_za_za_along,
     cylindrical_worm_za_za_guess, cylindrical_worm_za_za_start_scale, cylindrical_worm_za_za_start_eval, cylindrical_worm_za_za_start_solution, cylindrical_worm_za_za_observe, cylindrical_worm_za_za_scale,
     0, NULL, 1, cylindrical_worm_za_za_regions,
     14, cylindrical_worm_za_za_functions, MW_KERNELS
@@ -4666,6 +4827,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

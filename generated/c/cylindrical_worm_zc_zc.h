@@ -62,7 +62,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -141,6 +141,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -186,8 +193,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -214,7 +221,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -224,7 +231,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_zc_zc_NO 64
 #define cylindrical_worm_zc_zc_ND 7
 #define cylindrical_worm_zc_zc_NSTART 2
-#define cylindrical_worm_zc_zc_ABI 5
+#define cylindrical_worm_zc_zc_NANCHOR 33
+#define cylindrical_worm_zc_zc_NEAREST 3.814697265625e-06
+#define cylindrical_worm_zc_zc_ABI 6
 #define cylindrical_worm_zc_zc_SPEC_HASH "cd2833832551cf2d4176070973d116df41af7b4d18331407149a99189724e303"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -386,7 +395,19 @@ MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_zc_zc_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zc_zc_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zc_sincos(a, sine, cosine);
@@ -2543,11 +2564,375 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t563), s[100], MW_FMA(MW_ABS(t564), 1.0, MW_FMA(MW_ABS(t579), s[101], MW_FMA(MW_ABS(t572), 1.0, MW_ABS(t584) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_zc_zc_NX] at input angle phi and x[cylindrical_worm_zc_zc_NX], close to those at which cylindrical_worm_zc_zc_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_zc_zc_NEAREST. */
+/* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
+ *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/merge-sum,
+ *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
+ *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
+static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[2] * 0.5;
+    double s1, c1;
+    cylindrical_worm_zc_zc_near_sincos(t0, &s1, &c1, at + 0, &away);
+    double s3, c3;  /* of t_hob */
+    cylindrical_worm_zc_zc_near_sincos(x[2], &s3, &c3, at + 3, &away);
+    const double t5 = x[0] * 0.5;
+    double s6, c6;
+    cylindrical_worm_zc_zc_near_sincos(t5, &s6, &c6, at + 6, &away);
+    const double t8 = s1 * s1;
+    const double t9 = t8 * s[19];
+    const double t10 = s1 * s[19];
+    const double t11 = c1 * t10;
+    double s12, c12;  /* of t_worm */
+    cylindrical_worm_zc_zc_near_sincos(x[0], &s12, &c12, at + 9, &away);
+    const double t14 = MW_FMA(s3, s[23], s[24]);
+    const double t15 = t14 * s[25];
+    const double t16 = MW_FNMA(s3, s[22], s[21]);
+    const double t17 = s[25] * t16;
+    const double t18 = MW_FMA(s[20], c3, t9);
+    const double t19 = MW_FMS(s3, s[21], s[22]);
+    const double t20 = MW_FNMA(s[20], s3, t11);
+    const double t21 = MW_FNMA(s[26], t20, s[27]);
+    const double t22 = MW_FMA(t18, t19, t15);
+    const double t23 = MW_FMA(s3, s[24], s[23]);
+    const double t24 = MW_FMS(t18, t23, t17);
+    const double t25 = s[28] * c3;
+    const double t26 = c3 * s[29];
+    double s27, c27;  /* of psi_fixed_hob */
+    cylindrical_worm_zc_zc_near_sincos(x[3], &s27, &c27, at + 12, &away);
+    const double t29 = MW_FNMA(t21, t25, t22);
+    const double t30 = MW_FNMA(t21, t26, t24);
+    const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);  /* xi_hob: angle along the wheel's arc from its pitch point, about y */
+    const double t32 = s6 * s6;
+    const double t33 = t32 * s[0];
+    const double t34 = s6 * s[0];
+    const double t35 = c6 * t34;
+    const double t36 = MW_FMA(s12, s[4], s[5]);
+    const double t37 = t36 * s[6];
+    const double t38 = MW_FNMA(s12, s[3], s[2]);
+    const double t39 = s[6] * t38;
+    const double t40 = MW_FMA(s[1], c12, t33);
+    const double t41 = MW_FMS(s12, s[2], s[3]);
+    const double t42 = MW_FNMA(s[1], s12, t35);
+    const double t43 = MW_FMA(s12, s[5], s[4]);
+    const double t44 = s[9] * c12;
+    const double t45 = c12 * s[10];
+    const double t46 = s[26] * s3;
+    const double t47 = s3 * s[34];
+    const double t48 = MW_FMA(t40, t41, t37);
+    const double t49 = MW_FMS(t40, t43, t39);
+    const double t50 = MW_FNMA(s[7], t42, s[8]);
+    const double t51 = phi + x[1];
+    double s52, c52;
+    cylindrical_worm_zc_zc_near_sincos(t51, &s52, &c52, at + 15, &away);
+    const double t54 = MW_FNMA(t50, t44, t48);
+    const double t55 = MW_FNMA(t50, t45, t49);
+    const double t56 = cylindrical_worm_zc_zc_atan2(t54, t55);  /* xi_worm: angle along the wheel's arc from its pitch point, about y */
+    const double t57 = MW_FMA(phi, s[121], x[4]);  /* wheel angle */
+    const double t58 = s[7] * s12;
+    const double t59 = s12 * s[17];
+    const double t60 = c12 * s[7];
+    const double t61 = c12 * s[46];
+    const double t62 = c12 * s[47];
+    const double t63 = c12 * s52;
+    const double t64 = c12 * c52;
+    const double t65 = c52 * t60;
+    const double t66 = s52 * t60;
+    const double t67 = MW_FMA(s12, s52, t65);
+    const double t68 = MW_FMS(s12, c52, t66);
+    const double t69 = MW_FMA(s[40], t67, t61);
+    const double t70 = MW_FMS(s[41], t67, t62);
+    const double t71 = s[42] * t68;
+    const double t72 = s[18] * t68;
+    const double t73 = MW_FMA(s[18], t69, t71);
+    const double t74 = MW_FNMA(s[42], t69, t72);
+    const double t75 = 0.5 * t31;
+    double s76, c76;  /* of xi_hob: angle along the wheel's arc from its pitch point, about y */
+    cylindrical_worm_zc_zc_near_sincos(t31, &s76, &c76, at + 18, &away);
+    double s78, c78;
+    cylindrical_worm_zc_zc_near_sincos(t75, &s78, &c78, at + 21, &away);
+    const double t80 = 0.5 * t56;
+    double s81, c81;  /* of xi_worm: angle along the wheel's arc from its pitch point, about y */
+    cylindrical_worm_zc_zc_near_sincos(t56, &s81, &c81, at + 24, &away);
+    const double t83 = s[31] * c76;
+    const double t84 = s78 * s78;
+    const double t85 = s[31] * s76;
+    const double t86 = s[29] * s76;
+    const double t87 = MW_FMS(s[28], c76, t86);
+    const double t88 = s78 * s[30];
+    const double t89 = MW_FMA(t84, s[32], t83);
+    const double t90 = MW_FMS(t84, s[33], t85);
+    const double t91 = s78 * s[32];
+    const double t92 = s[29] * c76;
+    const double t93 = MW_FMA(s[28], s76, t92);
+    const double t94 = t87 * t46;
+    const double t95 = t87 * t47;
+    const double t96 = c3 * t87;  /* n_hob_x: normal */
+    const double t97 = MW_FMA(s[12], s76, t89);
+    const double t98 = MW_FMA(s[12], c76, t90);
+    double s99, c99;
+    cylindrical_worm_zc_zc_near_sincos(t80, &s99, &c99, at + 27, &away);
+    const double t101 = MW_FMA(c78, t88, t97);
+    const double t102 = MW_FMA(c78, t91, t98);
+    const double t103 = MW_FMA(c3, t101, t9);  /* P_hob_x: contact point on the wheel */
+    const double t104 = MW_FNMA(s3, t101, t11);
+    const double t105 = MW_FMS(s[34], t93, t94);  /* n_hob_y: normal */
+    const double t106 = MW_FMA(s[26], t93, t95);
+    const double t107 = s[34] * t102;
+    const double t108 = s[26] * t102;
+    const double t109 = s27 * t96;
+    const double t110 = MW_FMS(s[26], t104, t107);  /* P_hob_y: contact point on the wheel */
+    const double t111 = MW_FMA(s[34], t104, t108);  /* P_hob_z: contact point on the wheel */
+    const double t112 = MW_FMA(c27, t105, t109);
+    const double t113 = t103 * s27;
+    const double t114 = s[37] * t106;
+    const double t115 = t103 * t105;
+    const double t116 = MW_FMS(t103, c27, s[36]);
+    const double t117 = MW_FMA(s[35], t112, t114);
+    const double t118 = MW_FMA(t110, c27, t113);
+    const double t119 = MW_FMS(t110, t96, t115);
+    const double t120 = MW_FNMA(s27, t110, t116);
+    const double t121 = c27 * t96;
+    const double t122 = MW_FNMA(s27, t105, t121);
+    const double t123 = s[13] * c81;
+    const double t124 = s[13] * s81;
+    const double t125 = t117 * s[38];
+    const double t126 = t118 * s[35];
+    const double t127 = s[35] * t106;
+    const double t128 = MW_FNMA(s[37], t112, t127);
+    const double t129 = t122 * s[38];
+    const double t130 = s[45] * c81;
+    const double t131 = MW_FMA(s[44], s81, t130);
+    const double t132 = s[45] * s81;
+    const double t133 = MW_FNMA(t120, t125, t119);
+    const double t134 = MW_FMS(s[37], t111, t126);
+    const double t135 = MW_FMS(s[44], c81, t132);
+    const double t136 = t128 * t73;
+    const double t137 = t131 * t58;
+    const double t138 = t131 * t59;
+    const double t139 = t131 * t63;
+    const double t140 = t131 * t64;
+    const double t141 = MW_FNMA(t134, t129, t133);
+    const double t142 = MW_FMA(s[17], t135, t137);
+    const double t143 = MW_FMS(s[7], t135, t138);
+    const double t144 = t141 * s[39];
+    const double t145 = MW_FNMA(c52, t142, t139);
+    const double t146 = MW_FMA(s52, t142, t140);
+    const double t147 = s[41] * t143;
+    const double t148 = s[40] * t143;
+    const double t149 = t144 / t122;  /* psi_hob: screw angle of the hob flank */
+    const double t150 = s99 * s99;
+    const double t151 = MW_FMA(s[40], t145, t147);
+    const double t152 = MW_FMS(s[41], t145, t148);
+    const double t153 = s99 * s[11];
+    const double t154 = s99 * s[14];
+    const double t155 = s[42] * t146;
+    const double t156 = s[18] * t146;
+    const double t157 = MW_FMA(t150, s[14], t123);
+    const double t158 = MW_FMS(t150, s[16], t124);
+    const double t159 = MW_FMA(s[18], t151, t155);
+    const double t160 = MW_FNMA(s[42], t151, t156);
+    const double t161 = MW_FMA(s[12], s81, t157);
+    const double t162 = MW_FMA(s[12], c81, t158);
+    const double t163 = t159 * t128;
+    const double t164 = MW_FMA(c99, t153, t161);
+    const double t165 = MW_FMA(c99, t154, t162);
+    const double t166 = MW_FNMA(s12, t164, t35);
+    const double t167 = MW_FMA(c12, t164, t33);  /* P_worm_x: contact point on the wheel */
+    const double t168 = s[7] * t165;
+    const double t169 = s[17] * t165;
+    const double t170 = MW_FMA(s[17], t166, t168);  /* P_worm_z: contact point on the wheel */
+    const double t171 = MW_FMS(s[7], t166, t169);  /* P_worm_y: contact point on the wheel */
+    const double t172 = t167 * s52;
+    const double t173 = MW_FMS(t167, c52, s[15]);
+    const double t174 = x[3] - t149;  /* phi_hob: angle of the hob in cutting */
+    const double t175 = MW_FMA(s[25], t149, t111);
+    const double t176 = MW_FMA(x[1], s[6], t170);
+    const double t177 = MW_FMA(c52, t171, t172);
+    const double t178 = MW_FNMA(t171, s52, t173);
+    const double t179 = MW_FNMA(s[38], t174, t57);
+    const double t180 = MW_FNMA(s[37], t175, t126);
+    const double t181 = t176 * s[41];
+    const double t182 = t178 * s[18];
+    const double t183 = t177 * s[41];
+    double s184, c184;
+    cylindrical_worm_zc_zc_near_sincos(t179, &s184, &c184, at + 30, &away);
+    const double t186 = MW_FMA(t177, s[40], t181);
+    const double t187 = MW_FMS(s[18], t186, s[43]);
+    const double t188 = MW_FMA(t178, s[42], t187);
+    const double t189 = MW_FNMA(t118, s[37], t188);
+    const double t190 = MW_FNMA(s[35], t175, t189);  /* row 2 of the contact equations */
+    const double t191 = MW_FNMA(t180, s184, t182);
+    const double t192 = MW_FMA(t120, s184, t183);
+    const double t193 = t117 * c184;
+    const double t194 = t122 * c184;
+    const double t195 = MW_FMS(t122, s184, t193);
+    const double t196 = MW_FNMA(t186, s[42], t191);
+    const double t197 = MW_FNMA(t180, c184, t192);
+    const double t198 = MW_FMA(t117, s184, t194);
+    const double t199 = MW_FNMA(t120, c184, t196);  /* row 0 of the contact equations */
+    const double t200 = MW_FMA(t152, t195, t163);
+    const double t201 = MW_FMA(t195, t70, t136);
+    const double t202 = MW_FNMA(s[40], t176, t197);  /* row 1 of the contact equations */
+    const double t203 = MW_FNMA(t198, t160, t200);  /* row 3 of the contact equations */
+    const double t204 = MW_FNMA(t198, t74, t201);  /* row 4 of the contact equations */
+    R[0] = t199;
+    R[1] = t202;
+    R[2] = t190;
+    R[3] = t203;
+    R[4] = t204;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_zc_zc_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zc_zc_NANCHOR]. */
+static inline void cylindrical_worm_zc_zc_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[2] * 0.5;
+    double s1, c1;
+    cylindrical_worm_zc_zc_seldom_sincos(t0, &s1, &c1);
+    double s3, c3;
+    cylindrical_worm_zc_zc_seldom_sincos(x[2], &s3, &c3);
+    const double t5 = x[0] * 0.5;
+    double s6, c6;
+    cylindrical_worm_zc_zc_seldom_sincos(x[0], &s6, &c6);
+    const double t8 = s1 * s1;
+    const double t9 = t8 * s[19];
+    const double t10 = s1 * s[19];
+    const double t11 = c1 * t10;
+    double s12, c12;
+    cylindrical_worm_zc_zc_seldom_sincos(t5, &s12, &c12);
+    const double t14 = MW_FMA(s3, s[23], s[24]);
+    const double t15 = t14 * s[25];
+    const double t16 = MW_FNMA(s3, s[22], s[21]);
+    const double t17 = s[25] * t16;
+    const double t18 = MW_FMA(s[20], c3, t9);
+    const double t19 = MW_FMS(s3, s[21], s[22]);
+    const double t20 = MW_FNMA(s[20], s3, t11);
+    const double t21 = MW_FNMA(s[26], t20, s[27]);
+    const double t22 = MW_FMA(t18, t19, t15);
+    const double t23 = MW_FMA(s3, s[24], s[23]);
+    const double t24 = MW_FMS(t18, t23, t17);
+    const double t25 = s[28] * c3;
+    const double t26 = c3 * s[29];
+    const double t27 = s[1] * c6;
+    const double t28 = MW_FMA(s6, s[4], s[5]);
+    const double t29 = s[1] * s6;
+    const double t30 = MW_FNMA(t21, t25, t22);
+    const double t31 = MW_FNMA(s6, s[3], s[2]);
+    const double t32 = MW_FNMA(t21, t26, t24);
+    const double t33 = MW_FMS(s6, s[2], s[3]);
+    const double t34 = t28 * s[6];
+    const double t35 = s[6] * t31;
+    const double t36 = MW_FMA(s6, s[5], s[4]);
+    const double t37 = s[9] * c6;
+    const double t38 = c6 * s[10];
+    double s39, c39;
+    cylindrical_worm_zc_zc_seldom_sincos(x[3], &s39, &c39);
+    const double t41 = cylindrical_worm_zc_zc_atan2(t30, t32);
+    const double t42 = s12 * s12;
+    const double t43 = MW_FMA(t42, s[0], t27);
+    const double t44 = s12 * s[0];
+    const double t45 = MW_FMS(c12, t44, t29);
+    const double t46 = s[26] * s3;
+    const double t47 = s3 * s[34];
+    const double t48 = MW_FMA(phi, s[121], x[4]);
+    const double t49 = phi + x[1];
+    const double t50 = MW_FMA(t43, t33, t34);
+    const double t51 = MW_FMS(t43, t36, t35);
+    const double t52 = MW_FNMA(s[7], t45, s[8]);
+    const double t53 = MW_FNMA(t52, t37, t50);
+    const double t54 = MW_FNMA(t52, t38, t51);
+    const double t55 = cylindrical_worm_zc_zc_atan2(t53, t54);
+    const double t56 = 0.5 * t41;
+    double s57, c57;
+    cylindrical_worm_zc_zc_seldom_sincos(t41, &s57, &c57);
+    double s59, c59;
+    cylindrical_worm_zc_zc_seldom_sincos(t56, &s59, &c59);
+    const double t61 = 0.5 * t55;
+    const double t62 = s[31] * c57;
+    const double t63 = s[31] * s57;
+    const double t64 = s[29] * s57;
+    const double t65 = s[29] * c57;
+    const double t66 = MW_FMS(s[28], c57, t64);
+    const double t67 = MW_FMA(s[28], s57, t65);
+    const double t68 = t66 * t46;
+    const double t69 = t66 * t47;
+    const double t70 = c3 * t66;
+    const double t71 = MW_FMS(s[34], t67, t68);
+    const double t72 = MW_FMA(s[26], t67, t69);
+    const double t73 = s39 * t70;
+    const double t74 = c39 * t70;
+    const double t75 = MW_FMA(c39, t71, t73);
+    const double t76 = s[37] * t72;
+    const double t77 = MW_FNMA(s39, t71, t74);
+    const double t78 = s59 * s59;
+    const double t79 = s59 * s[30];
+    const double t80 = s59 * s[32];
+    const double t81 = MW_FMA(s[35], t75, t76);
+    const double t82 = t77 * s[38];
+    const double t83 = MW_FMA(t78, s[32], t62);
+    const double t84 = MW_FMS(t78, s[33], t63);
+    const double t85 = t81 * s[38];
+    const double t86 = MW_FMA(s[12], s57, t83);
+    const double t87 = MW_FMA(s[12], c57, t84);
+    const double t88 = MW_FMA(c59, t79, t86);
+    const double t89 = MW_FMA(c59, t80, t87);
+    const double t90 = MW_FNMA(s3, t88, t11);
+    const double t91 = MW_FMA(c3, t88, t9);
+    const double t92 = s[34] * t89;
+    const double t93 = s[26] * t89;
+    const double t94 = MW_FMS(s[26], t90, t92);
+    const double t95 = MW_FMA(s[34], t90, t93);
+    const double t96 = t91 * t71;
+    const double t97 = MW_FMS(t91, c39, s[36]);
+    const double t98 = t91 * s39;
+    const double t99 = MW_FMS(t94, t70, t96);
+    const double t100 = MW_FNMA(s39, t94, t97);
+    const double t101 = MW_FMA(t94, c39, t98);
+    const double t102 = s[37] * t95;
+    const double t103 = MW_FNMA(t100, t85, t99);
+    const double t104 = MW_FNMA(t101, s[35], t102);
+    const double t105 = MW_FNMA(t104, t82, t103);
+    const double t106 = t105 * s[39];
+    const double t107 = t106 / t77;
+    const double t108 = x[3] - t107;
+    const double t109 = MW_FNMA(s[38], t108, t48);
+    at[0] = t0;
+    cylindrical_worm_zc_zc_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = x[2];
+    cylindrical_worm_zc_zc_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t5;
+    cylindrical_worm_zc_zc_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = x[0];
+    cylindrical_worm_zc_zc_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = x[3];
+    cylindrical_worm_zc_zc_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t49;
+    cylindrical_worm_zc_zc_seldom_sincos(at[15], at + 16, at + 17);
+    at[18] = t41;
+    cylindrical_worm_zc_zc_seldom_sincos(at[18], at + 19, at + 20);
+    at[21] = t56;
+    cylindrical_worm_zc_zc_seldom_sincos(at[21], at + 22, at + 23);
+    at[24] = t55;
+    cylindrical_worm_zc_zc_seldom_sincos(at[24], at + 25, at + 26);
+    at[27] = t61;
+    cylindrical_worm_zc_zc_seldom_sincos(at[27], at + 28, at + 29);
+    at[30] = t109;
+    cylindrical_worm_zc_zc_seldom_sincos(at[30], at + 31, at + 32);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zc_zc_NX] along v[cylindrical_worm_zc_zc_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zc_zc_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zc_zc_NX]. Of the state only the design part is read. */
@@ -8275,7 +8660,8 @@ static const mw_model cylindrical_worm_zc_zc_model = {
     4, 18, -1, 44,
     cylindrical_worm_zc_zc_unknown_names, cylindrical_worm_zc_zc_parameter_names, cylindrical_worm_zc_zc_size_names,
     cylindrical_worm_zc_zc_output_names, 32, cylindrical_worm_zc_zc_output_sizes, cylindrical_worm_zc_zc_guard_texts, cylindrical_worm_zc_zc_bodies,
-    cylindrical_worm_zc_zc_derive, cylindrical_worm_zc_zc_size, cylindrical_worm_zc_zc_setup, cylindrical_worm_zc_zc_set_phi, cylindrical_worm_zc_zc_eval, cylindrical_worm_zc_zc_step, cylindrical_worm_zc_zc_along,
+    cylindrical_worm_zc_zc_derive, cylindrical_worm_zc_zc_size, cylindrical_worm_zc_zc_setup, cylindrical_worm_zc_zc_set_phi, cylindrical_worm_zc_zc_eval, cylindrical_worm_zc_zc_step,
+    cylindrical_worm_zc_zc_NANCHOR, cylindrical_worm_zc_zc_NEAREST, cylindrical_worm_zc_zc_anchor, cylindrical_worm_zc_zc_by_anchor, cylindrical_worm_zc_zc_along,
     cylindrical_worm_zc_zc_guess, cylindrical_worm_zc_zc_start_scale, cylindrical_worm_zc_zc_start_eval, cylindrical_worm_zc_zc_start_solution, cylindrical_worm_zc_zc_observe, cylindrical_worm_zc_zc_scale,
     0, NULL, 1, cylindrical_worm_zc_zc_regions,
     14, cylindrical_worm_zc_zc_functions, MW_KERNELS
@@ -8339,6 +8725,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

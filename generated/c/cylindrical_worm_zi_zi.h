@@ -59,7 +59,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -138,6 +138,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -183,8 +190,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -211,7 +218,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -221,7 +228,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_zi_zi_NO 64
 #define cylindrical_worm_zi_zi_ND 7
 #define cylindrical_worm_zi_zi_NSTART 2
-#define cylindrical_worm_zi_zi_ABI 5
+#define cylindrical_worm_zi_zi_NANCHOR 15
+#define cylindrical_worm_zi_zi_NEAREST 3.814697265625e-06
+#define cylindrical_worm_zi_zi_ABI 6
 #define cylindrical_worm_zi_zi_SPEC_HASH "461660246135d9805a7a81fb09475f413c25ac82ce0ed597df80c2d904d17769"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -379,7 +388,19 @@ MW_INLINE void cylindrical_worm_zi_zi_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_zi_zi_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zi_zi_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zi_zi_sincos(a, sine, cosine);
@@ -1941,11 +1962,213 @@ static inline double cylindrical_worm_zi_zi_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t339), s[86], MW_FMA(MW_ABS(t328), 1.0, MW_FMA(MW_ABS(t327), s[86], MW_FMA(MW_ABS(t333), 1.0, MW_ABS(t346) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_zi_zi_NX] at input angle phi and x[cylindrical_worm_zi_zi_NX], close to those at which cylindrical_worm_zi_zi_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_zi_zi_NEAREST. */
+/* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zi-normal, derivation/translation,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/invariance, derivation/envelope,
+ *   derivation/merge-sum, derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/tangent. */
+static inline double cylindrical_worm_zi_zi_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[2] - s[4];
+    const double t1 = x[2] + s[4];
+    const double t2 = t0 * t1;
+    const double t3 = x[0] - s[15];
+    const double t4 = x[0] + s[15];
+    const double t5 = t3 * t4;
+    const double t6 = x[2] * s[4];
+    double s7, c7;  /* of psi_fixed_hob */
+    cylindrical_worm_zi_zi_near_sincos(x[3], &s7, &c7, at + 0, &away);
+    const double t9 = sqrt(t2);
+    const double t10 = sqrt(t5);
+    const double t11 = t2 + s[5];
+    const double t12 = s[6] * x[2];
+    const double t13 = x[2] * s[7];
+    const double t14 = x[2] * s[8];
+    const double t15 = t5 + s[23];
+    const double t16 = phi + x[1];
+    const double t17 = MW_FMA(phi, s[107], x[4]);  /* wheel angle */
+    double s18, c18;
+    cylindrical_worm_zi_zi_near_sincos(t16, &s18, &c18, at + 3, &away);
+    const double t20 = cylindrical_worm_zi_zi_atan2(t9, s[4]);  /* a_t_hob: transverse profile angle */
+    const double t21 = cylindrical_worm_zi_zi_atan2(t10, s[15]);  /* a_t_worm: transverse profile angle */
+    const double t22 = t9 * t11;
+    const double t23 = t6 / t22;  /* a_t_hob_t_hob */
+    const double t24 = s7 * t13;
+    const double t25 = c7 * t12;
+    const double t26 = s[3] * s7;
+    const double t27 = c7 * s[3];
+    const double t28 = MW_FMS(x[2], c7, s[2]);
+    const double t29 = t28 * s[9];
+    const double t30 = t10 * t15;
+    const double t31 = x[0] * s[15];
+    const double t32 = t31 / t30;  /* a_t_worm_t_worm */
+    const double t33 = x[1] * s[14];
+    const double t34 = x[0] * s[19];
+    const double t35 = s18 * t34;
+    const double t36 = MW_FMA(c18, t34, s[26]);
+    const double t37 = s[19] * s18;
+    const double t38 = x[0] * s[1];
+    const double t39 = s18 * t38;
+    const double t40 = MW_FMS(x[0], c18, s[0]);
+    const double t41 = c18 * s[1];
+    const double t42 = t40 * s[1];
+    const double t43 = x[0] * s[18];
+    const double t44 = s[18] * s18;
+    const double t45 = x[0] * s[20];
+    const double t46 = MW_FMA(s[20], t36, t39);
+    const double t47 = s18 * t45;
+    const double t48 = c18 * s[20];
+    const double t49 = x[2] * s[25];
+    const double t50 = MW_FMS(c18, t43, s[27]);
+    const double t51 = x[2] * s[21];
+    const double t52 = MW_FMS(s[1], t36, t47);
+    double s53, c53;  /* of a_t_hob: transverse profile angle */
+    cylindrical_worm_zi_zi_near_sincos(t20, &s53, &c53, at + 6, &away);
+    double s55, c55;  /* of a_t_worm: transverse profile angle */
+    cylindrical_worm_zi_zi_near_sincos(t21, &s55, &c55, at + 9, &away);
+    const double t57 = s[16] - t21;
+    const double t58 = s53 / c53;
+    const double t59 = s55 / c55;
+    const double t60 = t58 * t58;
+    const double t61 = t58 + s[10];
+    const double t62 = t61 - t20;
+    const double t63 = t60 * s[3];
+    const double t64 = t23 * t63;  /* P_hob_z_t_hob */
+    const double t65 = MW_FMA(t62, s[11], s[12]);
+    const double t66 = MW_FMS(t64, t25, t26);
+    const double t67 = t64 * t12;
+    const double t68 = MW_FMS(s[8], t65, t24);
+    const double t69 = s[6] * t65;  /* P_hob_z: axial section */
+    const double t70 = MW_FMA(s7, t67, t27);
+    const double t71 = t66 * s[9];
+    const double t72 = t59 + t57;
+    const double t73 = t59 * t59;
+    const double t74 = t68 * t71;
+    const double t75 = MW_FMA(t70, s[7], t14);
+    const double t76 = MW_FNMA(s[21], t70, t49);
+    const double t77 = MW_FMA(s[14], t72, s[17]);
+    const double t78 = t73 * s[24];
+    const double t79 = MW_FMA(t75, t29, t74);
+    const double t80 = MW_FMA(s[6], t77, t33);
+    const double t81 = t32 * t78;  /* P_worm_z_t_worm */
+    const double t82 = MW_FMA(x[2], s[3], t79);
+    const double t83 = MW_FMA(t80, s[18], t35);
+    const double t84 = MW_FMA(s[18], t81, t37);
+    const double t85 = MW_FNMA(s[19], t81, t44);
+    const double t86 = t82 * s[13];
+    const double t87 = MW_FNMA(s[20], t84, t41);
+    const double t88 = MW_FMA(s[1], t84, t48);
+    const double t89 = MW_FMS(s[1], t83, s[22]);
+    const double t90 = t86 / t66;  /* derivation/explicit: slope of the equation of meshing in psi_hob */
+    const double t91 = MW_FMA(t40, s[20], t89);
+    const double t92 = x[3] + t90;  /* phi_hob: angle of the hob in cutting */
+    const double t93 = MW_FNMA(s[11], t90, t69);
+    const double t94 = MW_FNMA(s[9], t92, t17);
+    const double t95 = MW_FNMA(s[21], t93, t24);
+    const double t96 = MW_FNMA(s[7], t93, t91);
+    const double t97 = MW_FNMA(s7, t51, t96);  /* row 2 of the contact equations */
+    double s98, c98;
+    cylindrical_worm_zi_zi_near_sincos(t94, &s98, &c98, at + 12, &away);
+    const double t100 = MW_FNMA(t28, c98, t42);
+    const double t101 = t66 * c98;
+    const double t102 = c98 * t95;
+    const double t103 = t75 * c98;
+    const double t104 = MW_FMA(t75, s98, t101);
+    const double t105 = MW_FMS(t28, s98, t102);
+    const double t106 = MW_FMS(t66, s98, t103);
+    const double t107 = MW_FNMA(t83, s[20], t100);
+    const double t108 = MW_FNMA(t95, s98, t107);  /* row 0 of the contact equations */
+    const double t109 = MW_FNMA(t80, s[19], t105);
+    const double t110 = t104 * t87;
+    const double t111 = t104 * t46;
+    const double t112 = MW_FMA(s18, t43, t109);  /* row 1 of the contact equations */
+    const double t113 = MW_FMS(t106, t85, t110);
+    const double t114 = MW_FMA(t106, t50, t111);
+    const double t115 = MW_FMA(t88, t76, t113);  /* row 3 of the contact equations */
+    const double t116 = MW_FMA(t76, t52, t114);  /* row 4 of the contact equations */
+    R[0] = t108;
+    R[1] = t112;
+    R[2] = t97;
+    R[3] = t115;
+    R[4] = t116;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_zi_zi_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zi_zi_NANCHOR]. */
+static inline void cylindrical_worm_zi_zi_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[2] - s[4];
+    const double t1 = x[2] + s[4];
+    const double t2 = t0 * t1;
+    const double t3 = x[0] - s[15];
+    const double t4 = x[0] + s[15];
+    const double t5 = t3 * t4;
+    const double t6 = x[2] * s[4];
+    double s7, c7;
+    cylindrical_worm_zi_zi_seldom_sincos(x[3], &s7, &c7);
+    const double t9 = sqrt(t2);
+    const double t10 = sqrt(t5);
+    const double t11 = t2 + s[5];
+    const double t12 = s[6] * x[2];
+    const double t13 = x[2] * s[7];
+    const double t14 = x[2] * s[8];
+    const double t15 = MW_FMA(phi, s[107], x[4]);
+    const double t16 = phi + x[1];
+    const double t17 = cylindrical_worm_zi_zi_atan2(t9, s[4]);
+    const double t18 = cylindrical_worm_zi_zi_atan2(t10, s[15]);
+    const double t19 = t9 * t11;
+    const double t20 = t6 / t19;
+    const double t21 = s7 * t13;
+    const double t22 = c7 * t12;
+    const double t23 = s[3] * s7;
+    const double t24 = c7 * s[3];
+    const double t25 = MW_FMS(x[2], c7, s[2]);
+    const double t26 = t25 * s[9];
+    double s27, c27;
+    cylindrical_worm_zi_zi_seldom_sincos(t17, &s27, &c27);
+    const double t29 = s27 / c27;
+    const double t30 = t29 * t29;
+    const double t31 = t29 + s[10];
+    const double t32 = t30 * s[3];
+    const double t33 = t31 - t17;
+    const double t34 = t20 * t32;
+    const double t35 = MW_FMA(t33, s[11], s[12]);
+    const double t36 = MW_FMS(t34, t22, t23);
+    const double t37 = t34 * t12;
+    const double t38 = MW_FMS(s[8], t35, t21);
+    const double t39 = MW_FMA(s7, t37, t24);
+    const double t40 = t36 * s[9];
+    const double t41 = MW_FMA(t39, s[7], t14);
+    const double t42 = t38 * t40;
+    const double t43 = MW_FMA(t41, t26, t42);
+    const double t44 = MW_FMA(x[2], s[3], t43);
+    const double t45 = t44 * s[13];
+    const double t46 = t45 / t36;
+    const double t47 = x[3] + t46;
+    const double t48 = MW_FNMA(s[9], t47, t15);
+    at[0] = x[3];
+    cylindrical_worm_zi_zi_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t16;
+    cylindrical_worm_zi_zi_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t17;
+    cylindrical_worm_zi_zi_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t18;
+    cylindrical_worm_zi_zi_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t48;
+    cylindrical_worm_zi_zi_seldom_sincos(at[12], at + 13, at + 14);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zi_zi_NX] along v[cylindrical_worm_zi_zi_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zi_zi_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zi_zi_NX]. Of the state only the design part is read. */
@@ -5684,7 +5907,8 @@ static const mw_model cylindrical_worm_zi_zi_model = {
     4, 18, -1, 44,
     cylindrical_worm_zi_zi_unknown_names, cylindrical_worm_zi_zi_parameter_names, cylindrical_worm_zi_zi_size_names,
     cylindrical_worm_zi_zi_output_names, 32, cylindrical_worm_zi_zi_output_sizes, cylindrical_worm_zi_zi_guard_texts, cylindrical_worm_zi_zi_bodies,
-    cylindrical_worm_zi_zi_derive, cylindrical_worm_zi_zi_size, cylindrical_worm_zi_zi_setup, cylindrical_worm_zi_zi_set_phi, cylindrical_worm_zi_zi_eval, cylindrical_worm_zi_zi_step, cylindrical_worm_zi_zi_along,
+    cylindrical_worm_zi_zi_derive, cylindrical_worm_zi_zi_size, cylindrical_worm_zi_zi_setup, cylindrical_worm_zi_zi_set_phi, cylindrical_worm_zi_zi_eval, cylindrical_worm_zi_zi_step,
+    cylindrical_worm_zi_zi_NANCHOR, cylindrical_worm_zi_zi_NEAREST, cylindrical_worm_zi_zi_anchor, cylindrical_worm_zi_zi_by_anchor, cylindrical_worm_zi_zi_along,
     cylindrical_worm_zi_zi_guess, cylindrical_worm_zi_zi_start_scale, cylindrical_worm_zi_zi_start_eval, cylindrical_worm_zi_zi_start_solution, cylindrical_worm_zi_zi_observe, cylindrical_worm_zi_zi_scale,
     0, NULL, 1, cylindrical_worm_zi_zi_regions,
     14, cylindrical_worm_zi_zi_functions, MW_KERNELS
@@ -5748,6 +5972,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

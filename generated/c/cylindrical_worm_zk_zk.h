@@ -60,7 +60,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -139,6 +139,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -184,8 +191,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -212,7 +219,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -222,7 +229,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zk_NO 64
 #define cylindrical_worm_zk_zk_ND 7
 #define cylindrical_worm_zk_zk_NSTART 2
-#define cylindrical_worm_zk_zk_ABI 5
+#define cylindrical_worm_zk_zk_NANCHOR 21
+#define cylindrical_worm_zk_zk_NEAREST 3.814697265625e-06
+#define cylindrical_worm_zk_zk_ABI 6
 #define cylindrical_worm_zk_zk_SPEC_HASH "c25c73ed9ca0f89dd53d6c9b0973bec52d7304cfb6c6204e629253ec0c693216"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -382,7 +391,19 @@ MW_INLINE void cylindrical_worm_zk_zk_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_zk_zk_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zk_zk_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zk_sincos(a, sine, cosine);
@@ -2145,11 +2166,261 @@ static inline double cylindrical_worm_zk_zk_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t441), s[106], MW_FMA(MW_ABS(t442), 1.0, MW_FMA(MW_ABS(t457), s[107], MW_FMA(MW_ABS(t450), 1.0, MW_ABS(t462) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_zk_zk_NX] at input angle phi and x[cylindrical_worm_zk_zk_NX], close to those at which cylindrical_worm_zk_zk_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_zk_zk_NEAREST. */
+/* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/merge-sum, conventions/wheel-axis, cylindrical_worm/meshing,
+ *   cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
+ *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
+static inline double cylindrical_worm_zk_zk_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[2] * 0.5;
+    double s1, c1;
+    cylindrical_worm_zk_zk_near_sincos(t0, &s1, &c1, at + 0, &away);
+    double s3, c3;  /* of t_hob */
+    cylindrical_worm_zk_zk_near_sincos(x[2], &s3, &c3, at + 3, &away);
+    double s5, c5;  /* of psi_fixed_hob */
+    cylindrical_worm_zk_zk_near_sincos(x[3], &s5, &c5, at + 6, &away);
+    const double t7 = s1 * s1;
+    const double t8 = t7 * s[18];
+    const double t9 = s1 * s[18];
+    const double t10 = c1 * t9;
+    const double t11 = x[0] * 0.5;
+    double s12, c12;
+    cylindrical_worm_zk_zk_near_sincos(t11, &s12, &c12, at + 9, &away);
+    const double t14 = MW_FMA(s3, s[25], s[26]);
+    const double t15 = c3 * s[19];  /* n_hob_x: normal */
+    const double t16 = MW_FNMA(s[20], s3, t10);
+    const double t17 = MW_FNMA(s[21], t16, s[22]);
+    const double t18 = MW_FMS(s3, s[23], s[24]);
+    const double t19 = MW_FMA(s[20], c3, t8);
+    const double t20 = t14 * s[27];
+    const double t21 = MW_FMA(s3, s[28], s[29]);
+    const double t22 = MW_FMA(t18, t19, t20);
+    const double t23 = t21 * t15;
+    const double t24 = s[30] * t18;
+    const double t25 = t15 * s5;
+    const double t26 = t14 * s[37];
+    const double t27 = t15 * c5;
+    double s28, c28;  /* of t_worm */
+    cylindrical_worm_zk_zk_near_sincos(x[0], &s28, &c28, at + 12, &away);
+    const double t30 = MW_FMS(t15, t17, t22);
+    const double t31 = MW_FNMA(c3, t24, t23);
+    const double t32 = t30 / t31;  /* u_hob: distance along the wheel's edge from its pitch point to the rim */
+    const double t33 = MW_FNMA(t18, c5, t25);
+    const double t34 = MW_FMA(s[33], t33, t26);
+    const double t35 = MW_FMA(t18, s5, t27);
+    const double t36 = t35 * s[38];
+    const double t37 = phi + x[1];
+    const double t38 = s12 * s12;
+    const double t39 = s12 * s[0];
+    double s40, c40;
+    cylindrical_worm_zk_zk_near_sincos(t37, &s40, &c40, at + 15, &away);
+    const double t42 = c12 * t39;
+    const double t43 = MW_FNMA(s[30], t32, s[20]);
+    const double t44 = MW_FNMA(s[31], t32, s[15]);
+    const double t45 = MW_FMA(c3, t43, t8);  /* P_hob_x: contact point on the wheel */
+    const double t46 = MW_FNMA(s3, t43, t10);
+    const double t47 = s[32] * t44;
+    const double t48 = t44 * s[35];
+    const double t49 = t34 * s[38];
+    const double t50 = t38 * s[0];
+    const double t51 = t18 * t45;
+    const double t52 = MW_FMS(s[21], t46, t47);  /* P_hob_y: contact point on the wheel */
+    const double t53 = MW_FMA(s[34], t46, t48);  /* P_hob_z: contact point on the wheel */
+    const double t54 = t45 * s5;
+    const double t55 = MW_FMS(t45, c5, s[36]);
+    const double t56 = MW_FMA(s28, s[7], s[8]);
+    const double t57 = t56 * s[9];
+    const double t58 = MW_FMA(phi, s[127], x[4]);  /* wheel angle */
+    const double t59 = c28 * s[1];  /* n_worm_x: normal */
+    const double t60 = MW_FMA(t15, t52, t51);
+    const double t61 = MW_FMA(t52, c5, t54);
+    const double t62 = MW_FNMA(s5, t52, t55);
+    const double t63 = MW_FNMA(s[2], s28, t42);
+    const double t64 = MW_FNMA(s[3], t63, s[4]);
+    const double t65 = MW_FMS(s28, s[5], s[6]);
+    const double t66 = MW_FMA(s[2], c28, t50);
+    const double t67 = MW_FMA(t65, t66, t57);
+    const double t68 = MW_FNMA(t62, t49, t60);
+    const double t69 = t61 * s[33];
+    const double t70 = s[12] * t65;
+    const double t71 = MW_FMA(s28, s[10], s[11]);
+    const double t72 = t71 * t59;
+    const double t73 = t14 * s[33];
+    const double t74 = MW_FMS(t59, t64, t67);
+    const double t75 = MW_FNMA(s[37], t33, t73);
+    const double t76 = MW_FMS(s[37], t53, t69);
+    const double t77 = s[12] * c28;
+    const double t78 = s[3] * c28;
+    const double t79 = MW_FNMA(c28, t70, t72);
+    const double t80 = MW_FMS(s28, s[46], s[47]);
+    const double t81 = s[43] * t80;
+    const double t82 = s[40] * t80;
+    const double t83 = c28 * s[48];
+    const double t84 = MW_FNMA(t76, t36, t68);
+    const double t85 = c28 * s[49];
+    const double t86 = t74 / t79;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
+    const double t87 = t84 * s[39];
+    const double t88 = t87 / t35;  /* psi_hob: screw angle of the hob flank */
+    const double t89 = c40 * t77;
+    const double t90 = s40 * t77;
+    const double t91 = c40 * t78;
+    const double t92 = s40 * t78;
+    const double t93 = MW_FMA(t71, s40, t89);
+    const double t94 = MW_FMS(t71, c40, t90);
+    const double t95 = MW_FMA(s28, s40, t91);
+    const double t96 = MW_FMS(s28, c40, t92);
+    const double t97 = MW_FMA(s[40], t94, t81);
+    const double t98 = MW_FMS(s[43], t94, t82);
+    const double t99 = MW_FMA(s[40], t95, t83);
+    const double t100 = MW_FMS(s[43], t95, t85);
+    const double t101 = s[44] * t93;
+    const double t102 = s[17] * t93;
+    const double t103 = s[44] * t96;
+    const double t104 = s[17] * t96;
+    const double t105 = MW_FMS(s[17], t97, t101);
+    const double t106 = MW_FMA(s[44], t97, t102);
+    const double t107 = MW_FMA(s[17], t99, t103);
+    const double t108 = MW_FNMA(s[44], t99, t104);
+    const double t109 = MW_FNMA(s[12], t86, s[2]);
+    const double t110 = MW_FNMA(s[14], t86, s[15]);
+    const double t111 = t105 * t75;
+    const double t112 = t75 * t107;
+    const double t113 = MW_FNMA(s28, t109, t42);
+    const double t114 = MW_FMA(c28, t109, t50);  /* P_worm_x: contact point on the wheel */
+    const double t115 = t110 * s[42];
+    const double t116 = s[16] * t110;
+    const double t117 = x[3] - t88;  /* phi_hob: angle of the hob in cutting */
+    const double t118 = MW_FMA(s[27], t88, t53);
+    const double t119 = MW_FMA(s[41], t113, t115);  /* P_worm_z: contact point on the wheel */
+    const double t120 = MW_FMS(s[3], t113, t116);  /* P_worm_y: contact point on the wheel */
+    const double t121 = t114 * s40;
+    const double t122 = MW_FMS(t114, c40, s[13]);
+    const double t123 = MW_FNMA(s[38], t117, t58);
+    const double t124 = MW_FNMA(s[37], t118, t69);
+    const double t125 = MW_FMA(x[1], s[9], t119);
+    const double t126 = MW_FMA(c40, t120, t121);
+    const double t127 = MW_FNMA(t120, s40, t122);
+    double s128, c128;
+    cylindrical_worm_zk_zk_near_sincos(t123, &s128, &c128, at + 18, &away);
+    const double t130 = t125 * s[43];
+    const double t131 = MW_FMA(t126, s[40], t130);
+    const double t132 = t126 * s[43];
+    const double t133 = t127 * s[17];
+    const double t134 = MW_FMS(s[17], t131, s[45]);
+    const double t135 = MW_FMA(t127, s[44], t134);
+    const double t136 = MW_FNMA(t61, s[37], t135);
+    const double t137 = MW_FNMA(s[33], t118, t136);  /* row 2 of the contact equations */
+    const double t138 = MW_FNMA(t124, s128, t133);
+    const double t139 = MW_FMA(t62, s128, t132);
+    const double t140 = t34 * c128;
+    const double t141 = t35 * c128;
+    const double t142 = MW_FMS(t35, s128, t140);
+    const double t143 = MW_FNMA(t131, s[44], t138);
+    const double t144 = MW_FNMA(t124, c128, t139);
+    const double t145 = MW_FMA(t34, s128, t141);
+    const double t146 = MW_FNMA(t62, c128, t143);  /* row 0 of the contact equations */
+    const double t147 = MW_FMA(t142, t98, t111);
+    const double t148 = MW_FMA(t142, t100, t112);
+    const double t149 = MW_FNMA(s[40], t125, t144);  /* row 1 of the contact equations */
+    const double t150 = MW_FMA(t145, t106, t147);  /* row 3 of the contact equations */
+    const double t151 = MW_FNMA(t145, t108, t148);  /* row 4 of the contact equations */
+    R[0] = t146;
+    R[1] = t149;
+    R[2] = t137;
+    R[3] = t150;
+    R[4] = t151;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_zk_zk_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zk_zk_NANCHOR]. */
+static inline void cylindrical_worm_zk_zk_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[2] * 0.5;
+    double s1, c1;
+    cylindrical_worm_zk_zk_seldom_sincos(t0, &s1, &c1);
+    double s3, c3;
+    cylindrical_worm_zk_zk_seldom_sincos(x[2], &s3, &c3);
+    double s5, c5;
+    cylindrical_worm_zk_zk_seldom_sincos(x[3], &s5, &c5);
+    const double t7 = s1 * s[18];
+    const double t8 = c1 * t7;
+    const double t9 = s1 * s1;
+    const double t10 = t9 * s[18];
+    const double t11 = MW_FMA(phi, s[127], x[4]);
+    const double t12 = x[0] * 0.5;
+    const double t13 = phi + x[1];
+    const double t14 = MW_FMA(s3, s[25], s[26]);
+    const double t15 = c3 * s[19];
+    const double t16 = MW_FNMA(s[20], s3, t8);
+    const double t17 = MW_FMS(s3, s[23], s[24]);
+    const double t18 = MW_FMA(s[20], c3, t10);
+    const double t19 = MW_FMA(s3, s[28], s[29]);
+    const double t20 = MW_FNMA(s[21], t16, s[22]);
+    const double t21 = t19 * t15;
+    const double t22 = t14 * s[27];
+    const double t23 = s[30] * t17;
+    const double t24 = t14 * s[37];
+    const double t25 = MW_FMA(t17, t18, t22);
+    const double t26 = MW_FNMA(c3, t23, t21);
+    const double t27 = MW_FMS(t15, t20, t25);
+    const double t28 = t27 / t26;
+    const double t29 = t15 * s5;
+    const double t30 = t15 * c5;
+    const double t31 = MW_FNMA(t17, c5, t29);
+    const double t32 = MW_FMA(t17, s5, t30);
+    const double t33 = MW_FMA(s[33], t31, t24);
+    const double t34 = t32 * s[38];
+    const double t35 = t33 * s[38];
+    const double t36 = MW_FNMA(s[30], t28, s[20]);
+    const double t37 = MW_FNMA(s[31], t28, s[15]);
+    const double t38 = MW_FNMA(s3, t36, t8);
+    const double t39 = MW_FMA(c3, t36, t10);
+    const double t40 = s[32] * t37;
+    const double t41 = t37 * s[35];
+    const double t42 = MW_FMS(s[21], t38, t40);
+    const double t43 = MW_FMA(s[34], t38, t41);
+    const double t44 = t17 * t39;
+    const double t45 = MW_FMS(t39, c5, s[36]);
+    const double t46 = t39 * s5;
+    const double t47 = MW_FMA(t15, t42, t44);
+    const double t48 = MW_FNMA(s5, t42, t45);
+    const double t49 = MW_FMA(t42, c5, t46);
+    const double t50 = s[37] * t43;
+    const double t51 = MW_FNMA(t48, t35, t47);
+    const double t52 = MW_FNMA(t49, s[33], t50);
+    const double t53 = MW_FNMA(t52, t34, t51);
+    const double t54 = t53 * s[39];
+    const double t55 = t54 / t32;
+    const double t56 = x[3] - t55;
+    const double t57 = MW_FNMA(s[38], t56, t11);
+    at[0] = t0;
+    cylindrical_worm_zk_zk_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = x[2];
+    cylindrical_worm_zk_zk_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[3];
+    cylindrical_worm_zk_zk_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t12;
+    cylindrical_worm_zk_zk_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = x[0];
+    cylindrical_worm_zk_zk_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t13;
+    cylindrical_worm_zk_zk_seldom_sincos(at[15], at + 16, at + 17);
+    at[18] = t57;
+    cylindrical_worm_zk_zk_seldom_sincos(at[18], at + 19, at + 20);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zk_zk_NX] along v[cylindrical_worm_zk_zk_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zk_zk_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zk_zk_NX]. Of the state only the design part is read. */
@@ -6737,7 +7008,8 @@ static const mw_model cylindrical_worm_zk_zk_model = {
     4, 18, -1, 44,
     cylindrical_worm_zk_zk_unknown_names, cylindrical_worm_zk_zk_parameter_names, cylindrical_worm_zk_zk_size_names,
     cylindrical_worm_zk_zk_output_names, 32, cylindrical_worm_zk_zk_output_sizes, cylindrical_worm_zk_zk_guard_texts, cylindrical_worm_zk_zk_bodies,
-    cylindrical_worm_zk_zk_derive, cylindrical_worm_zk_zk_size, cylindrical_worm_zk_zk_setup, cylindrical_worm_zk_zk_set_phi, cylindrical_worm_zk_zk_eval, cylindrical_worm_zk_zk_step, cylindrical_worm_zk_zk_along,
+    cylindrical_worm_zk_zk_derive, cylindrical_worm_zk_zk_size, cylindrical_worm_zk_zk_setup, cylindrical_worm_zk_zk_set_phi, cylindrical_worm_zk_zk_eval, cylindrical_worm_zk_zk_step,
+    cylindrical_worm_zk_zk_NANCHOR, cylindrical_worm_zk_zk_NEAREST, cylindrical_worm_zk_zk_anchor, cylindrical_worm_zk_zk_by_anchor, cylindrical_worm_zk_zk_along,
     cylindrical_worm_zk_zk_guess, cylindrical_worm_zk_zk_start_scale, cylindrical_worm_zk_zk_start_eval, cylindrical_worm_zk_zk_start_solution, cylindrical_worm_zk_zk_observe, cylindrical_worm_zk_zk_scale,
     0, NULL, 1, cylindrical_worm_zk_zk_regions,
     14, cylindrical_worm_zk_zk_functions, MW_KERNELS
@@ -6801,6 +7073,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

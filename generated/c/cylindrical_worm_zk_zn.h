@@ -65,7 +65,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -144,6 +144,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -189,8 +196,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -217,7 +224,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -227,7 +234,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_zk_zn_NO 63
 #define cylindrical_worm_zk_zn_ND 7
 #define cylindrical_worm_zk_zn_NSTART 2
-#define cylindrical_worm_zk_zn_ABI 5
+#define cylindrical_worm_zk_zn_NANCHOR 15
+#define cylindrical_worm_zk_zn_NEAREST 3.814697265625e-06
+#define cylindrical_worm_zk_zn_ABI 6
 #define cylindrical_worm_zk_zn_SPEC_HASH "9006896226cfc29facec5580cc840c79c20c56f4f0eced5665f338a15cc15850"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -385,7 +394,19 @@ MW_INLINE void cylindrical_worm_zk_zn_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_zk_zn_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zk_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zk_zn_sincos(a, sine, cosine);
@@ -2091,11 +2112,217 @@ static inline double cylindrical_worm_zk_zn_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t396), s[128], MW_FMA(MW_ABS(t383), 1.0, MW_FMA(MW_ABS(t393), s[129], MW_FMA(MW_ABS(t387), 1.0, MW_ABS(t403) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_zk_zn_NX] at input angle phi and x[cylindrical_worm_zk_zn_NX], close to those at which cylindrical_worm_zk_zn_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_zk_zn_NEAREST. */
+/* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/explicit, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid, helicoids/zk-normal,
+ *   zk-zn/eq-4, derivation/translation, derivation/swept, helicoids/normal, helicoids/zn-width,
+ *   helicoids/zn-straight, helicoids/zn-normal, derivation/merge-sum, conventions/wheel-axis,
+ *   cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle, cylindrical_worm/explicit,
+ *   cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
+static inline double cylindrical_worm_zk_zn_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    double s0, c0;  /* of psi_fixed_hob */
+    cylindrical_worm_zk_zn_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    const double t2 = x[0] * 0.5;
+    double s3, c3;
+    cylindrical_worm_zk_zn_near_sincos(t2, &s3, &c3, at + 3, &away);
+    const double t5 = MW_FMA(x[2], s[18], s[19]);  /* P_hob_x: blade edge */
+    const double t6 = MW_FMS(x[2], s[23], s[24]);
+    const double t7 = x[2] * s[29];
+    const double t8 = MW_FMA(s[18], t5, t7);
+    const double t9 = x[2] * s[20];
+    const double t10 = MW_FMA(t5, s[22], s[26]);
+    const double t11 = s[25] * t5;
+    const double t12 = x[2] * s[27];
+    const double t13 = t6 * t11;
+    double s14, c14;  /* of t_worm */
+    cylindrical_worm_zk_zn_near_sincos(x[0], &s14, &c14, at + 6, &away);
+    const double t16 = MW_FNMA(t10, t12, t13);
+    const double t17 = s[25] * c0;
+    const double t18 = s[25] * s0;
+    const double t19 = t6 * t17;
+    const double t20 = t6 * t18;
+    const double t21 = t9 * c0;
+    const double t22 = MW_FMS(t5, s0, t21);
+    const double t23 = MW_FMS(t5, c0, s[28]);
+    const double t24 = MW_FMA(s0, t9, t23);
+    const double t25 = MW_FMS(t18, t10, t19);
+    const double t26 = MW_FMA(t10, t17, t20);
+    const double t27 = t8 * s[30];
+    const double t28 = phi + x[1];
+    const double t29 = t22 * s[21];
+    const double t30 = s3 * s3;
+    const double t31 = s3 * s[0];
+    double s32, c32;
+    cylindrical_worm_zk_zn_near_sincos(t28, &s32, &c32, at + 9, &away);
+    const double t34 = MW_FMA(s[21], t25, t27);
+    const double t35 = c3 * t31;
+    const double t36 = t34 * s[31];
+    const double t37 = MW_FMS(x[2], s[32], t29);
+    const double t38 = t26 * s[31];
+    const double t39 = t30 * s[0];
+    const double t40 = MW_FMA(s14, s[7], s[8]);
+    const double t41 = MW_FMA(phi, s[151], x[4]);  /* wheel angle */
+    const double t42 = MW_FNMA(t24, t36, t16);
+    const double t43 = t40 * s[9];
+    const double t44 = c14 * s[1];  /* n_worm_x: normal */
+    const double t45 = MW_FNMA(s[2], s14, t35);
+    const double t46 = MW_FNMA(s[3], t45, s[4]);
+    const double t47 = MW_FMS(s14, s[5], s[6]);
+    const double t48 = MW_FMA(s[2], c14, t39);
+    const double t49 = MW_FMA(s14, s[10], s[11]);
+    const double t50 = MW_FNMA(t37, t38, t42);
+    const double t51 = MW_FMA(t47, t48, t43);
+    const double t52 = s[12] * t47;
+    const double t53 = t49 * t44;
+    const double t54 = t8 * s[44];
+    const double t55 = MW_FNMA(s[35], t25, t54);
+    const double t56 = s[12] * c14;
+    const double t57 = MW_FNMA(c14, t52, t53);
+    const double t58 = MW_FMS(t44, t46, t51);
+    const double t59 = t50 * s[33];
+    const double t60 = s[3] * c14;
+    const double t61 = x[2] * s[22];  /* P_hob_z: blade edge */
+    const double t62 = MW_FMS(s14, s[42], s[43]);
+    const double t63 = s[39] * t62;
+    const double t64 = s[36] * t62;
+    const double t65 = c14 * s[45];
+    const double t66 = t59 / t26;  /* psi_hob: screw angle of the hob flank */
+    const double t67 = t58 / t57;  /* u_worm: distance along the wheel's edge from its pitch point to the rim */
+    const double t68 = c14 * s[46];
+    const double t69 = c32 * t56;
+    const double t70 = s32 * t56;
+    const double t71 = c32 * t60;
+    const double t72 = s32 * t60;
+    const double t73 = MW_FMA(t49, s32, t69);
+    const double t74 = MW_FMS(t49, c32, t70);
+    const double t75 = MW_FMA(s14, s32, t71);
+    const double t76 = MW_FMS(s14, c32, t72);
+    const double t77 = x[3] - t66;  /* phi_hob: angle of the hob in cutting */
+    const double t78 = MW_FMA(t66, s[34], t61);
+    const double t79 = MW_FMA(s[36], t74, t63);
+    const double t80 = MW_FMS(s[39], t74, t64);
+    const double t81 = MW_FMA(s[36], t75, t65);
+    const double t82 = MW_FMS(s[39], t75, t68);
+    const double t83 = MW_FNMA(s[12], t67, s[2]);
+    const double t84 = MW_FNMA(s[14], t67, s[15]);
+    const double t85 = MW_FNMA(s[31], t77, t41);
+    const double t86 = MW_FNMA(s14, t83, t35);
+    const double t87 = MW_FMA(c14, t83, t39);  /* P_worm_x: contact point on the wheel */
+    const double t88 = MW_FNMA(s[35], t78, t29);
+    const double t89 = t84 * s[38];
+    const double t90 = s[16] * t84;
+    const double t91 = s[40] * t73;
+    const double t92 = MW_FMS(s[17], t79, t91);
+    double s93, c93;
+    cylindrical_worm_zk_zn_near_sincos(t85, &s93, &c93, at + 12, &away);
+    const double t95 = MW_FMA(s[37], t86, t89);  /* P_worm_z: contact point on the wheel */
+    const double t96 = MW_FMS(s[3], t86, t90);  /* P_worm_y: contact point on the wheel */
+    const double t97 = MW_FMA(x[1], s[9], t95);
+    const double t98 = s[17] * t73;
+    const double t99 = MW_FMA(s[40], t79, t98);
+    const double t100 = t92 * t55;
+    const double t101 = t87 * s32;
+    const double t102 = MW_FMA(c32, t96, t101);
+    const double t103 = MW_FMS(t87, c32, s[13]);
+    const double t104 = MW_FNMA(t96, s32, t103);
+    const double t105 = t97 * s[39];
+    const double t106 = s[40] * t76;
+    const double t107 = MW_FMA(s[17], t81, t106);
+    const double t108 = s[17] * t76;
+    const double t109 = MW_FNMA(s[40], t81, t108);
+    const double t110 = MW_FMA(t102, s[36], t105);
+    const double t111 = t55 * t107;
+    const double t112 = MW_FMS(s[17], t110, s[41]);
+    const double t113 = MW_FMA(t104, s[40], t112);
+    const double t114 = MW_FNMA(t22, s[35], t113);
+    const double t115 = MW_FNMA(s[21], t78, t114);  /* row 2 of the contact equations */
+    const double t116 = t88 * s93;
+    const double t117 = t24 * s93;
+    const double t118 = t34 * c93;
+    const double t119 = t26 * c93;
+    const double t120 = MW_FMS(t104, s[17], t116);
+    const double t121 = MW_FMA(t102, s[39], t117);
+    const double t122 = MW_FMS(t26, s93, t118);
+    const double t123 = MW_FMA(t34, s93, t119);
+    const double t124 = MW_FNMA(t110, s[40], t120);
+    const double t125 = MW_FNMA(t88, c93, t121);
+    const double t126 = MW_FMA(t122, t80, t100);
+    const double t127 = MW_FMA(t122, t82, t111);
+    const double t128 = MW_FNMA(t24, c93, t124);  /* row 0 of the contact equations */
+    const double t129 = MW_FNMA(s[36], t97, t125);  /* row 1 of the contact equations */
+    const double t130 = MW_FMA(t123, t99, t126);  /* row 3 of the contact equations */
+    const double t131 = MW_FNMA(t123, t109, t127);  /* row 4 of the contact equations */
+    R[0] = t128;
+    R[1] = t129;
+    R[2] = t115;
+    R[3] = t130;
+    R[4] = t131;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_zk_zn_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zk_zn_NANCHOR]. */
+static inline void cylindrical_worm_zk_zn_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    double s0, c0;
+    cylindrical_worm_zk_zn_seldom_sincos(x[3], &s0, &c0);
+    const double t2 = MW_FMS(x[2], s[23], s[24]);
+    const double t3 = MW_FMA(x[2], s[18], s[19]);
+    const double t4 = x[2] * s[29];
+    const double t5 = MW_FMA(s[18], t3, t4);
+    const double t6 = MW_FMA(t3, s[22], s[26]);
+    const double t7 = s[25] * t3;
+    const double t8 = x[2] * s[20];
+    const double t9 = x[2] * s[27];
+    const double t10 = x[2] * s[32];
+    const double t11 = t2 * t7;
+    const double t12 = t5 * s[30];
+    const double t13 = MW_FMA(phi, s[151], x[4]);
+    const double t14 = x[0] * 0.5;
+    const double t15 = phi + x[1];
+    const double t16 = MW_FNMA(t6, t9, t11);
+    const double t17 = s[25] * c0;
+    const double t18 = s[25] * s0;
+    const double t19 = MW_FMS(t3, c0, s[28]);
+    const double t20 = t8 * c0;
+    const double t21 = MW_FMA(s0, t8, t19);
+    const double t22 = MW_FMS(t3, s0, t20);
+    const double t23 = t2 * t17;
+    const double t24 = t2 * t18;
+    const double t25 = MW_FMS(t18, t6, t23);
+    const double t26 = MW_FMA(t6, t17, t24);
+    const double t27 = MW_FNMA(t22, s[21], t10);
+    const double t28 = MW_FMA(s[21], t25, t12);
+    const double t29 = t26 * s[31];
+    const double t30 = t28 * s[31];
+    const double t31 = MW_FNMA(t21, t30, t16);
+    const double t32 = MW_FNMA(t27, t29, t31);
+    const double t33 = t32 * s[33];
+    const double t34 = t33 / t26;
+    const double t35 = x[3] - t34;
+    const double t36 = MW_FNMA(s[31], t35, t13);
+    at[0] = x[3];
+    cylindrical_worm_zk_zn_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t14;
+    cylindrical_worm_zk_zn_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[0];
+    cylindrical_worm_zk_zn_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t15;
+    cylindrical_worm_zk_zn_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t36;
+    cylindrical_worm_zk_zn_seldom_sincos(at[12], at + 13, at + 14);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zk_zn_NX] along v[cylindrical_worm_zk_zn_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zk_zn_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zk_zn_NX]. Of the state only the design part is read. */
@@ -5933,7 +6160,8 @@ static const mw_model cylindrical_worm_zk_zn_model = {
     4, 18, -1, 43,
     cylindrical_worm_zk_zn_unknown_names, cylindrical_worm_zk_zn_parameter_names, cylindrical_worm_zk_zn_size_names,
     cylindrical_worm_zk_zn_output_names, 31, cylindrical_worm_zk_zn_output_sizes, cylindrical_worm_zk_zn_guard_texts, cylindrical_worm_zk_zn_bodies,
-    cylindrical_worm_zk_zn_derive, cylindrical_worm_zk_zn_size, cylindrical_worm_zk_zn_setup, cylindrical_worm_zk_zn_set_phi, cylindrical_worm_zk_zn_eval, cylindrical_worm_zk_zn_step, cylindrical_worm_zk_zn_along,
+    cylindrical_worm_zk_zn_derive, cylindrical_worm_zk_zn_size, cylindrical_worm_zk_zn_setup, cylindrical_worm_zk_zn_set_phi, cylindrical_worm_zk_zn_eval, cylindrical_worm_zk_zn_step,
+    cylindrical_worm_zk_zn_NANCHOR, cylindrical_worm_zk_zn_NEAREST, cylindrical_worm_zk_zn_anchor, cylindrical_worm_zk_zn_by_anchor, cylindrical_worm_zk_zn_along,
     cylindrical_worm_zk_zn_guess, cylindrical_worm_zk_zn_start_scale, cylindrical_worm_zk_zn_start_eval, cylindrical_worm_zk_zn_start_solution, cylindrical_worm_zk_zn_observe, cylindrical_worm_zk_zn_scale,
     0, NULL, 1, cylindrical_worm_zk_zn_regions,
     14, cylindrical_worm_zk_zn_functions, MW_KERNELS
@@ -5997,6 +6225,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

@@ -61,7 +61,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -140,6 +140,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -185,8 +192,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -213,7 +220,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -223,7 +230,9 @@ typedef struct mw_contact {
 #define cylindrical_worm_zn_zn_NO 62
 #define cylindrical_worm_zn_zn_ND 7
 #define cylindrical_worm_zn_zn_NSTART 2
-#define cylindrical_worm_zn_zn_ABI 5
+#define cylindrical_worm_zn_zn_NANCHOR 9
+#define cylindrical_worm_zn_zn_NEAREST 3.814697265625e-06
+#define cylindrical_worm_zn_zn_ABI 6
 #define cylindrical_worm_zn_zn_SPEC_HASH "5ee61cfef644377ec3b481423e91e389db581598ad3805c6b44d72380034c603"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -379,7 +388,19 @@ MW_INLINE void cylindrical_worm_zn_zn_sincos(double a, double *sine, double *cos
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void cylindrical_worm_zn_zn_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void cylindrical_worm_zn_zn_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zn_zn_sincos(a, sine, cosine);
@@ -1788,11 +1809,175 @@ static inline double cylindrical_worm_zn_zn_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t266), s[116], MW_FMA(MW_ABS(t250), 1.0, MW_FMA(MW_ABS(t264), s[116], MW_FMA(MW_ABS(t254), 1.0, MW_ABS(t270) * 1.0))));
 }
 
+/* Residual R[cylindrical_worm_zn_zn_NX] at input angle phi and x[cylindrical_worm_zn_zn_NX], close to those at which cylindrical_worm_zn_zn_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * cylindrical_worm_zn_zn_NEAREST. */
+/* Equations: derivation/swept, helicoids/helicoid, helicoids/normal, helicoids/zn-width, helicoids/zn-straight,
+ *   helicoids/zn-normal, derivation/translation, conventions/rotations, conventions/sums, derivation/rotation,
+ *   derivation/invariance, derivation/envelope, derivation/merge-sum, derivation/explicit,
+ *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
+ *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, cylindrical_worm/contact,
+ *   derivation/angles. */
+static inline double cylindrical_worm_zn_zn_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    double s0, c0;  /* of psi_fixed_hob */
+    cylindrical_worm_zn_zn_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    const double t2 = MW_FMA(x[2], s[5], s[6]);  /* P_hob_x: blade edge */
+    const double t3 = MW_FMS(x[2], s[10], s[11]);
+    const double t4 = x[2] * s[16];
+    const double t5 = MW_FMA(s[5], t2, t4);
+    const double t6 = x[2] * s[7];
+    const double t7 = MW_FMA(t2, s[9], s[13]);
+    const double t8 = s[12] * t2;
+    const double t9 = x[2] * s[14];
+    const double t10 = t3 * t8;
+    const double t11 = phi + x[1];
+    const double t12 = t5 * s[17];
+    double s13, c13;
+    cylindrical_worm_zn_zn_near_sincos(t11, &s13, &c13, at + 3, &away);
+    const double t15 = MW_FNMA(t7, t9, t10);
+    const double t16 = MW_FMA(phi, s[140], x[4]);  /* wheel angle */
+    const double t17 = t5 * s[30];
+    const double t18 = x[0] * s[0];
+    const double t19 = MW_FMA(x[0], s[1], s[2]);  /* P_worm_x: blade edge */
+    const double t20 = s[12] * c0;
+    const double t21 = s[12] * s0;
+    const double t22 = t6 * c0;
+    const double t23 = MW_FMS(t2, c0, s[15]);
+    const double t24 = x[0] * s[25];  /* P_worm_z: blade edge */
+    const double t25 = MW_FMA(x[1], s[24], t24);
+    const double t26 = x[2] * s[9];  /* P_hob_z: blade edge */
+    const double t27 = MW_FMS(t2, s0, t22);
+    const double t28 = MW_FMA(s0, t6, t23);
+    const double t29 = t3 * t20;
+    const double t30 = t3 * t21;
+    const double t31 = t25 * s[26];
+    const double t32 = MW_FMS(t21, t7, t29);
+    const double t33 = MW_FMA(t7, t20, t30);
+    const double t34 = t27 * s[8];
+    const double t35 = MW_FMA(s[8], t32, t12);
+    const double t36 = MW_FMS(x[2], s[19], t34);
+    const double t37 = t33 * s[18];
+    const double t38 = MW_FNMA(s[22], t32, t17);
+    const double t39 = t35 * s[18];
+    const double t40 = MW_FNMA(t28, t39, t15);
+    const double t41 = MW_FNMA(t36, t37, t40);
+    const double t42 = t41 * s[20];
+    const double t43 = t19 * c13;
+    const double t44 = c13 * t18;
+    const double t45 = c13 * s[0];
+    const double t46 = t42 / t33;  /* psi_hob: screw angle of the hob flank */
+    const double t47 = s[0] * s13;
+    const double t48 = MW_FMS(t19, s13, t44);
+    const double t49 = MW_FMS(s[1], s13, t45);
+    const double t50 = MW_FMA(s[1], c13, t47);
+    const double t51 = t43 - s[3];
+    const double t52 = MW_FMA(t18, s13, t43);
+    const double t53 = MW_FMA(t18, s13, t51);
+    const double t54 = MW_FMA(t48, s[23], t31);
+    const double t55 = MW_FMA(s[23], t49, s[29]);
+    const double t56 = MW_FMS(s[26], t49, s[31]);
+    const double t57 = s[27] * t50;
+    const double t58 = s[4] * t50;
+    const double t59 = MW_FMA(s[23], t52, s[32]);
+    const double t60 = MW_FMS(s[26], t52, s[33]);
+    const double t61 = MW_FMA(s[4], t55, t57);
+    const double t62 = MW_FNMA(s[27], t55, t58);
+    const double t63 = t48 * s[27];
+    const double t64 = MW_FMS(s[4], t59, t63);
+    const double t65 = t53 * s[4];
+    const double t66 = t48 * s[26];
+    const double t67 = s[4] * t48;
+    const double t68 = MW_FMA(s[27], t59, t67);
+    const double t69 = t61 * t38;
+    const double t70 = MW_FMS(s[4], t54, s[28]);
+    const double t71 = MW_FMA(t53, s[27], t70);
+    const double t72 = t38 * t64;
+    const double t73 = MW_FNMA(t27, s[22], t71);
+    const double t74 = x[3] - t46;  /* phi_hob: angle of the hob in cutting */
+    const double t75 = MW_FMA(t46, s[21], t26);
+    const double t76 = MW_FNMA(s[18], t74, t16);
+    const double t77 = MW_FNMA(s[22], t75, t34);
+    const double t78 = MW_FNMA(s[8], t75, t73);  /* row 2 of the contact equations */
+    double s79, c79;
+    cylindrical_worm_zn_zn_near_sincos(t76, &s79, &c79, at + 6, &away);
+    const double t81 = MW_FNMA(t77, s79, t65);
+    const double t82 = MW_FMA(t28, s79, t66);
+    const double t83 = t35 * c79;
+    const double t84 = t33 * c79;
+    const double t85 = MW_FMS(t33, s79, t83);
+    const double t86 = MW_FNMA(t54, s[27], t81);
+    const double t87 = MW_FNMA(t77, c79, t82);
+    const double t88 = MW_FMA(t35, s79, t84);
+    const double t89 = MW_FNMA(t28, c79, t86);  /* row 0 of the contact equations */
+    const double t90 = MW_FMA(t85, t56, t69);
+    const double t91 = MW_FMA(t85, t60, t72);
+    const double t92 = MW_FNMA(s[23], t25, t87);  /* row 1 of the contact equations */
+    const double t93 = MW_FNMA(t88, t62, t90);  /* row 3 of the contact equations */
+    const double t94 = MW_FMA(t88, t68, t91);  /* row 4 of the contact equations */
+    R[0] = t89;
+    R[1] = t92;
+    R[2] = t78;
+    R[3] = t93;
+    R[4] = t94;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which cylindrical_worm_zn_zn_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zn_zn_NANCHOR]. */
+static inline void cylindrical_worm_zn_zn_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    double s0, c0;
+    cylindrical_worm_zn_zn_seldom_sincos(x[3], &s0, &c0);
+    const double t2 = MW_FMS(x[2], s[10], s[11]);
+    const double t3 = MW_FMA(x[2], s[5], s[6]);
+    const double t4 = x[2] * s[16];
+    const double t5 = MW_FMA(s[5], t3, t4);
+    const double t6 = MW_FMA(t3, s[9], s[13]);
+    const double t7 = s[12] * t3;
+    const double t8 = x[2] * s[7];
+    const double t9 = x[2] * s[14];
+    const double t10 = x[2] * s[19];
+    const double t11 = t2 * t7;
+    const double t12 = t5 * s[17];
+    const double t13 = MW_FMA(phi, s[140], x[4]);
+    const double t14 = phi + x[1];
+    const double t15 = MW_FNMA(t6, t9, t11);
+    const double t16 = s[12] * c0;
+    const double t17 = s[12] * s0;
+    const double t18 = MW_FMS(t3, c0, s[15]);
+    const double t19 = t8 * c0;
+    const double t20 = MW_FMA(s0, t8, t18);
+    const double t21 = MW_FMS(t3, s0, t19);
+    const double t22 = t2 * t16;
+    const double t23 = t2 * t17;
+    const double t24 = MW_FMS(t17, t6, t22);
+    const double t25 = MW_FMA(t6, t16, t23);
+    const double t26 = MW_FNMA(t21, s[8], t10);
+    const double t27 = MW_FMA(s[8], t24, t12);
+    const double t28 = t25 * s[18];
+    const double t29 = t27 * s[18];
+    const double t30 = MW_FNMA(t20, t29, t15);
+    const double t31 = MW_FNMA(t26, t28, t30);
+    const double t32 = t31 * s[20];
+    const double t33 = t32 / t25;
+    const double t34 = x[3] - t33;
+    const double t35 = MW_FNMA(s[18], t34, t13);
+    at[0] = x[3];
+    cylindrical_worm_zn_zn_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t14;
+    cylindrical_worm_zn_zn_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t35;
+    cylindrical_worm_zn_zn_seldom_sincos(at[6], at + 7, at + 8);
+}
 
 /* Derivatives of the residual at input angle phi and x[cylindrical_worm_zn_zn_NX] along v[cylindrical_worm_zn_zn_NX + 1], a direction of (x, phi): the first,
  * d1[cylindrical_worm_zn_zn_NX], and unless d2 is NULL the second, d2[cylindrical_worm_zn_zn_NX]. Of the state only the design part is read. */
@@ -5091,7 +5276,8 @@ static const mw_model cylindrical_worm_zn_zn_model = {
     4, 18, -1, 42,
     cylindrical_worm_zn_zn_unknown_names, cylindrical_worm_zn_zn_parameter_names, cylindrical_worm_zn_zn_size_names,
     cylindrical_worm_zn_zn_output_names, 30, cylindrical_worm_zn_zn_output_sizes, cylindrical_worm_zn_zn_guard_texts, cylindrical_worm_zn_zn_bodies,
-    cylindrical_worm_zn_zn_derive, cylindrical_worm_zn_zn_size, cylindrical_worm_zn_zn_setup, cylindrical_worm_zn_zn_set_phi, cylindrical_worm_zn_zn_eval, cylindrical_worm_zn_zn_step, cylindrical_worm_zn_zn_along,
+    cylindrical_worm_zn_zn_derive, cylindrical_worm_zn_zn_size, cylindrical_worm_zn_zn_setup, cylindrical_worm_zn_zn_set_phi, cylindrical_worm_zn_zn_eval, cylindrical_worm_zn_zn_step,
+    cylindrical_worm_zn_zn_NANCHOR, cylindrical_worm_zn_zn_NEAREST, cylindrical_worm_zn_zn_anchor, cylindrical_worm_zn_zn_by_anchor, cylindrical_worm_zn_zn_along,
     cylindrical_worm_zn_zn_guess, cylindrical_worm_zn_zn_start_scale, cylindrical_worm_zn_zn_start_eval, cylindrical_worm_zn_zn_start_solution, cylindrical_worm_zn_zn_observe, cylindrical_worm_zn_zn_scale,
     0, NULL, 1, cylindrical_worm_zn_zn_regions,
     14, cylindrical_worm_zn_zn_functions, MW_KERNELS
@@ -5155,6 +5341,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

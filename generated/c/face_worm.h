@@ -46,7 +46,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -125,6 +125,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -170,8 +177,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -198,7 +205,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -208,7 +215,9 @@ typedef struct mw_contact {
 #define face_worm_NO 62
 #define face_worm_ND 6
 #define face_worm_NSTART 1
-#define face_worm_ABI 5
+#define face_worm_NANCHOR 30
+#define face_worm_NEAREST 3.814697265625e-06
+#define face_worm_ABI 6
 #define face_worm_SPEC_HASH "d1f643fedb7c351527d8a653e78b8c5fcbff41a9d30f800ad2b6a80a6a03dbc0"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -384,7 +393,19 @@ MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void face_worm_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
 {
     face_worm_sincos(a, sine, cosine);
@@ -4029,11 +4050,252 @@ static inline double face_worm_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t534), s[137], MW_FMA(MW_ABS(t542), 1.0, MW_FMA(MW_ABS(t533), 1.0, MW_FMA(MW_ABS(t556), s[137], MW_FMA(MW_ABS(t541), 1.0, MW_ABS(t548) * 1.0)))));
 }
 
+/* Residual R[face_worm_NX] at input angle phi and x[face_worm_NX], close to those at which face_worm_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * face_worm_NEAREST. */
+/* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
+ *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
+ *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles. */
+static inline double face_worm_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[1] * 0.5;
+    double s1, c1;
+    face_worm_near_sincos(t0, &s1, &c1, at + 0, &away);
+    const double t3 = x[4] * 0.5;
+    double s4, c4;
+    face_worm_near_sincos(t3, &s4, &c4, at + 3, &away);
+    const double t6 = x[2] * s[14];
+    double s7, c7;
+    face_worm_near_sincos(t6, &s7, &c7, at + 6, &away);
+    const double t9 = x[2] * s[19];
+    const double t10 = MW_FMA(phi, s[14], x[5]);  /* wheel angle */
+    const double t11 = phi * s[19];
+    const double t12 = MW_FMA(x[5], 0.5, t11);
+    double s13, c13;
+    face_worm_near_sincos(t9, &s13, &c13, at + 9, &away);
+    double s15, c15;  /* of wheel angle */
+    face_worm_near_sincos(t10, &s15, &c15, at + 12, &away);
+    double s17, c17;
+    face_worm_near_sincos(t12, &s17, &c17, at + 15, &away);
+    double s19, c19;  /* of theta_worm */
+    face_worm_near_sincos(x[1], &s19, &c19, at + 18, &away);
+    const double t21 = x[2] * (-0.5);
+    const double t22 = MW_FMA(phi, 0.5, t21);
+    const double t23 = phi - x[2];
+    double s24, c24;  /* of theta_gear */
+    face_worm_near_sincos(x[4], &s24, &c24, at + 21, &away);
+    double s26, c26;
+    face_worm_near_sincos(t23, &s26, &c26, at + 24, &away);
+    double s28, c28;
+    face_worm_near_sincos(t22, &s28, &c28, at + 27, &away);
+    const double t30 = x[0] * x[0];
+    const double t31 = x[0] * s[5];
+    const double t32 = MW_FMA(t30, s[6], t31);
+    const double t33 = s1 * s[9];
+    const double t34 = c1 * t33;
+    const double t35 = s1 * s1;
+    const double t36 = t35 * s[7];
+    const double t37 = x[3] * s[5];
+    const double t38 = x[0] * s[2];
+    const double t39 = MW_FNMA(t30, s[3], t38);
+    const double t40 = t37 * s24;
+    const double t41 = MW_FMA(t32, s19, t34);
+    const double t42 = c24 * t37;
+    const double t43 = MW_FMA(t32, c19, t36);
+    const double t44 = s[9] * s4;
+    const double t45 = MW_FMA(c4, t44, t40);
+    const double t46 = s4 * s4;
+    const double t47 = MW_FMA(s[7], t46, t42);
+    const double t48 = MW_FMS(x[0], s[33], s[2]);
+    const double t49 = s[17] * t41;
+    const double t50 = s[13] * t41;
+    const double t51 = s[10] * t41;
+    const double t52 = c19 * s[43];
+    const double t53 = t48 * t52;
+    const double t54 = s[17] * t45;
+    const double t55 = s[13] * t45;
+    const double t56 = s[10] * t45;
+    const double t57 = MW_FMA(s[16], t43, t49);
+    const double t58 = MW_FMA(s[12], t43, t50);
+    const double t59 = x[2] * x[2];
+    const double t60 = MW_FMA(x[0], s[35], s[5]);
+    const double t61 = MW_FMA(s[16], t47, t54);
+    const double t62 = MW_FMA(s[12], t47, t55);
+    const double t63 = MW_FMA(s[8], t47, t56);
+    const double t64 = MW_FMA(t60, s[42], t53);
+    const double t65 = MW_FMA(s[15], t39, t57);
+    const double t66 = MW_FMA(s[11], t39, t58);
+    const double t67 = c19 * s[40];
+    const double t68 = t48 * t67;
+    const double t69 = MW_FMA(x[3], s[26], t61);
+    const double t70 = MW_FMA(x[3], s[25], t62);
+    const double t71 = MW_FMA(x[3], s[23], t63);
+    const double t72 = s13 * s13;
+    const double t73 = t65 * c7;
+    const double t74 = MW_FMS(s7, t65, s[31]);
+    const double t75 = MW_FMA(t60, s[39], t68);
+    const double t76 = s19 * s[41];
+    const double t77 = MW_FMA(t48, t76, t64);
+    const double t78 = t69 * s15;
+    const double t79 = MW_FMA(t66, s7, s[51]);
+    const double t80 = MW_FMA(s[8], t43, t51);
+    const double t81 = t73 + t79;
+    const double t82 = MW_FMA(t66, s7, t73);
+    const double t83 = MW_FMA(s[4], t39, t80);
+    const double t84 = s13 * s[21];
+    const double t85 = MW_FMS(t70, c15, t78);
+    const double t86 = MW_FMS(t70, s15, s[30]);
+    const double t87 = MW_FMA(c15, t69, t86);
+    const double t88 = s17 * s17;
+    const double t89 = MW_FNMA(s[18], t59, t82);
+    const double t90 = MW_FNMA(s[18], t59, t81);
+    const double t91 = c19 * s[37];
+    const double t92 = t48 * t91;
+    const double t93 = MW_FNMA(t88, s[27], t85);
+    const double t94 = MW_FMA(s26, t83, t87);
+    const double t95 = s19 * s[38];
+    const double t96 = MW_FMA(t48, t95, t75);
+    const double t97 = MW_FNMA(t72, s[20], t89);
+    const double t98 = s19 * s[34];
+    const double t99 = MW_FMA(t60, s[36], t92);
+    const double t100 = MW_FNMA(t72, s[20], t90);
+    const double t101 = MW_FMA(c24, s[47], s[26]);
+    const double t102 = MW_FMA(s24, s[46], t101);
+    const double t103 = s[16] * s24;
+    const double t104 = MW_FMS(s[17], c24, t103);
+    const double t105 = MW_FNMA(c13, t84, t97);
+    const double t106 = MW_FNMA(c13, t84, t100);
+    const double t107 = MW_FMA(t48, t98, t99);
+    const double t108 = MW_FMA(s[8], t43, s[52]);
+    const double t109 = t51 + t108;
+    const double t110 = s[20] * s17;
+    const double t111 = MW_FNMA(c17, t110, t93);
+    const double t112 = c7 * t77;
+    const double t113 = MW_FMA(s7, t96, t112);
+    const double t114 = MW_FNMA(t105, c26, t94);
+    const double t115 = MW_FMS(t105, s26, s[22]);
+    const double t116 = MW_FMA(s[4], t39, t109);
+    const double t117 = MW_FMA(c24, s[45], s[25]);
+    const double t118 = MW_FMA(s24, s[44], t117);
+    const double t119 = MW_FMA(s[24], t111, t74);
+    const double t120 = MW_FMA(c24, s[49], s[23]);
+    const double t121 = MW_FMA(s24, s[48], t120);
+    const double t122 = MW_FNMA(t71, s[24], t115);
+    const double t123 = s[12] * s24;
+    const double t124 = MW_FMS(s[13], c24, t123);
+    const double t125 = t113 * t116;
+    const double t126 = MW_FNMA(t66, c7, t119);
+    const double t127 = s[8] * s24;
+    const double t128 = MW_FMS(s[10], c24, t127);
+    const double t129 = MW_FMA(t83, c26, t122);
+    const double t130 = s15 * t102;
+    const double t131 = MW_FMS(c15, t118, t130);
+    const double t132 = MW_FMS(t107, t106, t125);
+    const double t133 = c15 * t102;
+    const double t134 = MW_FNMA(t71, s[28], t126);
+    const double t135 = MW_FMA(s15, t118, t133);
+    const double t136 = s15 * t104;
+    const double t137 = MW_FNMA(t111, s[28], t129);
+    const double t138 = MW_FMS(c15, t124, t136);
+    const double t139 = c15 * t104;
+    const double t140 = MW_FMA(s15, t124, t139);
+    const double t141 = s28 * s28;
+    const double t142 = MW_FNMA(t72, s[21], t134);
+    const double t143 = MW_FMA(t141, s[0], t114);
+    const double t144 = s[28] * t121;
+    const double t145 = MW_FMA(t141, s[1], t137);
+    const double t146 = MW_FMS(s[24], t131, t144);
+    const double t147 = s[24] * t121;
+    const double t148 = MW_FMA(s[28], t131, t147);
+    const double t149 = MW_FNMA(s[20], t88, t143);
+    const double t150 = s7 * t77;
+    const double t151 = MW_FMS(c7, t96, t150);
+    const double t152 = s[14] * t96;
+    const double t153 = s[14] * t77;
+    const double t154 = s[28] * t128;
+    const double t155 = MW_FMS(s[24], t138, t154);
+    const double t156 = s[24] * t128;
+    const double t157 = MW_FMA(s[28], t138, t156);
+    const double t158 = t146 * t151;
+    const double t159 = MW_FMA(s[16], t43, s[50]);
+    const double t160 = t49 + t159;
+    const double t161 = MW_FMA(s[12], t43, s[54]);
+    const double t162 = t151 * t155;
+    const double t163 = t50 + t161;
+    const double t164 = s26 * t107;
+    const double t165 = c26 * t107;
+    const double t166 = MW_FMS(c26, t113, t164);
+    const double t167 = MW_FMA(s26, t113, t165);
+    const double t168 = MW_FMA(s[15], t39, t160);
+    const double t169 = MW_FMA(s[11], t39, t163);
+    const double t170 = x[2] * s[53];
+    const double t171 = MW_FNMA(t113, t170, t132);
+    const double t172 = MW_FMA(t166, t135, t158);
+    const double t173 = MW_FMA(t166, t140, t162);
+    const double t174 = s[21] * s17;
+    const double t175 = MW_FNMA(c17, t174, t149);
+    const double t176 = s28 * s[0];
+    const double t177 = MW_FMA(c28, t176, t145);  /* row 0 of the contact equations */
+    const double t178 = MW_FMA(t168, t152, t171);
+    const double t179 = s28 * s[29];
+    const double t180 = MW_FMA(t167, t148, t172);  /* row 3 of the contact equations */
+    const double t181 = MW_FMA(t167, t157, t173);  /* row 4 of the contact equations */
+    const double t182 = MW_FMA(c28, t179, t175);  /* row 1 of the contact equations */
+    const double t183 = s13 * s[32];
+    const double t184 = MW_FNMA(c13, t183, t142);  /* row 2 of the contact equations */
+    const double t185 = MW_FNMA(t169, t153, t178);  /* row 5 of the contact equations */
+    R[0] = t177;
+    R[1] = t182;
+    R[2] = t184;
+    R[3] = t180;
+    R[4] = t181;
+    R[5] = t185;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which face_worm_by_anchor reads sine and cosine, each with these: at[face_worm_NANCHOR]. */
+static inline void face_worm_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = phi * s[19];
+    const double t1 = MW_FMA(x[5], 0.5, t0);
+    const double t2 = x[2] * (-0.5);
+    const double t3 = MW_FMA(phi, 0.5, t2);
+    const double t4 = x[1] * 0.5;
+    const double t5 = x[4] * 0.5;
+    const double t6 = x[2] * s[14];
+    const double t7 = x[2] * s[19];
+    const double t8 = MW_FMA(phi, s[14], x[5]);
+    const double t9 = phi - x[2];
+    at[0] = t4;
+    face_worm_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t5;
+    face_worm_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t6;
+    face_worm_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t7;
+    face_worm_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t8;
+    face_worm_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t1;
+    face_worm_seldom_sincos(at[15], at + 16, at + 17);
+    at[18] = x[1];
+    face_worm_seldom_sincos(at[18], at + 19, at + 20);
+    at[21] = x[4];
+    face_worm_seldom_sincos(at[21], at + 22, at + 23);
+    at[24] = t9;
+    face_worm_seldom_sincos(at[24], at + 25, at + 26);
+    at[27] = t3;
+    face_worm_seldom_sincos(at[27], at + 28, at + 29);
+}
 
 /* Derivatives of the residual at input angle phi and x[face_worm_NX] along v[face_worm_NX + 1], a direction of (x, phi): the first,
  * d1[face_worm_NX], and unless d2 is NULL the second, d2[face_worm_NX]. Of the state only the design part is read. */
@@ -7857,7 +8119,8 @@ static const mw_model face_worm_model = {
     5, 18, -1, 42,
     face_worm_unknown_names, face_worm_parameter_names, face_worm_size_names,
     face_worm_output_names, 26, face_worm_output_sizes, face_worm_guard_texts, face_worm_bodies,
-    face_worm_derive, face_worm_size, face_worm_setup, face_worm_set_phi, face_worm_eval, face_worm_step, face_worm_along,
+    face_worm_derive, face_worm_size, face_worm_setup, face_worm_set_phi, face_worm_eval, face_worm_step,
+    face_worm_NANCHOR, face_worm_NEAREST, face_worm_anchor, face_worm_by_anchor, face_worm_along,
     face_worm_guess, face_worm_start_scale, face_worm_start_eval, face_worm_start_solution, face_worm_observe, face_worm_scale,
     3, face_worm_systems, 2, face_worm_regions,
     10, face_worm_functions, MW_KERNELS
@@ -7921,6 +8184,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

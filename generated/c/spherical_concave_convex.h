@@ -41,7 +41,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -120,6 +120,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -165,8 +172,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -193,7 +200,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -203,7 +210,9 @@ typedef struct mw_contact {
 #define spherical_concave_convex_NO 63
 #define spherical_concave_convex_ND 16
 #define spherical_concave_convex_NSTART 0
-#define spherical_concave_convex_ABI 5
+#define spherical_concave_convex_NANCHOR 18
+#define spherical_concave_convex_NEAREST 3.814697265625e-06
+#define spherical_concave_convex_ABI 6
 #define spherical_concave_convex_SPEC_HASH "bd7b1568bec9922855e59cebff245c85e9bbba365458cf19525d105321237181"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -355,7 +364,19 @@ MW_INLINE void spherical_concave_convex_sincos(double a, double *sine, double *c
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void spherical_concave_convex_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void spherical_concave_convex_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_concave_convex_sincos(a, sine, cosine);
@@ -1660,11 +1681,185 @@ static inline double spherical_concave_convex_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t304), s[79], MW_FMA(MW_ABS(t296), s[80], MW_FMA(MW_ABS(t310), s[79], MW_FMA(MW_ABS(t291), s[81], MW_ABS(t313) * 1.0))));
 }
 
+/* Residual R[spherical_concave_convex_NX] at input angle phi and x[spherical_concave_convex_NX], close to those at which spherical_concave_convex_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * spherical_concave_convex_NEAREST. */
+/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
+ *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
+ *   cylindrical_worm/contact, derivation/angles. */
+static inline double spherical_concave_convex_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[1] * 0.5;
+    const double t1 = x[3] * 0.5;
+    double s2, c2;
+    spherical_concave_convex_near_sincos(t0, &s2, &c2, at + 0, &away);
+    double s4, c4;
+    spherical_concave_convex_near_sincos(t1, &s4, &c4, at + 3, &away);
+    double s6, c6;  /* of theta_pinion */
+    spherical_concave_convex_near_sincos(x[1], &s6, &c6, at + 6, &away);
+    double s8, c8;  /* of theta_wheel */
+    spherical_concave_convex_near_sincos(x[3], &s8, &c8, at + 9, &away);
+    const double t10 = MW_FMS(x[0], s[1], s[11]);
+    const double t11 = MW_FMS(x[2], s[1], s[2]);
+    const double t12 = s2 * s2;
+    const double t13 = s4 * s4;
+    const double t14 = MW_FNMA(x[2], s[6], s[7]);
+    const double t15 = MW_FNMA(x[0], s[6], s[17]);
+    const double t16 = s[8] * t14;
+    const double t17 = MW_FMA(phi, s[93], s[75]);
+    const double t18 = x[4] + t17;
+    const double t19 = phi + s[74];
+    const double t20 = s[13] * t14;
+    const double t21 = s[13] * t15;
+    const double t22 = s2 * s[10];
+    const double t23 = s4 * s[0];
+    const double t24 = MW_FMA(t10, c6, s[15]);
+    const double t25 = c6 * s[8];
+    const double t26 = t10 * s6;
+    const double t27 = s[1] * c6;
+    const double t28 = s6 * s[25];
+    const double t29 = s6 * s[27];
+    const double t30 = c6 * s[20];
+    const double t31 = c6 * s[12];
+    const double t32 = MW_FMA(t12, s[10], t24);
+    const double t33 = MW_FMS(c2, t22, t26);
+    const double t34 = MW_FMA(t32, s[4], s[16]);
+    const double t35 = s[20] * t33;
+    const double t36 = MW_FNMA(t15, t25, t34);
+    const double t37 = t36 * s[18];
+    const double t38 = t37 / c6;  /* phi_gen_pinion: turn of the pinion in generation */
+    const double t39 = MW_FMA(c8, t11, s[3]);
+    const double t40 = c8 * s[26];
+    const double t41 = s8 * s[26];
+    const double t42 = MW_FMA(t13, s[0], t39);
+    const double t43 = MW_FMA(s[4], t42, s[5]);
+    const double t44 = MW_FNMA(c8, t16, t43);
+    const double t45 = t44 * s[9];
+    const double t46 = t45 / c8;  /* phi_gen_wheel: turn of the wheel in generation */
+    const double t47 = t38 + t19;
+    const double t48 = MW_FMA(t38, s[19], t21);
+    double s49, c49;
+    spherical_concave_convex_near_sincos(t47, &s49, &c49, at + 12, &away);
+    const double t51 = t18 - t46;
+    const double t52 = MW_FMA(t46, s[14], t20);
+    double s53, c53;
+    spherical_concave_convex_near_sincos(t51, &s53, &c53, at + 15, &away);
+    const double t55 = t48 * s49;
+    const double t56 = t32 * s49;
+    const double t57 = c49 * s[24];
+    const double t58 = c49 * t27;
+    const double t59 = c49 * s[12];
+    const double t60 = s49 * s[22];
+    const double t61 = c49 * s[20];
+    const double t62 = s49 * s[23];
+    const double t63 = MW_FMS(t32, c49, t55);
+    const double t64 = MW_FMA(c49, t48, t56);
+    const double t65 = MW_FMS(s49, t27, t57);
+    const double t66 = MW_FMA(s49, s[24], t58);
+    const double t67 = MW_FNMA(s6, t59, t30);
+    const double t68 = MW_FMA(s6, t61, t31);
+    const double t69 = s6 * t60;
+    const double t70 = s6 * t62;
+    const double t71 = MW_FNMA(t63, s[12], t35);
+    const double t72 = MW_FMA(t63, s[20], s[21]);
+    const double t73 = MW_FMA(s[12], t66, t28);
+    const double t74 = MW_FMS(s[20], t66, t29);
+    const double t75 = MW_FNMA(s[23], t67, t69);
+    const double t76 = MW_FMA(s[22], t67, t70);
+    const double t77 = t64 * s[23];
+    const double t78 = s[22] * t65;
+    const double t79 = MW_FMA(s[22], t71, t77);
+    const double t80 = s[23] * t65;
+    const double t81 = MW_FMA(s[23], t73, t78);
+    const double t82 = MW_FNMA(s[22], t73, t80);
+    const double t83 = MW_FNMA(t11, s8, t79);
+    const double t84 = MW_FMA(c4, t23, t83);  /* row 2 of the contact equations */
+    const double t85 = MW_FMA(t52, s53, t72);
+    const double t86 = t52 * c53;
+    const double t87 = c53 * t40;
+    const double t88 = s[4] * c53;
+    const double t89 = MW_FMA(t64, s[22], t86);
+    const double t90 = MW_FMS(s53, t40, t88);
+    const double t91 = MW_FMA(t33, s[12], t85);
+    const double t92 = MW_FMA(s[4], s53, t87);
+    const double t93 = MW_FNMA(t71, s[23], t89);
+    const double t94 = t74 * t92;
+    const double t95 = t92 * t68;
+    const double t96 = MW_FMA(t42, c53, t91);  /* row 0 of the contact equations */
+    const double t97 = MW_FNMA(t42, s53, t93);  /* row 1 of the contact equations */
+    const double t98 = MW_FMS(t81, t90, t94);
+    const double t99 = MW_FMS(t90, t75, t95);
+    const double t100 = MW_FMA(t82, t41, t98);  /* row 3 of the contact equations */
+    const double t101 = MW_FMA(t41, t76, t99);  /* row 4 of the contact equations */
+    R[0] = t96;
+    R[1] = t97;
+    R[2] = t84;
+    R[3] = t100;
+    R[4] = t101;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which spherical_concave_convex_by_anchor reads sine and cosine, each with these: at[spherical_concave_convex_NANCHOR]. */
+static inline void spherical_concave_convex_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[1] * 0.5;
+    const double t1 = x[3] * 0.5;
+    double s2, c2;
+    spherical_concave_convex_seldom_sincos(t0, &s2, &c2);
+    double s4, c4;
+    spherical_concave_convex_seldom_sincos(x[1], &s4, &c4);
+    double s6, c6;
+    spherical_concave_convex_seldom_sincos(t1, &s6, &c6);
+    double s8, c8;
+    spherical_concave_convex_seldom_sincos(x[3], &s8, &c8);
+    const double t10 = s2 * s2;
+    const double t11 = MW_FMS(x[0], s[1], s[11]);
+    const double t12 = MW_FMA(t11, c4, s[15]);
+    const double t13 = MW_FMS(x[2], s[1], s[2]);
+    const double t14 = MW_FNMA(x[2], s[6], s[7]);
+    const double t15 = s[8] * t14;
+    const double t16 = MW_FNMA(x[0], s[6], s[17]);
+    const double t17 = c4 * s[8];
+    const double t18 = MW_FMA(phi, s[93], s[75]);
+    const double t19 = MW_FMA(t10, s[10], t12);
+    const double t20 = x[4] + t18;
+    const double t21 = phi + s[74];
+    const double t22 = s6 * s6;
+    const double t23 = MW_FMA(t19, s[4], s[16]);
+    const double t24 = MW_FNMA(t16, t17, t23);
+    const double t25 = t24 * s[18];
+    const double t26 = t25 / c4;
+    const double t27 = MW_FMA(c8, t13, s[3]);
+    const double t28 = MW_FMA(t22, s[0], t27);
+    const double t29 = MW_FMA(s[4], t28, s[5]);
+    const double t30 = MW_FNMA(c8, t15, t29);
+    const double t31 = t26 + t21;
+    const double t32 = t30 * s[9];
+    const double t33 = t32 / c8;
+    const double t34 = t20 - t33;
+    at[0] = t0;
+    spherical_concave_convex_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t1;
+    spherical_concave_convex_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[1];
+    spherical_concave_convex_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = x[3];
+    spherical_concave_convex_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t31;
+    spherical_concave_convex_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t34;
+    spherical_concave_convex_seldom_sincos(at[15], at + 16, at + 17);
+}
 
 /* Derivatives of the residual at input angle phi and x[spherical_concave_convex_NX] along v[spherical_concave_convex_NX + 1], a direction of (x, phi): the first,
  * d1[spherical_concave_convex_NX], and unless d2 is NULL the second, d2[spherical_concave_convex_NX]. Of the state only the design part is read. */
@@ -4564,7 +4759,8 @@ static const mw_model spherical_concave_convex_model = {
     4, 18, -1, 43,
     spherical_concave_convex_unknown_names, spherical_concave_convex_parameter_names, spherical_concave_convex_size_names,
     spherical_concave_convex_output_names, 31, spherical_concave_convex_output_sizes, spherical_concave_convex_guard_texts, spherical_concave_convex_bodies,
-    spherical_concave_convex_derive, spherical_concave_convex_size, spherical_concave_convex_setup, spherical_concave_convex_set_phi, spherical_concave_convex_eval, spherical_concave_convex_step, spherical_concave_convex_along,
+    spherical_concave_convex_derive, spherical_concave_convex_size, spherical_concave_convex_setup, spherical_concave_convex_set_phi, spherical_concave_convex_eval, spherical_concave_convex_step,
+    spherical_concave_convex_NANCHOR, spherical_concave_convex_NEAREST, spherical_concave_convex_anchor, spherical_concave_convex_by_anchor, spherical_concave_convex_along,
     spherical_concave_convex_guess, spherical_concave_convex_start_scale, spherical_concave_convex_start_eval, spherical_concave_convex_start_solution, spherical_concave_convex_observe, spherical_concave_convex_scale,
     0, NULL, 2, spherical_concave_convex_regions,
     7, spherical_concave_convex_functions, MW_KERNELS
@@ -4628,6 +4824,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

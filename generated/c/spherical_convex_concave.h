@@ -41,7 +41,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -120,6 +120,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -165,8 +172,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -193,7 +200,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -203,7 +210,9 @@ typedef struct mw_contact {
 #define spherical_convex_concave_NO 63
 #define spherical_convex_concave_ND 16
 #define spherical_convex_concave_NSTART 0
-#define spherical_convex_concave_ABI 5
+#define spherical_convex_concave_NANCHOR 18
+#define spherical_convex_concave_NEAREST 3.814697265625e-06
+#define spherical_convex_concave_ABI 6
 #define spherical_convex_concave_SPEC_HASH "9d1fce2ea180bacda2bc30d425a8bd2a9e3f683df4f679c0834f5a18864d6d09"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -355,7 +364,19 @@ MW_INLINE void spherical_convex_concave_sincos(double a, double *sine, double *c
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void spherical_convex_concave_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void spherical_convex_concave_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_convex_concave_sincos(a, sine, cosine);
@@ -1652,11 +1673,186 @@ static inline double spherical_convex_concave_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t293), s[80], MW_FMA(MW_ABS(t285), s[81], MW_FMA(MW_ABS(t304), s[80], MW_FMA(MW_ABS(t291), s[82], MW_ABS(t307) * 1.0))));
 }
 
+/* Residual R[spherical_convex_concave_NX] at input angle phi and x[spherical_convex_concave_NX], close to those at which spherical_convex_concave_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * spherical_convex_concave_NEAREST. */
+/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
+ *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
+ *   cylindrical_worm/contact, derivation/angles. */
+static inline double spherical_convex_concave_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[1] * 0.5;
+    const double t1 = x[3] * 0.5;
+    double s2, c2;
+    spherical_convex_concave_near_sincos(t0, &s2, &c2, at + 0, &away);
+    double s4, c4;
+    spherical_convex_concave_near_sincos(t1, &s4, &c4, at + 3, &away);
+    double s6, c6;  /* of theta_pinion */
+    spherical_convex_concave_near_sincos(x[1], &s6, &c6, at + 6, &away);
+    double s8, c8;  /* of theta_wheel */
+    spherical_convex_concave_near_sincos(x[3], &s8, &c8, at + 9, &away);
+    const double t10 = MW_FMS(x[0], s[1], s[13]);
+    const double t11 = MW_FMS(x[2], s[1], s[2]);
+    const double t12 = s2 * s2;
+    const double t13 = s4 * s4;
+    const double t14 = MW_FNMA(x[2], s[6], s[7]);
+    const double t15 = MW_FNMA(x[0], s[6], s[16]);
+    const double t16 = s[8] * t14;
+    const double t17 = MW_FMA(phi, s[94], s[76]);
+    const double t18 = x[4] + t17;
+    const double t19 = phi + s[75];
+    const double t20 = s[10] * t14;
+    const double t21 = s[10] * t15;
+    const double t22 = c2 * s[20];
+    const double t23 = s4 * s[25];
+    const double t24 = MW_FMA(t10, c6, s[14]);
+    const double t25 = c6 * s[8];
+    const double t26 = t10 * s6;
+    const double t27 = s[1] * c6;
+    const double t28 = c6 * s[19];
+    const double t29 = s6 * s[21];
+    const double t30 = s[21] * c6;
+    const double t31 = s6 * s[19];
+    const double t32 = MW_FMA(t12, s[12], t24);
+    const double t33 = MW_FMA(s2, t22, t26);
+    const double t34 = s6 * s[23];
+    const double t35 = s6 * s[27];
+    const double t36 = s6 * s[29];
+    const double t37 = s6 * s[24];
+    const double t38 = MW_FMA(t32, s[4], s[15]);
+    const double t39 = t33 * s[19];
+    const double t40 = MW_FMA(t33, s[21], s[22]);
+    const double t41 = MW_FNMA(t15, t25, t38);
+    const double t42 = t41 * s[17];
+    const double t43 = t42 / c6;  /* phi_gen_pinion: turn of the pinion in generation */
+    const double t44 = MW_FMA(c8, t11, s[3]);
+    const double t45 = t11 * s8;
+    const double t46 = c8 * s[28];
+    const double t47 = s8 * s[28];
+    const double t48 = MW_FMA(t13, s[0], t44);
+    const double t49 = MW_FMA(s[4], t48, s[5]);
+    const double t50 = MW_FNMA(c8, t16, t49);
+    const double t51 = t50 * s[9];
+    const double t52 = t51 / c8;  /* phi_gen_wheel: turn of the wheel in generation */
+    const double t53 = t43 + t19;
+    const double t54 = MW_FMA(t43, s[18], t21);
+    double s55, c55;
+    spherical_convex_concave_near_sincos(t53, &s55, &c55, at + 12, &away);
+    const double t57 = t18 - t52;
+    const double t58 = MW_FMA(t52, s[11], t20);
+    double s59, c59;
+    spherical_convex_concave_near_sincos(t57, &s59, &c59, at + 15, &away);
+    const double t61 = MW_FMA(c55, t29, t28);
+    const double t62 = MW_FNMA(c55, t31, t30);
+    const double t63 = s55 * t34;
+    const double t64 = s55 * t37;
+    const double t65 = t54 * s55;
+    const double t66 = c55 * s[26];
+    const double t67 = c55 * t27;
+    const double t68 = t32 * s55;
+    const double t69 = MW_FMS(t32, c55, t65);
+    const double t70 = MW_FMS(s55, t27, t66);
+    const double t71 = MW_FMA(c55, t54, t68);
+    const double t72 = MW_FMA(s55, s[26], t67);
+    const double t73 = MW_FMA(s[24], t61, t63);
+    const double t74 = MW_FMS(s[23], t61, t64);
+    const double t75 = MW_FNMA(s[21], t69, t39);
+    const double t76 = MW_FMA(t69, s[19], t40);
+    const double t77 = MW_FNMA(s[21], t72, t35);
+    const double t78 = MW_FMA(s[19], t72, t36);
+    const double t79 = s[23] * t70;
+    const double t80 = s[24] * t70;
+    const double t81 = MW_FMA(s[23], t75, t45);
+    const double t82 = MW_FNMA(s[24], t77, t79);
+    const double t83 = MW_FMA(s[23], t77, t80);
+    const double t84 = MW_FMA(t71, s[24], t81);
+    const double t85 = MW_FMA(c4, t23, t84);  /* row 2 of the contact equations */
+    const double t86 = MW_FMA(t58, s59, t76);
+    const double t87 = t58 * c59;
+    const double t88 = c59 * t46;
+    const double t89 = s[4] * c59;
+    const double t90 = MW_FMS(s59, t46, t89);
+    const double t91 = MW_FMA(t71, s[23], t87);
+    const double t92 = MW_FMA(s[4], s59, t88);
+    const double t93 = MW_FMA(t48, c59, t86);  /* row 0 of the contact equations */
+    const double t94 = MW_FNMA(t75, s[24], t91);
+    const double t95 = t92 * t62;
+    const double t96 = t78 * t92;
+    const double t97 = MW_FNMA(t48, s59, t94);  /* row 1 of the contact equations */
+    const double t98 = MW_FMA(t90, t73, t95);
+    const double t99 = MW_FMS(t82, t90, t96);
+    const double t100 = MW_FMA(t47, t74, t98);
+    const double t101 = MW_FNMA(t83, t47, t99);  /* row 3 of the contact equations */
+    const double t102 = -t100;  /* row 4 of the contact equations */
+    R[0] = t93;
+    R[1] = t97;
+    R[2] = t85;
+    R[3] = t101;
+    R[4] = t102;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which spherical_convex_concave_by_anchor reads sine and cosine, each with these: at[spherical_convex_concave_NANCHOR]. */
+static inline void spherical_convex_concave_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[1] * 0.5;
+    const double t1 = x[3] * 0.5;
+    double s2, c2;
+    spherical_convex_concave_seldom_sincos(t0, &s2, &c2);
+    double s4, c4;
+    spherical_convex_concave_seldom_sincos(x[1], &s4, &c4);
+    double s6, c6;
+    spherical_convex_concave_seldom_sincos(t1, &s6, &c6);
+    double s8, c8;
+    spherical_convex_concave_seldom_sincos(x[3], &s8, &c8);
+    const double t10 = s2 * s2;
+    const double t11 = MW_FMS(x[0], s[1], s[13]);
+    const double t12 = MW_FMA(t11, c4, s[14]);
+    const double t13 = MW_FMS(x[2], s[1], s[2]);
+    const double t14 = MW_FNMA(x[2], s[6], s[7]);
+    const double t15 = s[8] * t14;
+    const double t16 = MW_FNMA(x[0], s[6], s[16]);
+    const double t17 = c4 * s[8];
+    const double t18 = MW_FMA(phi, s[94], s[76]);
+    const double t19 = MW_FMA(t10, s[12], t12);
+    const double t20 = x[4] + t18;
+    const double t21 = phi + s[75];
+    const double t22 = s6 * s6;
+    const double t23 = MW_FMA(t19, s[4], s[15]);
+    const double t24 = MW_FNMA(t16, t17, t23);
+    const double t25 = t24 * s[17];
+    const double t26 = t25 / c4;
+    const double t27 = MW_FMA(c8, t13, s[3]);
+    const double t28 = MW_FMA(t22, s[0], t27);
+    const double t29 = MW_FMA(s[4], t28, s[5]);
+    const double t30 = MW_FNMA(c8, t15, t29);
+    const double t31 = t26 + t21;
+    const double t32 = t30 * s[9];
+    const double t33 = t32 / c8;
+    const double t34 = t20 - t33;
+    at[0] = t0;
+    spherical_convex_concave_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = t1;
+    spherical_convex_concave_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = x[1];
+    spherical_convex_concave_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = x[3];
+    spherical_convex_concave_seldom_sincos(at[9], at + 10, at + 11);
+    at[12] = t31;
+    spherical_convex_concave_seldom_sincos(at[12], at + 13, at + 14);
+    at[15] = t34;
+    spherical_convex_concave_seldom_sincos(at[15], at + 16, at + 17);
+}
 
 /* Derivatives of the residual at input angle phi and x[spherical_convex_concave_NX] along v[spherical_convex_concave_NX + 1], a direction of (x, phi): the first,
  * d1[spherical_convex_concave_NX], and unless d2 is NULL the second, d2[spherical_convex_concave_NX]. Of the state only the design part is read. */
@@ -4555,7 +4751,8 @@ static const mw_model spherical_convex_concave_model = {
     4, 18, -1, 43,
     spherical_convex_concave_unknown_names, spherical_convex_concave_parameter_names, spherical_convex_concave_size_names,
     spherical_convex_concave_output_names, 31, spherical_convex_concave_output_sizes, spherical_convex_concave_guard_texts, spherical_convex_concave_bodies,
-    spherical_convex_concave_derive, spherical_convex_concave_size, spherical_convex_concave_setup, spherical_convex_concave_set_phi, spherical_convex_concave_eval, spherical_convex_concave_step, spherical_convex_concave_along,
+    spherical_convex_concave_derive, spherical_convex_concave_size, spherical_convex_concave_setup, spherical_convex_concave_set_phi, spherical_convex_concave_eval, spherical_convex_concave_step,
+    spherical_convex_concave_NANCHOR, spherical_convex_concave_NEAREST, spherical_convex_concave_anchor, spherical_convex_concave_by_anchor, spherical_convex_concave_along,
     spherical_convex_concave_guess, spherical_convex_concave_start_scale, spherical_convex_concave_start_eval, spherical_convex_concave_start_solution, spherical_convex_concave_observe, spherical_convex_concave_scale,
     0, NULL, 2, spherical_convex_concave_regions,
     7, spherical_convex_concave_functions, MW_KERNELS
@@ -4619,6 +4816,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

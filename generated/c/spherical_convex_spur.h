@@ -41,7 +41,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 5
+#define MW_MODEL_ABI 6
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -120,6 +120,13 @@ typedef struct mw_model {
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
+    /* The residual once more, for points close together: anchor() writes at[nanchor] of one; by_anchor() gives R at another
+     * by that and returns how far it is away: where no more than `nearest`, R is as exact as of eval(). s: set up, any angle.
+     * NULL where a table has neither. */
+    int nanchor;
+    double nearest;
+    void (*anchor)(const double *s, double phi, const double *x, double *at);
+    double (*by_anchor)(const double *s, const double *at, double phi, const double *x, double *R);
     /* first and, unless d2 is NULL, second derivative of R along v[nx + 1], a direction of (x, phi); s: set up, any angle */
     void (*along)(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
     void (*guess)(const double *s, double *y);
@@ -165,8 +172,8 @@ typedef enum mw_status {
 
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no and np of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
@@ -193,7 +200,7 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 5
+#if MW_MODEL_ABI != 6
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
@@ -203,7 +210,9 @@ typedef struct mw_contact {
 #define spherical_convex_spur_NO 63
 #define spherical_convex_spur_ND 16
 #define spherical_convex_spur_NSTART 0
-#define spherical_convex_spur_ABI 5
+#define spherical_convex_spur_NANCHOR 12
+#define spherical_convex_spur_NEAREST 3.814697265625e-06
+#define spherical_convex_spur_ABI 6
 #define spherical_convex_spur_SPEC_HASH "5389af9d65a086deda9f675fffc6f5633021421b56759e6e7cb2fd4f43205910"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -354,7 +363,19 @@ MW_INLINE void spherical_convex_spur_sincos(double a, double *sine, double *cosi
     *cosine = c.number;
 }
 
-/* The same, called instead of written out in place, for all but the steps that solve for a contact. */
+/* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
+ * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
+MW_INLINE void spherical_convex_spur_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+{
+    const double r = a - at[0], z = r * r;
+    const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
+    const double v = z * MW_FNMA(z, 0.041666666666666664, 0.5);
+    *sine = at[1] + MW_FMS(at[2], u, at[1] * v);
+    *cosine = at[2] - MW_FMA(at[1], u, at[2] * v);
+    *away += z;
+}
+
+/* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
 MW_CALLED void spherical_convex_spur_seldom_sincos(double a, double *sine, double *cosine)
 {
     spherical_convex_spur_sincos(a, sine, cosine);
@@ -1441,11 +1462,148 @@ static inline double spherical_convex_spur_step(const double *s, double *x)
     return MW_FMA(MW_ABS(t197), s[78], MW_FMA(MW_ABS(t186), s[79], MW_FMA(MW_ABS(t205), s[78], MW_FMA(MW_ABS(t204), s[80], MW_ABS(t206) * 1.0))));
 }
 
+/* Residual R[spherical_convex_spur_NX] at input angle phi and x[spherical_convex_spur_NX], close to those at which spherical_convex_spur_anchor wrote at[]. Of the state only the
+ * design part is read. Returns how far angles are from theirs, the sum of squares: R holds where that is no more than
+ * spherical_convex_spur_NEAREST. */
+/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
+ *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
+ *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
+ *   cylindrical_worm/contact, derivation/angles. */
+static inline double spherical_convex_spur_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+{
+    double away = 0.0;
+    (void)at, (void)phi;
+    const double t0 = x[1] * 0.5;
+    double s1, c1;
+    spherical_convex_spur_near_sincos(t0, &s1, &c1, at + 0, &away);
+    double s3, c3;  /* of theta_pinion */
+    spherical_convex_spur_near_sincos(x[1], &s3, &c3, at + 3, &away);
+    const double t5 = MW_FMS(x[0], s[0], s[11]);
+    const double t6 = MW_FNMA(x[0], s[4], s[14]);
+    const double t7 = MW_FMA(x[2], s[0], s[1]);
+    const double t8 = MW_FMA(phi, s[92], s[74]);
+    const double t9 = x[4] + t8;
+    const double t10 = MW_FMA(s[2], t7, s[3]);
+    const double t11 = MW_FNMA(x[2], s[4], s[5]);
+    const double t12 = phi + s[73];
+    const double t13 = s[8] * t6;
+    const double t14 = s[8] * t11;
+    const double t15 = MW_FNMA(s[6], t11, t10);
+    const double t16 = MW_FNMA(t15, s[7], t9);
+    const double t17 = MW_FMA(t15, s[9], t14);
+    const double t18 = s1 * s1;
+    const double t19 = c1 * s[18];
+    double s20, c20;
+    spherical_convex_spur_near_sincos(t16, &s20, &c20, at + 6, &away);
+    const double t22 = MW_FMA(t5, c3, s[12]);
+    const double t23 = MW_FMA(t18, s[10], t22);
+    const double t24 = c3 * s[6];
+    const double t25 = t5 * s3;
+    const double t26 = MW_FMA(s1, t19, t25);
+    const double t27 = s[0] * c3;
+    const double t28 = s[19] * c3;
+    const double t29 = s3 * s[17];
+    const double t30 = MW_FMA(t23, s[2], s[13]);
+    const double t31 = c3 * s[17];
+    const double t32 = s3 * s[19];
+    const double t33 = s3 * s[21];
+    const double t34 = MW_FMA(t26, s[19], s[20]);
+    const double t35 = t26 * s[17];
+    const double t36 = s3 * s[24];
+    const double t37 = s3 * s[26];
+    const double t38 = MW_FNMA(t6, t24, t30);
+    const double t39 = t38 * s[15];
+    const double t40 = t39 / c3;  /* phi_gen_pinion: turn of the pinion in generation */
+    const double t41 = s[2] * s20;
+    const double t42 = t17 * c20;
+    const double t43 = s[2] * c20;
+    const double t44 = MW_FMA(c20, s[25], t41);
+    const double t45 = MW_FMS(s20, s[25], t43);
+    const double t46 = t40 + t12;
+    const double t47 = MW_FMA(t40, s[16], t13);
+    double s48, c48;
+    spherical_convex_spur_near_sincos(t46, &s48, &c48, at + 9, &away);
+    const double t50 = MW_FNMA(c48, t29, t28);
+    const double t51 = MW_FMA(c48, t32, t31);
+    const double t52 = s48 * t33;
+    const double t53 = t47 * s48;
+    const double t54 = t23 * s48;
+    const double t55 = c48 * s[23];
+    const double t56 = c48 * t27;
+    const double t57 = MW_FMS(t23, c48, t53);
+    const double t58 = MW_FMA(c48, t47, t54);
+    const double t59 = MW_FMS(s48, t27, t55);
+    const double t60 = MW_FMA(s48, s[23], t56);
+    const double t61 = MW_FMA(s[22], t51, t52);
+    const double t62 = t44 * t50;
+    const double t63 = MW_FMA(t45, t61, t62);
+    const double t64 = MW_FMA(t57, s[17], t34);
+    const double t65 = MW_FNMA(s[19], t57, t35);
+    const double t66 = MW_FMA(t58, s[21], t42);
+    const double t67 = s[21] * t59;
+    const double t68 = MW_FNMA(s[19], t60, t36);
+    const double t69 = MW_FMA(s[17], t60, t37);
+    const double t70 = MW_FMA(t17, s20, t64);
+    const double t71 = MW_FNMA(s[22], t68, t67);
+    const double t72 = t69 * t44;
+    const double t73 = MW_FNMA(t65, s[22], t66);
+    const double t74 = MW_FMS(s[21], t65, x[3]);
+    const double t75 = -t63;  /* row 4 of the contact equations */
+    const double t76 = MW_FMS(t71, t45, t72);  /* row 3 of the contact equations */
+    const double t77 = MW_FMA(t58, s[22], t74);  /* row 2 of the contact equations */
+    const double t78 = MW_FMA(t7, c20, t70);  /* row 0 of the contact equations */
+    const double t79 = MW_FNMA(t7, s20, t73);  /* row 1 of the contact equations */
+    R[0] = t78;
+    R[1] = t79;
+    R[2] = t77;
+    R[3] = t76;
+    R[4] = t75;
+    return away;
+}
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 /* Straight-line code, seldom called: what more than this would gain is not worth the compiler's time. */
 #pragma GCC push_options
 #pragma GCC optimize("O1")
 #endif
+
+/* The angles at phi and x of which spherical_convex_spur_by_anchor reads sine and cosine, each with these: at[spherical_convex_spur_NANCHOR]. */
+static inline void spherical_convex_spur_anchor(const double *s, double phi, const double *x, double *at)
+{
+    (void)s, (void)phi, (void)x, (void)at;
+    const double t0 = x[1] * 0.5;
+    double s1, c1;
+    spherical_convex_spur_seldom_sincos(t0, &s1, &c1);
+    double s3, c3;
+    spherical_convex_spur_seldom_sincos(x[1], &s3, &c3);
+    const double t5 = MW_FMS(x[0], s[0], s[11]);
+    const double t6 = MW_FNMA(x[0], s[4], s[14]);
+    const double t7 = MW_FMA(x[2], s[0], s[1]);
+    const double t8 = MW_FMA(s[2], t7, s[3]);
+    const double t9 = MW_FMA(phi, s[92], s[74]);
+    const double t10 = x[4] + t9;
+    const double t11 = MW_FNMA(x[2], s[4], s[5]);
+    const double t12 = phi + s[73];
+    const double t13 = MW_FNMA(s[6], t11, t8);
+    const double t14 = MW_FNMA(t13, s[7], t10);
+    const double t15 = s1 * s1;
+    const double t16 = MW_FMA(t5, c3, s[12]);
+    const double t17 = c3 * s[6];
+    const double t18 = MW_FMA(t15, s[10], t16);
+    const double t19 = MW_FMA(t18, s[2], s[13]);
+    const double t20 = MW_FNMA(t6, t17, t19);
+    const double t21 = t20 * s[15];
+    const double t22 = t21 / c3;
+    const double t23 = t22 + t12;
+    at[0] = t0;
+    spherical_convex_spur_seldom_sincos(at[0], at + 1, at + 2);
+    at[3] = x[1];
+    spherical_convex_spur_seldom_sincos(at[3], at + 4, at + 5);
+    at[6] = t14;
+    spherical_convex_spur_seldom_sincos(at[6], at + 7, at + 8);
+    at[9] = t23;
+    spherical_convex_spur_seldom_sincos(at[9], at + 10, at + 11);
+}
 
 /* Derivatives of the residual at input angle phi and x[spherical_convex_spur_NX] along v[spherical_convex_spur_NX + 1], a direction of (x, phi): the first,
  * d1[spherical_convex_spur_NX], and unless d2 is NULL the second, d2[spherical_convex_spur_NX]. Of the state only the design part is read. */
@@ -3759,7 +3917,8 @@ static const mw_model spherical_convex_spur_model = {
     4, 18, -1, 43,
     spherical_convex_spur_unknown_names, spherical_convex_spur_parameter_names, spherical_convex_spur_size_names,
     spherical_convex_spur_output_names, 31, spherical_convex_spur_output_sizes, spherical_convex_spur_guard_texts, spherical_convex_spur_bodies,
-    spherical_convex_spur_derive, spherical_convex_spur_size, spherical_convex_spur_setup, spherical_convex_spur_set_phi, spherical_convex_spur_eval, spherical_convex_spur_step, spherical_convex_spur_along,
+    spherical_convex_spur_derive, spherical_convex_spur_size, spherical_convex_spur_setup, spherical_convex_spur_set_phi, spherical_convex_spur_eval, spherical_convex_spur_step,
+    spherical_convex_spur_NANCHOR, spherical_convex_spur_NEAREST, spherical_convex_spur_anchor, spherical_convex_spur_by_anchor, spherical_convex_spur_along,
     spherical_convex_spur_guess, spherical_convex_spur_start_scale, spherical_convex_spur_start_eval, spherical_convex_spur_start_solution, spherical_convex_spur_observe, spherical_convex_spur_scale,
     0, NULL, 2, spherical_convex_spur_regions,
     7, spherical_convex_spur_functions, MW_KERNELS
@@ -3823,6 +3982,7 @@ static inline int mwi_usable(const mw_model *m)
 {
     if (m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
+    if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 static inline int mwi_angle_in_range(double phi)

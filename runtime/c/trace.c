@@ -50,27 +50,28 @@ static void by_walk(trace *t, size_t k)
     if (mwi_by_walk(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
 }
 
-/* Solve for phi by a step from its prediction with the inverse Jacobian of a point before or, where that is not enough, of
- * its own. Returns 0 where neither does. */
-static int by_chord(trace *t, double phi, double *x, mw_info *info)
+/* Solve as many points from number k on as the inverse Jacobian of one before serves; returns the number of the next. */
+static size_t by_chord(trace *t, size_t k)
+{
+    const size_t nx = (size_t)t->m->nx, end = t->n - k > CHECK_EVERY ? k + CHECK_EVERY : t->n;
+    if (t->history.count < MWI_CHORD_ROWS || t->history.x[MWI_CHORD_ROWS - 1] != t->x + (k - MWI_CHORD_ROWS) * nx) return k;
+    const size_t next = mwi_chord_run(t->m, &t->chord, t->pair.s, t->phi, k, end, t->x, t->info, &t->step);
+    for (size_t i = next - k < MW_HISTORY ? k : next - MW_HISTORY; i < next; i++)
+        mwi_remember(&t->history, t->phi[i], t->x + i * nx);
+    return next;
+}
+
+/* Solve for phi by a step from its prediction with an inverse Jacobian that may serve the points behind it. */
+static int by_new_chord(trace *t, double phi, double *x, mw_info *info)
 {
     const mw_model *m = t->m;
-    mwi_chord *c = &t->chord;
-    const int tried = mwi_chord_reaches(c, phi, t->step);
-    if (!tried && !mwi_chord_is_due(c, t->step)) return 0;
+    if (!mwi_chord_is_due(m, &t->chord, t->step)) return 0;
     m->set_phi(t->pair.s, phi);
-    if (!tried) m->scale(t->pair.s, c->scale);
     mwi_predict(&t->history, phi, m->nx, x);
-    if (!mwi_chord_near(c, m->nx, x, t->history.x[0], MWI_STRIDE)) return 0;
+    if (!mwi_near(m, t->pair.s, x, t->history.x[0], MWI_STRIDE)) return 0;
     *info = mwi_ended(MW_CONVERGED, 0);
     info->iterations = 1;
-    if (tried) info->step = t->step = mwi_chord_step(m, c, t->pair.s, x);
-    if (!tried || !mwi_chord_reaches(c, phi, t->step)) {
-        const double spacing = mwi_abs(phi - t->history.phi[0]), last = tried ? t->step : 0.0;
-        info->iterations += tried;
-        info->step = mwi_chord_renew(m, c, t->pair.s, phi, spacing, last, x);
-        t->step = mwi_larger(last, info->step);
-    }
+    info->step = t->step = mwi_chord_renew(m, &t->chord, t->pair.s, phi, mwi_abs(phi - t->history.phi[0]), x);
     return info->step <= MWI_CHORD_STEP && mwi_within_bounds(m, x);
 }
 
@@ -81,12 +82,19 @@ static int by_leap(trace *t, size_t k)
     const double phi = t->phi[k];
     if (t->history.count == 0 || phi == t->history.phi[0]) return 0;
     if (t->history.count == 1) mwi_take_direction(t->m, &t->history, phi, t->pair.s, t->beside);
-    if (!by_chord(t, phi, x, t->info + k)) {
+    if (!by_new_chord(t, phi, x, t->info + k)) {
         if (!mwi_leap(t->m, &t->history, phi, t->pair.s, x, t->info + k)) return 0;
         t->step = t->info[k].iterations == 1 ? t->info[k].step : HUGE_VAL;
     }
     mwi_remember(&t->history, phi, x);
     return 1;
+}
+
+/* Solve points from number k on by steps; returns the number of the next, k where that does not succeed. */
+static size_t forward(trace *t, size_t k)
+{
+    const size_t next = by_chord(t, k);
+    return next > k ? next : k + (size_t)by_leap(t, k);
 }
 
 static int check_is_due(const trace *t, size_t k)
@@ -103,15 +111,16 @@ static size_t back(trace *t, size_t end)
     return t->checked;
 }
 
-/* Solve point k of the branch; returns the number of the point that is next. */
+/* Solve point k of the branch, or several from it on; returns the number of the point that is next. */
 static size_t on_branch(trace *t, size_t k)
 {
-    if (k >= t->walked && by_leap(t, k)) {
-        if (!check_is_due(t, k)) return k + 1;
-        if (!holds(t, k)) return back(t, k + 1);
-        t->checked = k + 1;
-        t->m->set_phi(t->pair.s, t->phi[k]);
-        return k + 1;
+    const size_t next = k < t->walked ? k : forward(t, k);
+    if (next > k) {
+        if (!check_is_due(t, next - 1)) return next;
+        if (!holds(t, next - 1)) return back(t, next);
+        t->checked = next;
+        t->m->set_phi(t->pair.s, t->phi[next - 1]);
+        return next;
     }
     if (k > t->checked && !holds(t, k - 1)) return back(t, k);
     by_walk(t, k);
@@ -140,7 +149,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     trace t;
     size_t succeeded = 0;
     const int usable = mwi_usable(m), guard = usable ? m->setup(p, s) : 0;
-    for (size_t k = 0; k < n; k++) info[k] = mwi_ended(MW_BAD_INPUT, guard);
+    for (size_t k = 0; k < n && (!usable || guard); k++) info[k] = mwi_ended(MW_BAD_INPUT, guard);
     for (size_t i = 0; i < n * (size_t)m->nx && guard; i++) x[i] = NAN;
     if (!usable || guard || n == 0) return 0;
     t.m = t.pair.m = m;
@@ -151,7 +160,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     t.step = HUGE_VAL;
     t.checked = t.walked = 0;
     mwi_find_reference(&t.pair);
-    for (size_t k = trace_in_range(&t, 0); k < n;) k = trace_in_range(&t, k + 1);
+    for (size_t k = trace_in_range(&t, 0); k < n; k = trace_in_range(&t, k + 1)) info[k] = mwi_ended(MW_BAD_INPUT, 0);
     for (size_t k = 0; k < n; k++) {
         succeeded += info[k].status >= 0;
         for (int i = 0; i < m->nx && info[k].status < 0; i++) x[k * (size_t)m->nx + (size_t)i] = NAN;

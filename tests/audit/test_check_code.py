@@ -58,6 +58,25 @@ def test_a_changed_jacobian_entry_is_caught(tmp_path):
     rejected(tmp_path, text, r"J\[1\]\[2\] is not the derivative")
 
 
+@pytest.mark.parametrize(
+    ("kept", "wrong", "message"),
+    [
+        (r"(_by_anchor\(const.*?)R\[2\] = (\w+);", r"\1R[2] = -\2;", r"by_anchor: R\[2\] is not that of eval"),
+        (r"(_anchor\(const.*?)at\[3\] = (\S+);", r"\1at[3] = 2.0 * \2;", r"anchor: at\[3\] is another angle"),
+        (r"at \+ 4, at \+ 5\);", "at + 5, at + 4);", "anchor: sines at other places"),
+        (r", at \+ 6, &away", ", at + 3, &away", "anchor: at.3. is another angle"),
+        (r"0\.16666666666666666\), r\);", "0.125), r);", "near_sincos: 1/6 is another number"),
+        (r"\*cosine = at\[2\] - ", "*cosine = at[2] + ", "near_sincos: other statements"),
+        (r"_NEAREST 3\.8\S+\n", "_NEAREST 1e-4\n", "near_sincos: the series leave more than round-off"),
+    ],
+)
+def test_a_change_of_the_residual_by_an_anchor_is_caught(tmp_path, kept, wrong, message):
+    text = header("spherical_convex_spur")
+    changed = re.sub(kept, wrong, text, count=1, flags=re.DOTALL)
+    assert changed != text
+    rejected(tmp_path, changed, message)
+
+
 def test_a_changed_normal_is_caught(tmp_path):
     source = header("cylindrical_worm_zn_zn")
     body = source[source.index("_flank_wheel(const") :]

@@ -265,6 +265,10 @@ static void table(reader *r, fuzzed *f)
         note_numbers(r, d2, nx);
         calls += 7;
     }
+    double *at = numbers((size_t)m->nanchor);
+    m->anchor(f->s, phi, x, at);
+    m->by_anchor(f->s, at, phi, x, R);
+    note_numbers(r, R, nx);
     const double length = m->step(f->s, x);
     note_numbers(r, &length, 1);
     note_numbers(r, x, nx);
@@ -274,7 +278,7 @@ static void table(reader *r, fuzzed *f)
     m->guess(f->s, y);
     m->start_eval(f->s, y, numbers(MW_MAX_UNKNOWNS), numbers(MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS));
     m->start_solution(f->s, y, x);
-    calls += 7;
+    calls += 9;
     for (int b = 0; b < 2 + m->nregions; b++) {
         const mw_surface flank = b < 2 ? m->bodies[b].flank : m->regions[b - 2].flank;
         const mw_surface curvature = b < 2 ? m->bodies[b].curvature : m->regions[b - 2].curvature;

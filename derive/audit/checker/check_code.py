@@ -13,13 +13,14 @@ Then, for every drive:
              that equation
   assembly   the first three residuals are the vector between the two points in the fixed frame, turned or not
   step       the fused Newton step solves J dx = -R
+  anchor     the residual by sines of an anchor is that of eval, and the anchor has the angles that it takes
   along      first and second derivatives of the residual along a path of unknowns and input angle
   start      the Jacobian of the start system
   curvature  basis, second form and principal curvatures follow from the normal's derivatives
   lanes      each of two instances is computed as the scalar setup, set_phi and step compute it, guards included
   tangent    changes of the residual and of the contact point along changes of parameters, angle and unknowns
   solver     functions that call the solver stand as they must
-  sine       polynomials and reduction of the sine and cosine kernel, against enclosures
+  sine       polynomials and reduction of the sine and cosine kernel, against enclosures, and its series for small turns
   atan2      its polynomial against the series of the arc, octants and quadrants
   agreement  a flank has the point, the singular function and the limits that the observation of a contact has there
 
@@ -39,13 +40,14 @@ from .calculus import (
     check_agreement,
     check_along,
     check_assembly,
+    check_by_anchor,
     check_curvature,
     check_flank,
     check_jacobian,
     check_start,
     check_step,
 )
-from .kernels import check_arc_kernel, check_kernels
+from .kernels import check_arc_kernel, check_kernels, check_near_kernel
 from .lanes import check_flank_tangent, check_lanes, check_tangent
 from .refusal import Rejected
 from .straight_line import Header, read_companion, read_header
@@ -55,6 +57,7 @@ def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
     """What is checked of a header: words, and the check with its arguments."""
     yield "jacobian of the residual", (check_jacobian, header)
     yield "Newton step", (check_step, header)
+    yield "residual by an anchor", (check_by_anchor, header)
     yield "derivatives along a path", (check_along, header)
     if header.lanes:
         yield "lanes", (check_lanes, header, header.lanes)
@@ -79,6 +82,7 @@ def check_header(path: Path) -> int:
     try:
         text = path.read_text(encoding="utf-8")
         check_kernels(text)
+        check_near_kernel(text)
         check_arc_kernel(text)
         check_as_they_stand(text, re.search(r"static inline int (\w+)_setup\(", text)[1], SOLVED)
         header = read_header(text, read_companion(path, "lanes"), read_companion(path, "sensitivity"))

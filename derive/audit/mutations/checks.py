@@ -15,7 +15,7 @@ from derive.audit.checker.design import check_open, check_unit
 from derive.audit.checker.draws import Draws, on_both_flanks
 from derive.audit.checker.drive import Drive
 from derive.audit.checker.edges import BoundedDrive, check_systems
-from derive.audit.checker.kernels import check_arc_kernel, check_kernels
+from derive.audit.checker.kernels import check_arc_kernel, check_kernels, check_near_kernel
 from derive.audit.checker.straight_line import read_header
 from derive.audit.mutations.stages import CASADI, DESCRIPTION, TABLES
 
@@ -24,6 +24,7 @@ READ = (
     (r"jacobian of the residual|residual \d", ("eval",)),
     (r"Newton step", ("eval", "step")),
     (r"derivatives along", ("eval", "along")),
+    (r"by an anchor", ("eval", "by_anchor", "anchor")),
     (r"lanes", ("step",)),
     (r"tangents of parameters|assembly", ("eval", "observe")),
     (r"start", ("start_eval", "start_scale", "guess", "start_solution")),
@@ -73,6 +74,7 @@ class Checks:
     def all(self) -> list[Check]:
         found = [
             Check("code", "kernels", lambda _: check_kernels(self.texts["scalar C"])),
+            Check("code", "near kernel", lambda _: check_near_kernel(self.texts["scalar C"])),
             Check("code", "arc", lambda _: check_arc_kernel(self.texts["scalar C"])),
         ]
         for words, (check, *arguments) in check_code.checks_of(self.header):

@@ -85,8 +85,8 @@ class Measured:
                 return check.words == "lanes"
             case "sensitivity":
                 return ("tangent" in check.words and check.module == "code") or check.words.startswith("changes ")
-            case "scalar C" if name in ("sincos", "seldom_sincos", "atan2"):
-                return check.words in ("kernels", "arc")
+            case "scalar C" if name in ("sincos", "seldom_sincos", "near_sincos", "atan2"):
+                return check.words in ("kernels", "near kernel", "arc")
             case "scalar C" if name == "derive":
                 return check.words.startswith(("rule ", "table rule"))
             case "scalar C" if name.endswith("_open"):

@@ -8,7 +8,7 @@ from random import Random
 from .machine import Machine, machine
 from .modular import PRIME, Number
 from .refusal import require
-from .straight_line import Header
+from .straight_line import Function, Header, read_body
 
 
 def check_jacobian(header: Header, rng: Random) -> None:
@@ -95,6 +95,25 @@ def check_step(header: Header, rng: Random) -> None:
     for i in range(n):
         moved = sum(run.value(f"J[{i * n + j}]").value * change[j] for j in range(n))
         require((moved - run.value(f"R[{i}]").value) % PRIME == 0, f"step: row {i} of J dx = -R does not hold")
+
+
+#: How the anchor writes sine and cosine of an angle, and how they are read.
+ANCHORED = re.compile(r"\w+_seldom_sincos\(at\[(\d+)\], at \+ (\d+), at \+ (\d+)\);")
+TAKEN = re.compile(r"\w+_near_sincos\((.+), &s\d+, &c\d+, at \+ (\d+), &away\);")
+
+
+def check_by_anchor(header: Header, rng: Random) -> None:
+    """R is that of eval; each sine is of the angle at whose place it is looked for."""
+    run = machine(header, "eval", rng)
+    setup, (written, read) = run.earlier.earlier, header.anchored
+    close = Machine(run.inputs, header.functions["by_anchor"], setup, run.circle)
+    anchor = Machine(run.inputs, Function("anchor", read_body(ANCHORED.sub("", written)), {}), setup, run.circle)
+    for k in range(header.sizes["eval"]):
+        require(close.value(f"R[{k}]").value == run.value(f"R[{k}]").value, f"by_anchor: R[{k}] is not that of eval")
+    places, taken = [tuple(map(int, found)) for found in ANCHORED.findall(written)], TAKEN.findall(read)
+    require(places == [(k, k + 1, k + 2) for k in range(0, 3 * len(taken), 3)], "anchor: sines at other places")
+    for angle, place in taken:
+        require(anchor.value(f"at[{place}]").value == close.value(angle).value, f"anchor: at[{place}] is another angle")
 
 
 def check_along(header: Header, rng: Random) -> None:

@@ -63,6 +63,28 @@ def check_kernels(text: str) -> None:
         )
 
 
+#: Sine and cosine of an angle close to another by those of that one; numbers left open.
+NEAR_LINES = (
+    r"const double r = a - at\[0\], z = r \* r;",
+    r"const double u = MW_FNMA\(r \* z, MW_FNMA\(z, ([\d.e-]+), ([\d.e-]+)\), r\);",
+    r"const double v = z \* MW_FNMA\(z, ([\d.e-]+), 0\.5\);",
+    r"\*sine = at\[1\] \+ MW_FMS\(at\[2\], u, at\[1\] \* v\);",
+    r"\*cosine = at\[2\] - MW_FMA\(at\[1\], u, at\[2\] \* v\);",
+    r"\*away \+= z;",
+)
+
+
+def check_near_kernel(text: str) -> None:
+    """Sine and cosine of a small turn: coefficients of their series, and what these leave at the largest distance."""
+    body = re.search(r"_near_sincos\([^)]*\)\n{\n(.*?)\n}", text, re.DOTALL)
+    found = body and re.fullmatch(r"\s*".join(("", *NEAR_LINES)), body[1])
+    require(found, "near_sincos: other statements")
+    for number, factorial in zip(found.groups(), (120, 6, 24), strict=True):
+        require(float(number) == 1 / factorial, f"near_sincos: 1/{factorial} is another number")
+    square = Fraction(float(re.search(r"#define \w+_NEAREST ([\d.e-]+)\n", text)[1]))
+    require(0 < square**3 < Fraction(720, 2**63), "near_sincos: the series leave more than round-off")
+
+
 #: What stands around the polynomial of atan2: the ratio to the nearest of 0 and 45 degrees, octants, quadrants.
 ARC_LINES = (
     "const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;",

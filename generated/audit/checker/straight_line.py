@@ -15,8 +15,11 @@ from .refusal import require
 
 DIVISOR = 720
 PI_ENCLOSED = number_of("pi").middle
-STATEMENT = re.compile(r"const double (t\d+m?) = (.+);|(\w+\[\d+\]) = (.+);|\w+_sincos\((.+), &(s\d+m?), &(c\d+m?)\);")
-SILENT = re.compile(r"\(void\)|double s\d+m?, c\d+m?;|if \(|int failed|return |[{}]|$")
+STATEMENT = re.compile(
+    r"const double (t\d+m?) = (.+);|(\w+\[\d+\]) = (.+);|"
+    r"\w+_sincos\((.+), &(s\d+m?), &(c\d+m?)(?:, at \+ \d+, &away)?\);"
+)
+SILENT = re.compile(r"\(void\)|double s\d+m?, c\d+m?;|double away = 0\.0;|if \(|int failed|return |[{}]|$")
 OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
 CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
@@ -97,12 +100,15 @@ class Header:
     guards: tuple[Function, dict[int, str]]
     lanes: str = ""
     tangents: str = ""
+    anchored: tuple[str, str] = ("", "")  # what stands in the anchor, and in the residual by it
 
 
 def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
     """The straight-line functions of a header, with the texts of its lanes and of its tangents."""
     prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
-    wanted = rf"{prefix}_(setup|set_phi|eval|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
+    wanted = (
+        rf"{prefix}_(setup|set_phi|eval|by_anchor|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
+    )
     found = {}
     pattern = rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {wanted}\([^)]*\)\n{{\n(.*?)\n}}"
     for match in re.finditer(pattern, text, re.DOTALL):
@@ -118,7 +124,8 @@ def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
     }
     parameters = max(function.size_of("p") for function in found.values())
     guards = guards_of(body_of(text, f"{prefix}_setup"))
-    return Header(found, parameters, read_frames(text), sizes, unknowns, guards, lanes, tangents)
+    anchored = body_of(text, f"{prefix}_anchor"), body_of(text, f"{prefix}_by_anchor")
+    return Header(found, parameters, read_frames(text), sizes, unknowns, guards, lanes, tangents, anchored)
 
 
 def letter_of(name: str) -> str:

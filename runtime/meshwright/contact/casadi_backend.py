@@ -31,7 +31,7 @@ def _table(name, places):
     arithmetic = _Arithmetic(metadata.described(name, places), compiled)
     table = ffi.new("mw_model *", compiled[0])
     table.ns = arithmetic.parameters + 1
-    table.kernels = ffi.NULL  # lanes and tangents are of the compiled arithmetic
+    table.kernels = table.anchor = table.by_anchor = ffi.NULL  # of the compiled arithmetic
     callbacks = {key: callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
     for key, function in callbacks.items():
         setattr(table, key, function)
