@@ -106,7 +106,7 @@ def emit(plan, origin):
     yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)
     yield f"{c}_certified.h", certified.header(plan, metadata.GENERATOR)
     yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
-    evaluated = [*guards.functions(plan), guards.along(plan), *guards.bounded(plan), *tangents.functions()]
+    evaluated = [*guards.functions(plan), *guards.moving(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
 

@@ -142,15 +142,14 @@ class Printer:
 
 
 class AnchoredPrinter(Printer):
-    """Writes sines and cosines by those of an anchor close by, whose ``angles`` these nodes are in their order."""
+    """Writes sines and cosines by those of an anchor close by, which has them of ``angles`` in their order."""
 
-    def __init__(self, tape, prefix, leaves, names=None):
+    def __init__(self, tape, prefix, leaves, angles, names=None):
         super().__init__(tape, prefix, leaves, names=names)
-        self.angles = []
+        self.places = {node: 3 * k for k, node in enumerate(angles)}
 
     def turned(self, argument, operand, results):
-        self.angles.append(argument)
-        return f"{self.prefix}_near_sincos({operand}, {results}, at + {3 * len(self.angles) - 3}, &away);"
+        return f"{self.prefix}_near_sincos({operand}, {results}, at + {self.places[argument]}, &away);"
 
 
 #: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
@@ -229,8 +228,7 @@ def header(plan: Schedule, description: dict, runtime):
     instant = Printer(tape, prefix, leaves.instant)
     iterate = Printer(tape, prefix, leaves.iterate, names=names)
     solved = Printer(tape, prefix, leaves.iterate, seldom=True, names=names)
-    anchored = AnchoredPrinter(tape, prefix, leaves.moving, names=names)
-    anchored_residual = anchored.body(plan.residual)[0]
+    anchored = AnchoredPrinter(tape, prefix, leaves.moving, plan.angles, names=names)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
     slots = list(plan.state)
@@ -254,8 +252,8 @@ def header(plan: Schedule, description: dict, runtime):
         residual=residual,
         jacobian=jacobian,
         step=iterate.body(plan.newton_step)[0],
-        anchored=anchored_residual,
-        anchor=Printer(tape, prefix, leaves.moving, seldom=True).body(anchored.angles)[0],
+        anchored=anchored.body(plan.residual)[0],
+        anchor=Printer(tape, prefix, leaves.moving, seldom=True).body(plan.angles)[0],
         scale=iterate.body(plan.scales)[0],
         guess=iterate.body(plan.start_guess)[0],
         start_scale=iterate.body(plan.start_scales)[0],

@@ -27,7 +27,7 @@ def _step(plan):
 
 
 def _all(plan):
-    for f in (*guards.functions(plan), guards.along(plan)):
+    for f in (*guards.functions(plan), *guards.moving(plan)):
         if f.tape is plan.tape:
             yield f.name, f.outputs, f.known
 

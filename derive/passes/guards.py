@@ -112,10 +112,18 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
         yield results(function.name, function.outputs)
 
 
-def along(plan: Schedule) -> Evaluated:
-    """The derivatives of the residual along a direction; they read the design part of the state and the instant."""
+def moving(plan: Schedule) -> Iterator[Evaluated]:
+    """The functions of input angle and unknowns that read the design part of the state: the residual by an anchor, and
+    its derivatives along a direction.
+    """
     design = frozenset(list(plan.state)[: plan.design_slots])
-    return Evaluated("along", plan.tape, plan.lower, (plan.along.first, plan.along.second), design, "tangent")
+
+    def on_tape(name: str, groups: Iterable[Iterable[int]], guard: str) -> Evaluated:
+        return Evaluated(name, plan.tape, plan.lower, tuple(map(tuple, groups)), design, guard)
+
+    yield on_tape("anchor", [plan.angles], "residual")
+    yield on_tape("by_anchor", [plan.residual], "residual")
+    yield on_tape("along", [plan.along.first, plan.along.second], "tangent")
 
 
 def bounded(plan: Schedule) -> Iterator[Evaluated]:

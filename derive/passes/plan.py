@@ -186,3 +186,10 @@ class Schedule:
         The size of the step is the sum of the changes' magnitudes by these weights.
         """
         return [*self.step, *self.change, *self.weight]
+
+    @property
+    def angles(self) -> list[int]:
+        """Nodes of the angles beyond those of the design of which the residual takes sine and cosine."""
+        nodes, design = self.tape.nodes, set(list(self.state)[: self.design_slots])
+        turned = (i for i in self.tape.needed(self.residual, design) if nodes[i].op in ("sin", "cos"))
+        return list(dict.fromkeys(nodes[i].args[0] for i in turned))

@@ -3630,7 +3630,7 @@ static inline double bevel_formate_by_anchor(const double *s, const double *at, 
     const double t12 = MW_FMA(s[11], x[0], s[17]);
     const double t13 = MW_FMA(phi, s[151], x[4]);  /* wheel angle */
     double s14, c14;  /* of wheel angle */
-    bevel_formate_near_sincos(t13, &s14, &c14, at + 6, &away);
+    bevel_formate_near_sincos(t13, &s14, &c14, at + 9, &away);
     const double t16 = MW_FMS(x[0], t8, t9);
     const double t17 = MW_FMS(x[0], t16, t10);
     const double t18 = MW_FNMA(x[0], t10, 1.0);
@@ -3655,7 +3655,7 @@ static inline double bevel_formate_by_anchor(const double *s, const double *at, 
     const double t37 = c5 * s[23];
     const double t38 = MW_FMS(t18, t11, phi);
     double s39, c39;
-    bevel_formate_near_sincos(t38, &s39, &c39, at + 9, &away);
+    bevel_formate_near_sincos(t38, &s39, &c39, at + 6, &away);
     const double t41 = t32 * s[18];
     const double t42 = t12 * t41;
     const double t43 = MW_FMA(t32, s[14], (-1.0));
@@ -3885,9 +3885,9 @@ static inline void bevel_formate_anchor(const double *s, double phi, const doubl
     bevel_formate_seldom_sincos(at[0], at + 1, at + 2);
     at[3] = x[1];
     bevel_formate_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = t5;
+    at[6] = t11;
     bevel_formate_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = t11;
+    at[9] = t5;
     bevel_formate_seldom_sincos(at[9], at + 10, at + 11);
     at[12] = t6;
     bevel_formate_seldom_sincos(at[12], at + 13, at + 14);

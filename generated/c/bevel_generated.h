@@ -4054,16 +4054,16 @@ static inline double bevel_generated_by_anchor(const double *s, const double *at
     bevel_generated_near_sincos(t0, &s1, &c1, at + 0, &away);
     const double t3 = s[43] + x[2];
     double s4, c4;
-    bevel_generated_near_sincos(t3, &s4, &c4, at + 3, &away);
+    bevel_generated_near_sincos(t3, &s4, &c4, at + 9, &away);
     const double t6 = MW_FMA(x[0], s[0], s[1]);
     const double t7 = MW_FMA(x[0], t6, s[2]);
     double s8, c8;  /* of theta_pinion */
-    bevel_generated_near_sincos(x[1], &s8, &c8, at + 6, &away);
+    bevel_generated_near_sincos(x[1], &s8, &c8, at + 3, &away);
     const double t10 = MW_FMS(x[0], s[6], s[1]);
     const double t11 = MW_FMS(x[0], t10, t7);
     const double t12 = MW_FMA(x[0], t7, s[3]);
     double s13, c13;  /* of theta_gear */
-    bevel_generated_near_sincos(x[3], &s13, &c13, at + 9, &away);
+    bevel_generated_near_sincos(x[3], &s13, &c13, at + 12, &away);
     const double t15 = MW_FMS(x[0], t11, t12);
     const double t16 = MW_FMA(x[0], t12, s[4]);
     const double t17 = MW_FMS(x[0], t15, t16);
@@ -4172,7 +4172,7 @@ static inline double bevel_generated_by_anchor(const double *s, const double *at
     const double t120 = MW_FNMA(t88, s[30], t113);
     const double t121 = MW_FNMA(t44, t25, t119);
     double s122, c122;
-    bevel_generated_near_sincos(t117, &s122, &c122, at + 12, &away);
+    bevel_generated_near_sincos(t117, &s122, &c122, at + 6, &away);
     const double t124 = MW_FMA(s[25], t95, t118);
     const double t125 = MW_FNMA(t111, s[31], t120);
     const double t126 = t124 / t125;  /* derivation/explicit: slope of the equation of meshing in w_pinion */
@@ -4345,13 +4345,13 @@ static inline void bevel_generated_anchor(const double *s, double phi, const dou
     const double t16 = MW_FNMA(t14, t6, t5);
     at[0] = t7;
     bevel_generated_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t9;
+    at[3] = x[1];
     bevel_generated_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = x[1];
+    at[6] = t15;
     bevel_generated_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = x[3];
+    at[9] = t9;
     bevel_generated_seldom_sincos(at[9], at + 10, at + 11);
-    at[12] = t15;
+    at[12] = x[3];
     bevel_generated_seldom_sincos(at[12], at + 13, at + 14);
     at[15] = t16;
     bevel_generated_seldom_sincos(at[15], at + 16, at + 17);

@@ -1660,7 +1660,7 @@ static inline double cylindrical_worm_za_za_by_anchor(const double *s, const dou
     double away = 0.0;
     (void)at, (void)phi;
     double s0, c0;  /* of psi_fixed_hob */
-    cylindrical_worm_za_za_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    cylindrical_worm_za_za_near_sincos(x[3], &s0, &c0, at + 3, &away);
     const double t2 = x[2] * s[4];
     const double t3 = x[2] - s[8];
     const double t4 = MW_FMA(s[9], t3, s[10]);
@@ -1669,7 +1669,7 @@ static inline double cylindrical_worm_za_za_by_anchor(const double *s, const dou
     const double t7 = phi + x[1];
     const double t8 = MW_FMA(phi, s[114], x[4]);  /* wheel angle */
     double s9, c9;
-    cylindrical_worm_za_za_near_sincos(t7, &s9, &c9, at + 3, &away);
+    cylindrical_worm_za_za_near_sincos(t7, &s9, &c9, at + 0, &away);
     const double t11 = x[0] - s[14];
     const double t12 = MW_FMA(s[15], t11, s[10]);
     const double t13 = x[1] * s[13];
@@ -1784,9 +1784,9 @@ static inline void cylindrical_worm_za_za_anchor(const double *s, double phi, co
     const double t23 = t22 / t14;
     const double t24 = x[3] + t23;
     const double t25 = MW_FNMA(s[7], t24, t7);
-    at[0] = x[3];
+    at[0] = t8;
     cylindrical_worm_za_za_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t8;
+    at[3] = x[3];
     cylindrical_worm_za_za_seldom_sincos(at[3], at + 4, at + 5);
     at[6] = t25;
     cylindrical_worm_za_za_seldom_sincos(at[6], at + 7, at + 8);

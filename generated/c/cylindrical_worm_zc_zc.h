@@ -2579,18 +2579,18 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
     (void)at, (void)phi;
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zc_zc_near_sincos(t0, &s1, &c1, at + 0, &away);
+    cylindrical_worm_zc_zc_near_sincos(t0, &s1, &c1, at + 15, &away);
     double s3, c3;  /* of t_hob */
-    cylindrical_worm_zc_zc_near_sincos(x[2], &s3, &c3, at + 3, &away);
+    cylindrical_worm_zc_zc_near_sincos(x[2], &s3, &c3, at + 18, &away);
     const double t5 = x[0] * 0.5;
     double s6, c6;
-    cylindrical_worm_zc_zc_near_sincos(t5, &s6, &c6, at + 6, &away);
+    cylindrical_worm_zc_zc_near_sincos(t5, &s6, &c6, at + 0, &away);
     const double t8 = s1 * s1;
     const double t9 = t8 * s[19];
     const double t10 = s1 * s[19];
     const double t11 = c1 * t10;
     double s12, c12;  /* of t_worm */
-    cylindrical_worm_zc_zc_near_sincos(x[0], &s12, &c12, at + 9, &away);
+    cylindrical_worm_zc_zc_near_sincos(x[0], &s12, &c12, at + 3, &away);
     const double t14 = MW_FMA(s3, s[23], s[24]);
     const double t15 = t14 * s[25];
     const double t16 = MW_FNMA(s3, s[22], s[21]);
@@ -2605,7 +2605,7 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
     const double t25 = s[28] * c3;
     const double t26 = c3 * s[29];
     double s27, c27;  /* of psi_fixed_hob */
-    cylindrical_worm_zc_zc_near_sincos(x[3], &s27, &c27, at + 12, &away);
+    cylindrical_worm_zc_zc_near_sincos(x[3], &s27, &c27, at + 27, &away);
     const double t29 = MW_FNMA(t21, t25, t22);
     const double t30 = MW_FNMA(t21, t26, t24);
     const double t31 = cylindrical_worm_zc_zc_atan2(t29, t30);  /* xi_hob: angle along the wheel's arc from its pitch point, about y */
@@ -2630,7 +2630,7 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
     const double t50 = MW_FNMA(s[7], t42, s[8]);
     const double t51 = phi + x[1];
     double s52, c52;
-    cylindrical_worm_zc_zc_near_sincos(t51, &s52, &c52, at + 15, &away);
+    cylindrical_worm_zc_zc_near_sincos(t51, &s52, &c52, at + 12, &away);
     const double t54 = MW_FNMA(t50, t44, t48);
     const double t55 = MW_FNMA(t50, t45, t49);
     const double t56 = cylindrical_worm_zc_zc_atan2(t54, t55);  /* xi_worm: angle along the wheel's arc from its pitch point, about y */
@@ -2654,12 +2654,12 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
     const double t74 = MW_FNMA(s[42], t69, t72);
     const double t75 = 0.5 * t31;
     double s76, c76;  /* of xi_hob: angle along the wheel's arc from its pitch point, about y */
-    cylindrical_worm_zc_zc_near_sincos(t31, &s76, &c76, at + 18, &away);
+    cylindrical_worm_zc_zc_near_sincos(t31, &s76, &c76, at + 24, &away);
     double s78, c78;
     cylindrical_worm_zc_zc_near_sincos(t75, &s78, &c78, at + 21, &away);
     const double t80 = 0.5 * t56;
     double s81, c81;  /* of xi_worm: angle along the wheel's arc from its pitch point, about y */
-    cylindrical_worm_zc_zc_near_sincos(t56, &s81, &c81, at + 24, &away);
+    cylindrical_worm_zc_zc_near_sincos(t56, &s81, &c81, at + 9, &away);
     const double t83 = s[31] * c76;
     const double t84 = s78 * s78;
     const double t85 = s[31] * s76;
@@ -2677,7 +2677,7 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
     const double t97 = MW_FMA(s[12], s76, t89);
     const double t98 = MW_FMA(s[12], c76, t90);
     double s99, c99;
-    cylindrical_worm_zc_zc_near_sincos(t80, &s99, &c99, at + 27, &away);
+    cylindrical_worm_zc_zc_near_sincos(t80, &s99, &c99, at + 6, &away);
     const double t101 = MW_FMA(c78, t88, t97);
     const double t102 = MW_FMA(c78, t91, t98);
     const double t103 = MW_FMA(c3, t101, t9);  /* P_hob_x: contact point on the wheel */
@@ -2910,25 +2910,25 @@ static inline void cylindrical_worm_zc_zc_anchor(const double *s, double phi, co
     const double t107 = t106 / t77;
     const double t108 = x[3] - t107;
     const double t109 = MW_FNMA(s[38], t108, t48);
-    at[0] = t0;
+    at[0] = t5;
     cylindrical_worm_zc_zc_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = x[2];
+    at[3] = x[0];
     cylindrical_worm_zc_zc_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = t5;
+    at[6] = t61;
     cylindrical_worm_zc_zc_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = x[0];
+    at[9] = t55;
     cylindrical_worm_zc_zc_seldom_sincos(at[9], at + 10, at + 11);
-    at[12] = x[3];
+    at[12] = t49;
     cylindrical_worm_zc_zc_seldom_sincos(at[12], at + 13, at + 14);
-    at[15] = t49;
+    at[15] = t0;
     cylindrical_worm_zc_zc_seldom_sincos(at[15], at + 16, at + 17);
-    at[18] = t41;
+    at[18] = x[2];
     cylindrical_worm_zc_zc_seldom_sincos(at[18], at + 19, at + 20);
     at[21] = t56;
     cylindrical_worm_zc_zc_seldom_sincos(at[21], at + 22, at + 23);
-    at[24] = t55;
+    at[24] = t41;
     cylindrical_worm_zc_zc_seldom_sincos(at[24], at + 25, at + 26);
-    at[27] = t61;
+    at[27] = x[3];
     cylindrical_worm_zc_zc_seldom_sincos(at[27], at + 28, at + 29);
     at[30] = t109;
     cylindrical_worm_zc_zc_seldom_sincos(at[30], at + 31, at + 32);

@@ -1982,7 +1982,7 @@ static inline double cylindrical_worm_zi_zi_by_anchor(const double *s, const dou
     const double t5 = t3 * t4;
     const double t6 = x[2] * s[4];
     double s7, c7;  /* of psi_fixed_hob */
-    cylindrical_worm_zi_zi_near_sincos(x[3], &s7, &c7, at + 0, &away);
+    cylindrical_worm_zi_zi_near_sincos(x[3], &s7, &c7, at + 3, &away);
     const double t9 = sqrt(t2);
     const double t10 = sqrt(t5);
     const double t11 = t2 + s[5];
@@ -1993,7 +1993,7 @@ static inline double cylindrical_worm_zi_zi_by_anchor(const double *s, const dou
     const double t16 = phi + x[1];
     const double t17 = MW_FMA(phi, s[107], x[4]);  /* wheel angle */
     double s18, c18;
-    cylindrical_worm_zi_zi_near_sincos(t16, &s18, &c18, at + 3, &away);
+    cylindrical_worm_zi_zi_near_sincos(t16, &s18, &c18, at + 0, &away);
     const double t20 = cylindrical_worm_zi_zi_atan2(t9, s[4]);  /* a_t_hob: transverse profile angle */
     const double t21 = cylindrical_worm_zi_zi_atan2(t10, s[15]);  /* a_t_worm: transverse profile angle */
     const double t22 = t9 * t11;
@@ -2030,7 +2030,7 @@ static inline double cylindrical_worm_zi_zi_by_anchor(const double *s, const dou
     double s53, c53;  /* of a_t_hob: transverse profile angle */
     cylindrical_worm_zi_zi_near_sincos(t20, &s53, &c53, at + 6, &away);
     double s55, c55;  /* of a_t_worm: transverse profile angle */
-    cylindrical_worm_zi_zi_near_sincos(t21, &s55, &c55, at + 9, &away);
+    cylindrical_worm_zi_zi_near_sincos(t21, &s55, &c55, at + 12, &away);
     const double t57 = s[16] - t21;
     const double t58 = s53 / c53;
     const double t59 = s55 / c55;
@@ -2073,7 +2073,7 @@ static inline double cylindrical_worm_zi_zi_by_anchor(const double *s, const dou
     const double t96 = MW_FNMA(s[7], t93, t91);
     const double t97 = MW_FNMA(s7, t51, t96);  /* row 2 of the contact equations */
     double s98, c98;
-    cylindrical_worm_zi_zi_near_sincos(t94, &s98, &c98, at + 12, &away);
+    cylindrical_worm_zi_zi_near_sincos(t94, &s98, &c98, at + 9, &away);
     const double t100 = MW_FNMA(t28, c98, t42);
     const double t101 = t66 * c98;
     const double t102 = c98 * t95;
@@ -2158,15 +2158,15 @@ static inline void cylindrical_worm_zi_zi_anchor(const double *s, double phi, co
     const double t46 = t45 / t36;
     const double t47 = x[3] + t46;
     const double t48 = MW_FNMA(s[9], t47, t15);
-    at[0] = x[3];
+    at[0] = t16;
     cylindrical_worm_zi_zi_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t16;
+    at[3] = x[3];
     cylindrical_worm_zi_zi_seldom_sincos(at[3], at + 4, at + 5);
     at[6] = t17;
     cylindrical_worm_zi_zi_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = t18;
+    at[9] = t48;
     cylindrical_worm_zi_zi_seldom_sincos(at[9], at + 10, at + 11);
-    at[12] = t48;
+    at[12] = t18;
     cylindrical_worm_zi_zi_seldom_sincos(at[12], at + 13, at + 14);
 }
 

@@ -2180,18 +2180,18 @@ static inline double cylindrical_worm_zk_zk_by_anchor(const double *s, const dou
     (void)at, (void)phi;
     const double t0 = x[2] * 0.5;
     double s1, c1;
-    cylindrical_worm_zk_zk_near_sincos(t0, &s1, &c1, at + 0, &away);
+    cylindrical_worm_zk_zk_near_sincos(t0, &s1, &c1, at + 9, &away);
     double s3, c3;  /* of t_hob */
-    cylindrical_worm_zk_zk_near_sincos(x[2], &s3, &c3, at + 3, &away);
+    cylindrical_worm_zk_zk_near_sincos(x[2], &s3, &c3, at + 12, &away);
     double s5, c5;  /* of psi_fixed_hob */
-    cylindrical_worm_zk_zk_near_sincos(x[3], &s5, &c5, at + 6, &away);
+    cylindrical_worm_zk_zk_near_sincos(x[3], &s5, &c5, at + 15, &away);
     const double t7 = s1 * s1;
     const double t8 = t7 * s[18];
     const double t9 = s1 * s[18];
     const double t10 = c1 * t9;
     const double t11 = x[0] * 0.5;
     double s12, c12;
-    cylindrical_worm_zk_zk_near_sincos(t11, &s12, &c12, at + 9, &away);
+    cylindrical_worm_zk_zk_near_sincos(t11, &s12, &c12, at + 0, &away);
     const double t14 = MW_FMA(s3, s[25], s[26]);
     const double t15 = c3 * s[19];  /* n_hob_x: normal */
     const double t16 = MW_FNMA(s[20], s3, t10);
@@ -2207,7 +2207,7 @@ static inline double cylindrical_worm_zk_zk_by_anchor(const double *s, const dou
     const double t26 = t14 * s[37];
     const double t27 = t15 * c5;
     double s28, c28;  /* of t_worm */
-    cylindrical_worm_zk_zk_near_sincos(x[0], &s28, &c28, at + 12, &away);
+    cylindrical_worm_zk_zk_near_sincos(x[0], &s28, &c28, at + 3, &away);
     const double t30 = MW_FMS(t15, t17, t22);
     const double t31 = MW_FNMA(c3, t24, t23);
     const double t32 = t30 / t31;  /* u_hob: distance along the wheel's edge from its pitch point to the rim */
@@ -2219,7 +2219,7 @@ static inline double cylindrical_worm_zk_zk_by_anchor(const double *s, const dou
     const double t38 = s12 * s12;
     const double t39 = s12 * s[0];
     double s40, c40;
-    cylindrical_worm_zk_zk_near_sincos(t37, &s40, &c40, at + 15, &away);
+    cylindrical_worm_zk_zk_near_sincos(t37, &s40, &c40, at + 6, &away);
     const double t42 = c12 * t39;
     const double t43 = MW_FNMA(s[30], t32, s[20]);
     const double t44 = MW_FNMA(s[31], t32, s[15]);
@@ -2406,17 +2406,17 @@ static inline void cylindrical_worm_zk_zk_anchor(const double *s, double phi, co
     const double t55 = t54 / t32;
     const double t56 = x[3] - t55;
     const double t57 = MW_FNMA(s[38], t56, t11);
-    at[0] = t0;
+    at[0] = t12;
     cylindrical_worm_zk_zk_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = x[2];
+    at[3] = x[0];
     cylindrical_worm_zk_zk_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = x[3];
+    at[6] = t13;
     cylindrical_worm_zk_zk_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = t12;
+    at[9] = t0;
     cylindrical_worm_zk_zk_seldom_sincos(at[9], at + 10, at + 11);
-    at[12] = x[0];
+    at[12] = x[2];
     cylindrical_worm_zk_zk_seldom_sincos(at[12], at + 13, at + 14);
-    at[15] = t13;
+    at[15] = x[3];
     cylindrical_worm_zk_zk_seldom_sincos(at[15], at + 16, at + 17);
     at[18] = t57;
     cylindrical_worm_zk_zk_seldom_sincos(at[18], at + 19, at + 20);

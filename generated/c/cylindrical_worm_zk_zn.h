@@ -2126,10 +2126,10 @@ static inline double cylindrical_worm_zk_zn_by_anchor(const double *s, const dou
     double away = 0.0;
     (void)at, (void)phi;
     double s0, c0;  /* of psi_fixed_hob */
-    cylindrical_worm_zk_zn_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    cylindrical_worm_zk_zn_near_sincos(x[3], &s0, &c0, at + 9, &away);
     const double t2 = x[0] * 0.5;
     double s3, c3;
-    cylindrical_worm_zk_zn_near_sincos(t2, &s3, &c3, at + 3, &away);
+    cylindrical_worm_zk_zn_near_sincos(t2, &s3, &c3, at + 0, &away);
     const double t5 = MW_FMA(x[2], s[18], s[19]);  /* P_hob_x: blade edge */
     const double t6 = MW_FMS(x[2], s[23], s[24]);
     const double t7 = x[2] * s[29];
@@ -2140,7 +2140,7 @@ static inline double cylindrical_worm_zk_zn_by_anchor(const double *s, const dou
     const double t12 = x[2] * s[27];
     const double t13 = t6 * t11;
     double s14, c14;  /* of t_worm */
-    cylindrical_worm_zk_zn_near_sincos(x[0], &s14, &c14, at + 6, &away);
+    cylindrical_worm_zk_zn_near_sincos(x[0], &s14, &c14, at + 3, &away);
     const double t16 = MW_FNMA(t10, t12, t13);
     const double t17 = s[25] * c0;
     const double t18 = s[25] * s0;
@@ -2158,7 +2158,7 @@ static inline double cylindrical_worm_zk_zn_by_anchor(const double *s, const dou
     const double t30 = s3 * s3;
     const double t31 = s3 * s[0];
     double s32, c32;
-    cylindrical_worm_zk_zn_near_sincos(t28, &s32, &c32, at + 9, &away);
+    cylindrical_worm_zk_zn_near_sincos(t28, &s32, &c32, at + 6, &away);
     const double t34 = MW_FMA(s[21], t25, t27);
     const double t35 = c3 * t31;
     const double t36 = t34 * s[31];
@@ -2312,13 +2312,13 @@ static inline void cylindrical_worm_zk_zn_anchor(const double *s, double phi, co
     const double t34 = t33 / t26;
     const double t35 = x[3] - t34;
     const double t36 = MW_FNMA(s[31], t35, t13);
-    at[0] = x[3];
+    at[0] = t14;
     cylindrical_worm_zk_zn_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t14;
+    at[3] = x[0];
     cylindrical_worm_zk_zn_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = x[0];
+    at[6] = t15;
     cylindrical_worm_zk_zn_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = t15;
+    at[9] = x[3];
     cylindrical_worm_zk_zn_seldom_sincos(at[9], at + 10, at + 11);
     at[12] = t36;
     cylindrical_worm_zk_zn_seldom_sincos(at[12], at + 13, at + 14);

@@ -1823,7 +1823,7 @@ static inline double cylindrical_worm_zn_zn_by_anchor(const double *s, const dou
     double away = 0.0;
     (void)at, (void)phi;
     double s0, c0;  /* of psi_fixed_hob */
-    cylindrical_worm_zn_zn_near_sincos(x[3], &s0, &c0, at + 0, &away);
+    cylindrical_worm_zn_zn_near_sincos(x[3], &s0, &c0, at + 3, &away);
     const double t2 = MW_FMA(x[2], s[5], s[6]);  /* P_hob_x: blade edge */
     const double t3 = MW_FMS(x[2], s[10], s[11]);
     const double t4 = x[2] * s[16];
@@ -1836,7 +1836,7 @@ static inline double cylindrical_worm_zn_zn_by_anchor(const double *s, const dou
     const double t11 = phi + x[1];
     const double t12 = t5 * s[17];
     double s13, c13;
-    cylindrical_worm_zn_zn_near_sincos(t11, &s13, &c13, at + 3, &away);
+    cylindrical_worm_zn_zn_near_sincos(t11, &s13, &c13, at + 0, &away);
     const double t15 = MW_FNMA(t7, t9, t10);
     const double t16 = MW_FMA(phi, s[140], x[4]);  /* wheel angle */
     const double t17 = t5 * s[30];
@@ -1971,9 +1971,9 @@ static inline void cylindrical_worm_zn_zn_anchor(const double *s, double phi, co
     const double t33 = t32 / t25;
     const double t34 = x[3] - t33;
     const double t35 = MW_FNMA(s[18], t34, t13);
-    at[0] = x[3];
+    at[0] = t14;
     cylindrical_worm_zn_zn_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t14;
+    at[3] = x[3];
     cylindrical_worm_zn_zn_seldom_sincos(at[3], at + 4, at + 5);
     at[6] = t35;
     cylindrical_worm_zn_zn_seldom_sincos(at[6], at + 7, at + 8);

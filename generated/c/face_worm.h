@@ -4062,34 +4062,34 @@ static inline double face_worm_by_anchor(const double *s, const double *at, doub
     (void)at, (void)phi;
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    face_worm_near_sincos(t0, &s1, &c1, at + 0, &away);
+    face_worm_near_sincos(t0, &s1, &c1, at + 6, &away);
     const double t3 = x[4] * 0.5;
     double s4, c4;
-    face_worm_near_sincos(t3, &s4, &c4, at + 3, &away);
+    face_worm_near_sincos(t3, &s4, &c4, at + 18, &away);
     const double t6 = x[2] * s[14];
     double s7, c7;
-    face_worm_near_sincos(t6, &s7, &c7, at + 6, &away);
+    face_worm_near_sincos(t6, &s7, &c7, at + 12, &away);
     const double t9 = x[2] * s[19];
     const double t10 = MW_FMA(phi, s[14], x[5]);  /* wheel angle */
     const double t11 = phi * s[19];
     const double t12 = MW_FMA(x[5], 0.5, t11);
     double s13, c13;
-    face_worm_near_sincos(t9, &s13, &c13, at + 9, &away);
+    face_worm_near_sincos(t9, &s13, &c13, at + 15, &away);
     double s15, c15;  /* of wheel angle */
-    face_worm_near_sincos(t10, &s15, &c15, at + 12, &away);
+    face_worm_near_sincos(t10, &s15, &c15, at + 24, &away);
     double s17, c17;
-    face_worm_near_sincos(t12, &s17, &c17, at + 15, &away);
+    face_worm_near_sincos(t12, &s17, &c17, at + 27, &away);
     double s19, c19;  /* of theta_worm */
-    face_worm_near_sincos(x[1], &s19, &c19, at + 18, &away);
+    face_worm_near_sincos(x[1], &s19, &c19, at + 3, &away);
     const double t21 = x[2] * (-0.5);
     const double t22 = MW_FMA(phi, 0.5, t21);
     const double t23 = phi - x[2];
     double s24, c24;  /* of theta_gear */
     face_worm_near_sincos(x[4], &s24, &c24, at + 21, &away);
     double s26, c26;
-    face_worm_near_sincos(t23, &s26, &c26, at + 24, &away);
+    face_worm_near_sincos(t23, &s26, &c26, at + 9, &away);
     double s28, c28;
-    face_worm_near_sincos(t22, &s28, &c28, at + 27, &away);
+    face_worm_near_sincos(t22, &s28, &c28, at + 0, &away);
     const double t30 = x[0] * x[0];
     const double t31 = x[0] * s[5];
     const double t32 = MW_FMA(t30, s[6], t31);
@@ -4265,29 +4265,29 @@ static inline double face_worm_by_anchor(const double *s, const double *at, doub
 static inline void face_worm_anchor(const double *s, double phi, const double *x, double *at)
 {
     (void)s, (void)phi, (void)x, (void)at;
-    const double t0 = phi * s[19];
-    const double t1 = MW_FMA(x[5], 0.5, t0);
-    const double t2 = x[2] * (-0.5);
-    const double t3 = MW_FMA(phi, 0.5, t2);
+    const double t0 = x[2] * (-0.5);
+    const double t1 = MW_FMA(phi, 0.5, t0);
+    const double t2 = phi * s[19];
+    const double t3 = MW_FMA(x[5], 0.5, t2);
     const double t4 = x[1] * 0.5;
-    const double t5 = x[4] * 0.5;
+    const double t5 = phi - x[2];
     const double t6 = x[2] * s[14];
     const double t7 = x[2] * s[19];
-    const double t8 = MW_FMA(phi, s[14], x[5]);
-    const double t9 = phi - x[2];
-    at[0] = t4;
+    const double t8 = x[4] * 0.5;
+    const double t9 = MW_FMA(phi, s[14], x[5]);
+    at[0] = t1;
     face_worm_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = t5;
+    at[3] = x[1];
     face_worm_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = t6;
+    at[6] = t4;
     face_worm_seldom_sincos(at[6], at + 7, at + 8);
-    at[9] = t7;
+    at[9] = t5;
     face_worm_seldom_sincos(at[9], at + 10, at + 11);
-    at[12] = t8;
+    at[12] = t6;
     face_worm_seldom_sincos(at[12], at + 13, at + 14);
-    at[15] = t1;
+    at[15] = t7;
     face_worm_seldom_sincos(at[15], at + 16, at + 17);
-    at[18] = x[1];
+    at[18] = t8;
     face_worm_seldom_sincos(at[18], at + 19, at + 20);
     at[21] = x[4];
     face_worm_seldom_sincos(at[21], at + 22, at + 23);

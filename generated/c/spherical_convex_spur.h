@@ -1475,9 +1475,9 @@ static inline double spherical_convex_spur_by_anchor(const double *s, const doub
     (void)at, (void)phi;
     const double t0 = x[1] * 0.5;
     double s1, c1;
-    spherical_convex_spur_near_sincos(t0, &s1, &c1, at + 0, &away);
+    spherical_convex_spur_near_sincos(t0, &s1, &c1, at + 3, &away);
     double s3, c3;  /* of theta_pinion */
-    spherical_convex_spur_near_sincos(x[1], &s3, &c3, at + 3, &away);
+    spherical_convex_spur_near_sincos(x[1], &s3, &c3, at + 6, &away);
     const double t5 = MW_FMS(x[0], s[0], s[11]);
     const double t6 = MW_FNMA(x[0], s[4], s[14]);
     const double t7 = MW_FMA(x[2], s[0], s[1]);
@@ -1494,7 +1494,7 @@ static inline double spherical_convex_spur_by_anchor(const double *s, const doub
     const double t18 = s1 * s1;
     const double t19 = c1 * s[18];
     double s20, c20;
-    spherical_convex_spur_near_sincos(t16, &s20, &c20, at + 6, &away);
+    spherical_convex_spur_near_sincos(t16, &s20, &c20, at + 0, &away);
     const double t22 = MW_FMA(t5, c3, s[12]);
     const double t23 = MW_FMA(t18, s[10], t22);
     const double t24 = c3 * s[6];
@@ -1595,11 +1595,11 @@ static inline void spherical_convex_spur_anchor(const double *s, double phi, con
     const double t21 = t20 * s[15];
     const double t22 = t21 / c3;
     const double t23 = t22 + t12;
-    at[0] = t0;
+    at[0] = t14;
     spherical_convex_spur_seldom_sincos(at[0], at + 1, at + 2);
-    at[3] = x[1];
+    at[3] = t0;
     spherical_convex_spur_seldom_sincos(at[3], at + 4, at + 5);
-    at[6] = t14;
+    at[6] = x[1];
     spherical_convex_spur_seldom_sincos(at[6], at + 7, at + 8);
     at[9] = t23;
     spherical_convex_spur_seldom_sincos(at[9], at + 10, at + 11);

@@ -54,7 +54,8 @@ static void by_walk(trace *t, size_t k)
 static size_t by_chord(trace *t, size_t k)
 {
     const size_t nx = (size_t)t->m->nx, end = t->n - k > CHECK_EVERY ? k + CHECK_EVERY : t->n;
-    if (t->history.count < MWI_CHORD_ROWS || t->history.x[MWI_CHORD_ROWS - 1] != t->x + (k - MWI_CHORD_ROWS) * nx) return k;
+    if (k < MWI_CHORD_ROWS || t->history.count < MWI_CHORD_ROWS) return k;
+    if (t->history.x[MWI_CHORD_ROWS - 1] != t->x + (k - MWI_CHORD_ROWS) * nx) return k;
     const size_t next = mwi_chord_run(t->m, &t->chord, t->pair.s, t->phi, k, end, t->x, t->info, &t->step);
     for (size_t i = next - k < MW_HISTORY ? k : next - MW_HISTORY; i < next; i++)
         mwi_remember(&t->history, t->phi[i], t->x + i * nx);

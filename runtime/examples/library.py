@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 5
+ABI = 6
 
 
 class Info(ctypes.Structure):

@@ -173,7 +173,7 @@ def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
     arguments = ["tca", "recess-action-full", "--phi-deg", "0"]
     done = subprocess.run([sys.executable, "-c", code, tmp_path, *arguments], capture_output=True, text=True)
     assert done.returncode == 2
-    assert f"{library} has ABI 7, this package needs ABI 5: run `make build` again" in done.stderr
+    assert f"{library} has ABI 7, this package needs ABI 6: run `make build` again" in done.stderr
     done = subprocess.run([sys.executable, EXAMPLES / "library.py", library], capture_output=True, text=True)
     assert done.returncode == 1
-    assert "has ABI 7, this program needs ABI 5" in done.stderr
+    assert "has ABI 7, this program needs ABI 6" in done.stderr

@@ -111,7 +111,7 @@ def check_by_anchor(header: Header, rng: Random) -> None:
     for k in range(header.sizes["eval"]):
         require(close.value(f"R[{k}]").value == run.value(f"R[{k}]").value, f"by_anchor: R[{k}] is not that of eval")
     places, taken = [tuple(map(int, found)) for found in ANCHORED.findall(written)], TAKEN.findall(read)
-    require(places == [(k, k + 1, k + 2) for k in range(0, 3 * len(taken), 3)], "anchor: sines at other places")
+    require(places == [(k, k + 1, k + 2) for k in range(0, 3 * len(places), 3)], "anchor: sines at other places")
     for angle, place in taken:
         require(anchor.value(f"at[{place}]").value == close.value(angle).value, f"anchor: at[{place}] is another angle")
 
