@@ -122,7 +122,8 @@ def test_no_angle_flag_or_table_leads_a_call_astray():
         assert lib.mw_follow(m, pointer(state), begin, pointer(x0), pointer(angle), 1, pointer(x), info) == 0
         assert info.status < 0
     assert {lib.mw_flag(m, k) for k in (-1, -(2**31), 32, 2**31 - 1)} == {ffi.NULL}
-    for field, value in (("nx", MOST["UNKNOWNS"] + 1), ("nx", -1), ("abi", m.abi - 1), ("abi", m.abi + 1)):
+    wrong = [("nx", MOST["UNKNOWNS"] + 1), ("nx", -1), ("nanchor", MOST["ANCHOR"] + 1)]
+    for field, value in (*wrong, ("abi", m.abi - 1), ("abi", m.abi + 1)):
         other = ffi.new("mw_model *", m[0])
         setattr(other, field, value)
         x = x0.copy()

@@ -84,7 +84,7 @@ def test_there_is_no_flag_before_the_first():
     assert library().mw_flag(m, 10_000) == ffi.NULL
 
 
-OTHERS = [("abi", ABI - 1), ("abi", ABI + 1), ("nx", 9), ("np", 4000), ("no", 4000), ("nstart", 9)]
+OTHERS = [("abi", ABI - 1), ("abi", ABI + 1), ("nx", 9), ("np", 4000), ("no", 4000), ("nstart", 9), ("nanchor", 4000)]
 
 
 @pytest.mark.parametrize(("field", "value"), OTHERS)

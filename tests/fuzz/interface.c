@@ -109,8 +109,9 @@ static double angle(reader *r)
 
 static void angles(reader *r, double *phi, size_t n)
 {
-    const double begin = angle(r), step = ((double)byte(r) - 128.0) / 1024.0;
+    const double begin = angle(r), apart = ((double)byte(r) - 128.0) / 1024.0;
     const unsigned other = byte(r);
+    const double step = other < 32 ? apart / 65536.0 : apart; /* so close that points share a Jacobian */
     for (size_t k = 0; k < n; k++) phi[k] = begin + (double)k * step;
     if (other > 128) phi[other % n] = angle(r);
 }
@@ -502,9 +503,10 @@ static void words(reader *r, fuzzed *f)
 static void foreign(reader *r, fuzzed *f)
 {
     mw_model other = *f->m;
-    const unsigned which = byte(r) % 5;
-    int *const field[] = { &other.abi, &other.nx, &other.np, &other.no, &other.nstart };
-    static const int most[] = { MW_MODEL_ABI, MW_MAX_UNKNOWNS, MW_MAX_PARAMETERS, MW_MAX_OBSERVATION, MW_MAX_UNKNOWNS };
+    const unsigned which = byte(r) % 6;
+    int *const field[] = { &other.abi, &other.nx, &other.np, &other.no, &other.nstart, &other.nanchor };
+    static const int most[] = { MW_MODEL_ABI,       MW_MAX_UNKNOWNS, MW_MAX_PARAMETERS,
+                                MW_MAX_OBSERVATION, MW_MAX_UNKNOWNS, MW_MAX_ANCHOR };
     const int excess = 1 + (int)byte(r) * 8388608;
     *field[which] = byte(r) & 1 ? most[which] + excess : which == 0 ? MW_MODEL_ABI - excess : -excess;
     double *x = start(r, f), *o = numbers((size_t)f->m->no), *change = changes(r, f->m->np), phi = 0.1;

@@ -111,7 +111,6 @@ static inline size_t mwi_chord_run(const mw_model *m, const mwi_chord *c, const 
                                    size_t end, double *x, mw_info *info, double *step)
 {
     switch (m->nx) {
-    case 4: return mwi_chord_points(m, c, s, 4, phi, k, end, x, info, step);
     case 5: return mwi_chord_points(m, c, s, 5, phi, k, end, x, info, step);
     case 6: return mwi_chord_points(m, c, s, 6, phi, k, end, x, info, step);
     case 7: return mwi_chord_points(m, c, s, 7, phi, k, end, x, info, step);
