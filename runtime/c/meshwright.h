@@ -65,10 +65,10 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,
                  mw_info *info);
 
-/* Points of a branch that is known at nodes: point k, phi[k], as mw_follow has it from x0[node[k]*nx] at phi0[node[k]],
- * and NaN where the branch does not reach it or node[k] is negative; x[n*nx], info[n]. s is set up. Returns the number
- * of points that succeeded. */
-size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
+/* Points of a branch that is known at `nodes` of its places, x0[nodes*nx] at phi0[nodes]: point k, phi[k], beside node[k],
+ * and NaN where the branch does not reach it from there or there is no such node; x[n*nx], info[n]. s is set up. Returns
+ * the number of points that succeeded. */
+size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, size_t nodes, const int *node,
                      const double *phi, size_t n, double *x, mw_info *info);
 
 /* Observations o[n*no] of the unknowns x[n*nx] at the angles phi[n], s set up; NaN where an unknown is not a number. */

@@ -197,15 +197,31 @@ size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, co
     return n;
 }
 
-size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, const int *node,
+/* The point at phi from the polynomial through the nodes about it, the first of which is number `from`. Returns 0 where
+ * that does not lead to a contact. */
+static int between_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, size_t nodes, size_t from,
+                         double phi, double *x, mw_info *info)
+{
+    mwi_history h = mwi_no_history();
+    double o[MW_MAX_OBSERVATION];
+    const size_t nx = (size_t)m->nx, about[] = {from + 2, from - 1, from + 1, from};
+    for (int i = 0; i < MW_HISTORY; i++)
+        if (about[i] < nodes) mwi_remember(&h, phi0[about[i]], x0 + about[i] * nx);
+    if (phi == phi0[from] || !mwi_angle_in_range(phi) || !mwi_leap(m, &h, phi, s, x, info)) return 0;
+    m->observe(s, x, o);
+    return mwi_touch(m, x, o) >= 0;
+}
+
+size_t mw_from_nodes(const mw_model *m, double *s, const double *phi0, const double *x0, size_t nodes, const int *node,
                      const double *phi, size_t n, double *x, mw_info *info)
 {
     const int nx = mwi_usable(m) ? m->nx : 0; /* nothing of a foreign table is believed */
     size_t succeeded = 0;
     for (size_t k = 0; k < n; k++, x += nx, info++) {
-        const size_t from = node[k] < 0 ? 0 : (size_t)node[k];
+        const size_t from = node[k] < 0 ? nodes : (size_t)node[k];
         *info = mwi_ended(MW_BAD_INPUT, 0);
-        if (nx > 0 && node[k] >= 0 && mw_follow(m, s, phi0[from], x0 + from * (size_t)nx, phi + k, 1, x, info) == 1)
+        if (nx > 0 && from < nodes && (between_nodes(m, s, phi0, x0, nodes, from, phi[k], x, info)
+            || mw_follow(m, s, phi0[from], x0 + from * (size_t)nx, phi + k, 1, x, info) == 1))
             succeeded++;
         else
             for (int i = 0; i < nx; i++) x[i] = NAN;

@@ -386,7 +386,7 @@ static void follow(reader *r, fuzzed *f)
     double *o = numbers(n * (size_t)m->no);
     int *node = room(n, sizeof *node);
     for (size_t k = 0; k < n; k++) node[k] = byte(r) % 2 ? -1 : 0;
-    const size_t each = mw_from_nodes(m, f->s, &at, x0, node, phi, n, x, info);
+    const size_t each = mw_from_nodes(m, f->s, &at, x0, 1, node, phi, n, x, info);
     size_t count = 0;
     for (size_t k = 0; k < n; k++) count += info[k].status >= 0;
     if (count != each) fail("the points of a branch are not as many as was said");
@@ -522,7 +522,7 @@ static void foreign(reader *r, fuzzed *f)
     refused += mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
     refused += mw_complete(&other, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
     refused += mw_follow(&other, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
-    refused += mw_from_nodes(&other, f->s, &phi, x, &(int){0}, &phi, 1, x, &info) == 0;
+    refused += mw_from_nodes(&other, f->s, &phi, x, 1, &(int){0}, &phi, 1, x, &info) == 0;
     refused += mw_observe(&other, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
     refused += mw_arclength(&other, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
     refused += mw_trace(&other, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;

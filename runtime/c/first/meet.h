@@ -120,6 +120,7 @@ static int on_flank(const search *h, int member, double *q, double *o)
         if (bound < 0) break;
         const double step = condition[0] / condition[1 + bound];
         if (!(fabs(step) < HUGE_VAL)) return 0;
+        if (fabs(step) < NEXT_DONE * sizes_of(h, member)[bound]) break;
         q[bound] -= step;
         if (fabs(step) < STEP_DONE * sizes_of(h, member)[bound]) {
             body->flank(h->s, q, o);

@@ -1,6 +1,8 @@
-"""Roots of a function of one variable, by bracketing."""
+"""Roots of functions of one variable, by bracketing."""
 
 import math
+
+import numpy as np
 
 MAX_STEPS = 200
 
@@ -41,3 +43,40 @@ def _next_share(a, b, c, fa, fb, fc):
     if not (phi * phi < xi and (1.0 - phi) ** 2 < 1.0 - xi):
         return 0.5
     return fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+
+
+def narrowed(function, inner, outer, values, tolerance, small=0.0):
+    """Ends (N,) of intervals from ``inner`` to ``outer`` (N,), narrowed to ``tolerance`` (N,) about the places at which
+    functions pass from zero or more to less, or to none; by the method of :func:`bracketed`, all at once.
+
+    ``function(x, which)`` gives the values (M,) of the functions numbered ``which`` (M,) at places x (M,); ``values``
+    are those at both ends. Where one is below ``small`` at an inner end, that is enough.
+    """
+    inner, outer = np.array(inner, dtype=float), np.array(outer, dtype=float)
+    left = np.flatnonzero(np.abs(outer - inner) > tolerance)
+    a, b, fa, fb, exact = (v[left] for v in (inner, outer, *values, tolerance))
+    with np.errstate(all="ignore"):
+        share = fa / (fa - fb)
+        share = np.where((share > 0.0) & (share < 1.0), share, 0.5)
+        for _ in range(MAX_STEPS):
+            if not left.size:
+                break
+            x = a + share * (b - a)
+            fx = function(x, left)
+            inside = fx >= 0.0
+            inner[left[inside]], outer[left[~inside]] = x[inside], x[~inside]
+            same = inside == (fa >= 0.0)
+            c, fc, b, fb = np.where(same, (a, fa, b, fb), (b, fb, a, fa))
+            width = np.abs(b - x)
+            going = (width > exact) & ~(inside & (fx < small))
+            left, a, b, c, fa, fb, fc, exact, width = (v[going] for v in (left, x, b, c, fx, fb, fc, exact, width))
+            share = _next_shares(a, b, c, fa, fb, fc)
+            share = np.clip(share, 0.5 * exact / width, 1.0 - 0.5 * exact / width)
+    return inner, outer
+
+
+def _next_shares(a, b, c, fa, fb, fc):
+    """:func:`_next_share` of many."""
+    xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+    share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+    return np.where((phi * phi < xi) & ((1.0 - phi) ** 2 < 1.0 - xi), share, 0.5)

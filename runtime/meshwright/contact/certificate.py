@@ -178,8 +178,10 @@ def certify(drive, angles, solutions, lines, degrees=None):
     they were given so.
     """
     sign = int(drive.design.mirror.sign)
-    exactly = [(Fraction(float(a)),) * 2 for a in angles] if degrees is None else [*map(exact.radians, degrees)]
-    phi = exact.wides([tuple(sorted(sign * end for end in ends)) for ends in exactly])
+    if degrees is None:
+        phi = exact.doubles(sign * np.asarray(angles))
+    else:
+        phi = exact.wides([tuple(sorted(sign * end for end in exact.radians(angle))) for angle in degrees])
     solutions, lines = np.ascontiguousarray(solutions, dtype=float), np.ascontiguousarray(lines, dtype=np.int32)
     return _all(drive, phi, library().mw_certify_points, pointer(solutions), pointer(lines, "int[]"))
 
@@ -214,7 +216,7 @@ def certify_boxes(drive, angles, centres, half_widths):
     """:class:`Certificates` of given boxes: unknowns ``centres`` ± ``half_widths`` (N, nx), of the right-hand model at
     its own angles (N,), rad.
     """
-    phi = exact.wides([(Fraction(float(a)),) * 2 for a in angles])
+    phi = exact.doubles(angles)
     centres, half_widths = (np.ascontiguousarray(a, dtype=float) for a in (centres, half_widths))
     if centres.shape != (len(phi), drive.model.nx) or half_widths.shape != centres.shape:
         raise UsageError(f"boxes: centres and half-widths must be arrays ({len(phi)}, {drive.model.nx})")
@@ -231,7 +233,7 @@ def certify_many(drive, angles, solutions, width=0):
     lanes = ffi.NULL if width == 1 else library().mw_lanes(width)
     if lanes == ffi.NULL and width != 1:
         raise UsageError(f"width = {width}: this processor has no such vectors; use 1, 2, or 0 for its widest")
-    phi, x = exact.wides([(Fraction(float(a)),) * 2 for a in angles]), np.ascontiguousarray(solutions, dtype=float)
+    phi, x = exact.doubles(angles), np.ascontiguousarray(solutions, dtype=float)
     unique, errors = np.zeros(len(phi), np.uint8), np.zeros(len(phi), record("mw_ball"))
     design = drive.design
     in_lanes = ffi.NULL if width == 1 else proofs(design.description["name"], design.places)

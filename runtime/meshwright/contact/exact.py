@@ -52,6 +52,13 @@ def wides(pairs):
     return array
 
 
+def doubles(numbers):
+    """An array of ``mw_wide`` of doubles (N,), each the number that it is."""
+    array = np.zeros(len(numbers), dtype=record("mw_wide"))
+    array["hi"] = numbers
+    return array
+
+
 def radians(degrees):
     """Bounds of an angle in rad, given in degrees as a fraction."""
     ends = sorted(degrees * p / 180 for p in PI)

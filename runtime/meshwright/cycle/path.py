@@ -97,8 +97,8 @@ class Path:
         model, solved = self.drive.model, np.empty((len(angles), self.unknowns.shape[1]))
         library().mw_from_nodes(
             model, pointer(self.state), pointer(np.ascontiguousarray(self.angles)),
-            pointer(np.ascontiguousarray(self.unknowns)), pointer(nodes.astype(np.int32), "int[]"), pointer(angles),
-            len(angles), pointer(solved), ffi.new("mw_info[]", len(angles)),
+            pointer(np.ascontiguousarray(self.unknowns)), len(self.angles), pointer(nodes.astype(np.int32), "int[]"),
+            pointer(angles), len(angles), pointer(solved), ffi.new("mw_info[]", len(angles)),
         )  # fmt: skip
         return solved
 

@@ -10,20 +10,19 @@ from typing import Any
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.base.roots import narrowed
 from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import Sections, lengthwise, solved
 
 #: Cells of the mesh that shows where a region is, at least.
 CELLS = 24
 
-#: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
-SAMPLES, BISECTIONS = 65, 56
+#: Samples of a line across the tooth on which its ends are looked for; they are located to so many units in the last
+#: place.
+SAMPLES, LAST_PLACES = 65, 4.0
 
 #: Lines along the border count as inside: the limits there are zero to rounding, mm; and how much it varies along one.
 ROUNDING, NOISE = 1e-9, 1e-13
-
-#: A step of this many towards an end is a bisection; one shorter than this part of the whole way is none.
-HALVED, STILL = 4, 1e-13
 
 #: Lines from which others are found; how far a line's ends are sought beyond its neighbours', in parts of its width,
 #: and how often that is doubled.
@@ -159,24 +158,24 @@ class Lines:
 
     def nearest(self, points, way, before, after):
         """Places (M, k) on the lines, between ones ``before`` and ``after`` (M, k), that are as far along ``way``
-        (M, 3) as ``points`` (M, 3); by Newton's method, by bisection where that leads out of what holds them.
+        (M, 3) as ``points`` (M, 3).
         """
-        of, q = self.region.profile, self.onto(0.5 * (before + after))
-        low, high = before[:, of], after[:, of]
-        for step in range(BISECTIONS):
-            found, change = self.slopes(q)
-            beyond, at = np.sum((found - points) * way, axis=1), q[:, of].copy()
-            low, high = np.where(beyond < 0.0, at, low), np.where(beyond < 0.0, high, at)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                further = at - beyond / np.sum(change * way, axis=1)
-            inside = ((further - low) * (further - high) <= 0.0) & (step % HALVED < HALVED - 1)
-            further = np.where(inside, further, 0.5 * (low + high))
-            if not (np.abs(further - at) > STILL * np.abs(after[:, of] - before[:, of])).any():
-                break
-            start = q.copy()
-            start[:, of] = further
-            q = self.onto(start)
-        return q
+        of, q = self.region.profile, before.copy()
+
+        def short(places, which):
+            return np.sum((points[which] - self.region.flank(places).points) * way[which], axis=1)
+
+        def at(profile, which):
+            trial = solve(self.region, profile, self.along[which], q[which])
+            q[which] = np.where(np.isfinite(trial), trial, q[which])
+            return short(trial, which)
+
+        every = np.arange(len(q))
+        ends = short(before, every), short(after, every)
+        there = np.where(ends[0] < 0.0, before[:, of], after[:, of])  # they lie before what should hold them
+        exact = LAST_PLACES * np.spacing(np.abs(after[:, of]))
+        q[:, of], _ = narrowed(at, before[:, of], there, ends, exact)
+        return self.onto(q)
 
     def slopes(self, q):
         """Points (N, 3) at parameters (N, k) and their change (N, 3) along the line by the profile's parameter."""
@@ -348,11 +347,8 @@ def _nearest(known, places):
     """For each place (P, 2) the number of the nearest of known ones (V, 2), in shares of their spread."""
     spread = np.maximum(np.ptp(known, axis=0), 1e-300)
     known, places = known / spread, places / spread
-    numbers = np.empty(len(places), dtype=int)
-    for first in range(0, len(places), 1024):
-        part = places[first : first + 1024]
-        numbers[first : first + 1024] = np.argmin(((part[:, None] - known[None]) ** 2).sum(axis=2), axis=1)
-    return numbers
+    # of squared distances what differs from one known place to another
+    return np.argmin(np.sum(known**2, axis=1) - 2.0 * places @ known.T, axis=1)
 
 
 def _longest_runs(inside):
@@ -369,8 +365,7 @@ def _longest_runs(inside):
 
 def _both_ends(region, across, q, profile, along, within):
     """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
-    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
-    where there is no surface. ``across`` are the limits that can end a line.
+    the profile (S, M). ``across`` are the limits that can end a line.
     """
 
     def least(places):
@@ -378,31 +373,19 @@ def _both_ends(region, across, q, profile, along, within):
 
     columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
     sign = np.repeat([-1, 1], len(columns) // 2)
-    inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
-    outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
+    beyond = np.clip(index + sign, 0, len(profile) - 1)
+    inner, outer, best = profile[index, columns], profile[beyond, columns], q[index, columns].copy()
     inside = least(best)
     floor = np.minimum(inside, 0.0) - NOISE
-    outside = least(q[beyond, columns]) - floor
-    inside = inside - floor
-    left = np.flatnonzero(inner != outer)
-    for step in range(BISECTIONS):
-        if not len(left):
-            break
-        a, b, fa, fb = inner[left], outer[left], inside[left], outside[left]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = fa / (fa - fb)
-        # now and then the middle: a limit function may be far from a straight line
-        share = np.where(np.isfinite(fb) & (share > 0.0) & (share < 1.0) & (step % HALVED > 0), share, 0.5)
-        trial = solve(region, a + share * (b - a), along[left], best[left])
-        value = least(trial) - floor[left]
-        good = value >= 0.0
-        inner[left] = np.where(good, a + share * (b - a), a)
-        outer[left] = np.where(good, b, a + share * (b - a))
-        inside[left] = np.where(good, value, 0.5 * fa)
-        outside[left] = np.where(good, 0.5 * fb, value)
-        best[left] = np.where(good[:, None], trial, best[left])
-        near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
-        left = left[~near]
+
+    def margin(at, which):
+        trial = solve(region, at, along[which], best[which])
+        value = least(trial) - floor[which]
+        best[which[value >= 0.0]] = trial[value >= 0.0]
+        return value
+
+    ends = inside - floor, least(q[beyond, columns]) - floor
+    narrowed(margin, inner, outer, ends, LAST_PLACES * np.spacing(np.abs(outer)), 2.0 * NOISE)
     return best.reshape(2, -1, best.shape[1])
 
 

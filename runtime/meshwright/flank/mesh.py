@@ -5,12 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.base.roots import narrowed
+
 #: A coarse look at how much of its box a region fills: cells; how much finer the lattice may become for it, and how
 #: coarse it may be.
 FEWEST, MOST_GROWN, FEWEST_ASKED = 12, 4.0, 4
 
-#: Halvings of a lattice edge that the border crosses; Newton steps to a corner.
-BISECTIONS = 60
+#: The border is located on an edge of the lattice to so many units in the last place; Newton steps to a corner.
+LAST_PLACES = 4.0
 NEWTON_STEPS = 25
 
 #: A corner belongs to the cell in which the border passes from limit to limit: it lies in it, or pokes through a side
@@ -107,14 +109,21 @@ def _crossings(region, lattice, first):
     if not edges:
         return {}, np.empty((0, lattice.q.shape[2])), {}
     inner, outer, q = np.array(inner), np.array(outer), np.array(starts)
-    worst = np.zeros(len(q), dtype=int)
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (inner + outer)
-        trial = region.chart.complete(middle, q)
+    ends = [region.limits.values(region.flank(at)) for at in (q, region.chart.complete(outer, q))]
+    worst, shares = np.argmin(ends[1], axis=1), np.zeros(len(q))
+
+    def least(share, which):
+        at = inner[which] + share[:, None] * (outer - inner)[which]
+        trial = region.chart.complete(at, q[which])
         values = region.limits.values(region.flank(trial))
-        good = (values.min(axis=1) >= 0.0)[:, None]
-        worst = np.where(good[:, 0], worst, np.argmin(values, axis=1))
-        inner, outer, q = np.where(good, middle, inner), np.where(good, outer, middle), np.where(good, trial, q)
+        good = values.min(axis=1) >= 0.0
+        worst[which[~good]] = np.argmin(values[~good], axis=1)
+        q[which[good]] = trial[good]
+        return values.min(axis=1)
+
+    rounding = np.spacing(np.maximum(np.abs(inner), np.abs(outer)))
+    exact = LAST_PLACES * (rounding / np.maximum(np.abs(outer - inner), rounding)).min(axis=1)
+    narrowed(least, shares, shares + 1.0, [values.min(axis=1) for values in ends], exact)
     numbers = {edge: first + k for k, edge in enumerate(edges)}
     return numbers, q, {first + k: int(w) for k, w in enumerate(worst)}
 

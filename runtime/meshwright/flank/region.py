@@ -16,6 +16,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import pointer
+from meshwright.base.roots import narrowed
 from meshwright.flank.lines import SINGULAR, lines
 from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import Sections, lengthwise, solved
@@ -42,10 +43,11 @@ REFINEMENTS = 6
 #: A place outside a limit is moved back this much further than to first order.
 OVERSHOOT = 1.05
 
-#: The end of a ray is located in so many rounds, each of which divides the length that holds it into so many parts.
-ROUNDS, PARTS = 11, 32
+#: What holds the end of a ray is divided into so many parts, and the end located to so many units in the last place.
+PARTS, LAST_PLACES = 32, 4.0
 
-NEWTON_STEPS = 40
+#: Newton's method: so many steps at most; one of no more than this, in natural sizes, is rounding.
+NEWTON_STEPS, STILL = 40, 1e-14
 
 
 @dataclass(frozen=True)
@@ -354,6 +356,8 @@ def _on_surface(flank, places, sizes):
         conditions = flank(q).conditions
         step = np.linalg.pinv(np.nan_to_num(conditions[:, :, 1:] * sizes)) @ conditions[:, :, :1]
         q = q - step[:, :, 0] * sizes
+        if not (np.abs(step) > STILL).any():
+            break
     return q
 
 
@@ -396,7 +400,7 @@ def _deeper(chart, limits, start):
     """A place about as far from the limits on either side of it, by halving chords through ``start`` (k,)."""
     q = start
     for axis in (0, 1, 0, 1):
-        ends = [_ray(chart, limits, q, axis, sign)[0] for sign in (-1.0, 1.0)]
+        ends = [end for end, _, _ in _rays(chart, limits, q, [(axis, -1.0), (axis, 1.0)])]
         if not all(math.isfinite(e) for e in ends):
             continue
         at = q[list(chart.free)].copy()
@@ -407,41 +411,57 @@ def _deeper(chart, limits, start):
     return q
 
 
-def _ray(chart, limits, start, axis, sign):
-    """Where a chart's line through an inner place leaves the region: coordinate (infinite if it does not), the limit
-    that ends it, and the last place (k,) inside.
+def _rays(chart, limits, start, ways):
+    """Where a chart's lines through an inner place leave the region, one for each of the ``ways``, an axis and a sign:
+    coordinate (infinite if it does not), the limit that ends it, and the last place (k,) inside.
     """
-    q, step = start, FIRST_STEP * chart.sizes[chart.free[axis]]
-    at = start[list(chart.free)].copy()
+    axes, signs = np.array([axis for axis, _ in ways]), np.array([sign for _, sign in ways])
+    q, here = np.tile(start, (len(ways), 1)), start[list(chart.free)]
+    inner, outer, limit = here[axes], signs * np.inf, np.zeros(len(ways), dtype=int)
+
+    def look(at, which):
+        places = np.tile(here, (len(at), 1))
+        places[np.arange(len(at)), axes[which]] = at
+        trials = chart.complete(places, q[which])
+        return trials, limits.values(chart.flank(trials))
+
+    def least(at, which):
+        trials, values = look(at, which := ended[which])
+        inside = values.min(axis=1) >= 0.0
+        q[which[inside]], limit[which[~inside]] = trials[inside], np.argmin(values[~inside], axis=1)
+        return values.min(axis=1)
+
+    def divide():
+        """Go to the first of some places between at which a line is outside."""
+        at = inner[ended, None] + np.arange(PARTS + 1) / PARTS * (outer - inner)[ended, None]
+        trials, values = look(at[:, 1:].ravel(), np.repeat(ended, PARTS))
+        trials, values = (found.reshape(len(ended), PARTS, found.shape[1]) for found in (trials, values))
+        outside = ~(values.min(axis=2) >= 0.0)
+        outside[:, -1] = True  # the outer end, whose coordinate rounding may have moved
+        rows, first = np.arange(len(ended)), np.argmax(outside, axis=1)
+        limit[ended] = np.argmin(values[rows, first], axis=1)
+        q[ended] = np.where(first[:, None] > 0, trials[rows, first - 1], q[ended])
+        inner[ended], outer[ended] = at[rows, first], at[rows, first + 1]
+        return limits.least(chart.flank(q[ended])), values[rows, first].min(axis=1)
+
+    going, step = np.arange(len(ways)), FIRST_STEP * chart.sizes[list(chart.free)][axes]
     for _ in range(MAX_STEPS):
-        further = at.copy()
-        further[axis] += sign * step
-        trial = chart.complete(further[None], q[None])[0]
-        values = limits.values(chart.flank(trial))[0]
-        if not values.min() >= 0.0:
-            return _divided(chart, limits, (q, at[axis], further[axis]), axis)
-        q, at, step = trial, further, GROWTH * step
-    return sign * math.inf, None, q
-
-
-def _divided(chart, limits, between, axis):
-    """Where a line leaves the region ``between`` the place (k,) at an inner coordinate and an outer coordinate, to
-    rounding; the limit that ends it there, and the last place (k,) inside.
-    """
-    q, inner, outer = between
-    worst, shares = None, np.arange(1, PARTS + 1) / PARTS
-    for _ in range(ROUNDS):
-        at = np.tile(q[list(chart.free)], (PARTS, 1))
-        at[:, axis] = inner + shares * (outer - inner)
-        trials = chart.complete(at, np.tile(q, (PARTS, 1)))
-        values = limits.values(chart.flank(trials))
-        outside = ~(values.min(axis=1) >= 0.0)
-        outside[-1] = True  # the outer end, whose coordinate rounding may have moved
-        first = int(np.argmax(outside))
-        outer, worst = at[first, axis], limits.names[int(np.argmin(values[first]))]
-        if first:
-            q, inner = trials[first - 1], at[first - 1, axis]
-    return inner, worst, q
+        further = inner[going] + signs[going] * step[going]
+        trials, values = look(further, going)
+        inside = values.min(axis=1) >= 0.0
+        outer[going[~inside]] = further[~inside]
+        going = going[inside]
+        q[going], inner[going], step[going] = trials[inside], further[inside], GROWTH * step[going]
+        if not going.size:
+            break
+    ended = np.flatnonzero(np.isfinite(outer))
+    exact = LAST_PLACES * np.spacing(np.abs(outer[ended]))
+    ends = divide()
+    inner[ended], outer[ended] = narrowed(least, inner[ended], outer[ended], ends, exact)
+    divide()
+    reached = np.where(np.isfinite(outer), inner, outer)
+    return [(float(end), limits.names[k] if np.isfinite(end) else None, last)
+            for end, k, last in zip(reached, limit, q, strict=True)]  # fmt: skip
 
 
 def _closed(chart, limits, start, places, beyond):
@@ -471,7 +491,7 @@ def _ends(chart, limits, start, sign):
     """Whether a size of blank or tool ends the profile on one side: a limit that is reached, or that a singular line
     only keeps from being reached.
     """
-    _, name, last = _ray(chart, limits, start, 0, sign)
+    ((_, name, last),) = _rays(chart, limits, start, [(0, sign)])
     if name not in (None, OPEN, *SINGULAR):
         return True
     here, there = limits.values(chart.flank(np.stack([start, last])))
@@ -483,7 +503,8 @@ def _ends(chart, limits, start, sign):
 def _boxed(chart, limits, start):
     """The region with a box that just holds it, found on ever finer lattices; none if narrower than rounding."""
     here = start[list(chart.free)]
-    rays = [[_ray(chart, limits, start, axis, sign) for axis in (0, 1)] for sign in (-1.0, 1.0)]
+    found = _rays(chart, limits, start, [(axis, sign) for sign in (-1.0, 1.0) for axis in (0, 1)])
+    rays = found[:2], found[2:]
     ends = np.array([[end for end, _, _ in side] for side in rays])
     ends = np.where(np.isfinite(ends), ends, here + np.array([[-1.0], [1.0]]) * chart.sizes[list(chart.free)])
     low, high = here + REACH * (ends[0] - here), here + REACH * (ends[1] - here)

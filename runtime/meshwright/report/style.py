@@ -7,6 +7,8 @@ from contextlib import contextmanager
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from meshwright.report.panel import Panel
+
 PINION, WHEEL, INK, SOFT, WARN = "#1f6f9f", "#b8651b", "#1c2733", "#8593a1", "#c0273d"
 MEMBERS = {"pinion": PINION, "wheel": WHEEL}
 
@@ -48,7 +50,12 @@ def drawing():
 
 def figure(width=6.4, height=3.6):
     """An empty figure, inches."""
-    return Figure(figsize=(width, height))
+    return _Figure(figsize=(width, height))
+
+
+class _Figure(Figure):
+    def add_subplot(self, *place, **options):
+        return super().add_subplot(*place, axes_class=Panel, **options)
 
 
 def to_svg(drawn, name, label):
@@ -64,7 +71,7 @@ def to_svg(drawn, name, label):
     text = stream.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
-    text = re.sub(r'\bid="', f'id="{name}-', text)
-    text = re.sub(r'(href="#|url\(#)', rf"\g<1>{name}-", text)
+    for mark in (' id="', 'href="#', "url(#"):
+        text = text.replace(mark, mark + f"{name}-")
     attributes = rf'<svg role="img" data-figure="{name}" aria-label="{label}" \1'
     return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', attributes, text)
