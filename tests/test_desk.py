@@ -48,9 +48,10 @@ def test_every_status_and_flag_is_explained(capsys):
         ("contact ratio", "quantity contact_ratio: over how many pitches"),
         ("hob_pitch_radius_mm", "key hob_pitch_radius_mm [design] reference radius of the hob (cylindrical-worm)"),
         ("misalignment.center_distance_mm", "[misalignment]"),
+        ("wide", "reason wide: the equations cannot be told to have one solution"),
     ],
 )
-def test_quantities_and_keys_are_explained(capsys, words, said):
+def test_quantities_reasons_and_keys_are_explained(capsys, words, said):
     assert main(["explain", *words.split()]) == 0
     shown = capsys.readouterr().out
     assert said in shown and not ("." in words and "[design]" in shown)
