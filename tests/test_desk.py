@@ -6,13 +6,14 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from dataclasses import replace
 
 import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.analysis import statuses
-from meshwright.design import design
+from meshwright.design import description, design, outline
 from tests.quick import quick
 
 
@@ -102,6 +103,16 @@ def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, wo
     result = drive.tca([0.0])
     assert result.status == ("converged",) and not any(flag != "off_face" for flag in result.flags[0])
     assert drive.contact_ratio().contact_ratio > 1.0
+
+
+def test_a_first_design_gives_the_keys_of_a_tool_that_no_word_chooses():
+    """A family of one drive has no words; what its tool alone needs to know is suggested like any other size."""
+    family = description.families()["face-worm"]
+    own = [p | {"tools": ["blade"]} if p["key"] == "blade_parabola_per_mm" else p for p in family.parameters]
+    given = {"m": 3.0, "z_1": 2, "z_2": 51, "a": math.nan}
+    text = outline.first_design(replace(family, parameters=own), "own", {}, given, {}).text
+    assert tomllib.loads(text)["design"]["blade_parabola_per_mm"] > 0.0
+    assert "design.profile_arc_radius_mm" in description.families()["cylindrical-worm"].unused({"worm_profile": "ZI"})
 
 
 #: Worms of every form; steep threads and hollow flanks are those whose wheels an edge meets first.
