@@ -220,6 +220,10 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     assert main(["tca", "plain-za.toml", "--phi-deg", "0", "--json", "./plain-za.toml"]) == 2
     assert "is the design itself" in capsys.readouterr().err
     assert (tmp_path / "plain-za.toml").read_text() == text
+    assert main(["tca", "plain-za", "--phi-deg", "0", "--json", "new.txt", "--csv", "./new.txt"]) == 2
+    assert "--csv ./new.txt: is the file of --json too" in capsys.readouterr().err
+    assert not (tmp_path / "new.txt").exists()
+    assert main(["tca", "plain-za", "--phi-deg", "0", "--json", "/dev/null", "--csv", "/dev/null"]) == 0
 
 
 @pytest.mark.parametrize(
