@@ -22,6 +22,7 @@ from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import remove_parts, replace_text
+from derive.language.validate import DescriptionError
 from derive.packaged import packaged
 from meshwright.base.compile import CompileError
 
@@ -45,12 +46,11 @@ def show(arguments):
     parser.add_argument("--after", choices=[*text.PASSES], help="the program after this pass; default: the description")
     options = parser.parse_args(arguments)
     try:
-        built = [*_built(options.drive)]
-    except outside.FileError as error:
+        for drive in _built(options.drive):
+            print(text.program(drive, options.after) if options.after else text.description(drive))
+    except (outside.FileError, DescriptionError) as error:
         print(error, file=sys.stderr)
         return 2
-    for drive in built:
-        print(text.program(drive, options.after) if options.after else text.description(drive))
     return 0
 
 
@@ -64,7 +64,9 @@ def _built(word):
 
 
 def main(arguments=None):
-    """Exit status 0, or 2 for an unknown drive, a damaged folder or one that cannot be written."""
+    """Exit status 0, or 2 for an unknown drive, a description that contradicts itself, a damaged folder or one that
+    cannot be written.
+    """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     if arguments[:1] == ["show"]:
         return show(arguments[1:])
@@ -92,7 +94,7 @@ def main(arguments=None):
         place = error.filename or options.output
         print(f"{place}: cannot be written ({error.strerror}); name another folder with --output", file=sys.stderr)
         return 2
-    except (outside.FileError, CompileError, DamagedManifest) as error:
+    except (outside.FileError, DescriptionError, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

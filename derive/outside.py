@@ -12,7 +12,7 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler
+from derive import beside, compiler, drives
 from derive.audit.checker import attempts, check_code, straight_line
 from derive.audit.checker.refusal import Rejected
 from derive.emit import families
@@ -42,7 +42,10 @@ def catalogue_of(path):
         sys.path.remove(str(path.resolve().parent))
     if not callable(getattr(module, "catalogue", None)):
         raise FileError(f"{path}: offers no catalogue(); define one that returns name → function that builds the drive")
-    return module.catalogue()
+    offered = module.catalogue()
+    if not isinstance(offered, dict) or not offered or not all(map(callable, offered.values())):
+        raise FileError(f"{path}: catalogue() returns {offered!r}; return a dict, name → function that builds it")
+    return offered
 
 
 def built(path, name, build):
@@ -54,6 +57,9 @@ def built(path, name, build):
         raise FileError(f"{path}: catalogue()[{name!r}] builds a drive named {drive.name!r}; give both the same name")
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
         raise FileError(f"{path}: the drive's name {name!r} must be small letters, digits and _; rename it")
+    of_tree = drives.catalogue([name]).get(name)
+    if of_tree and drive.family != of_tree().family:
+        raise FileError(f"{path}: the name {name!r} is that of a drive of another family; rename the drive")
     return drive
 
 

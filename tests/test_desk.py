@@ -6,13 +6,14 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from dataclasses import replace
 
 import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.analysis import statuses
-from meshwright.design import design
+from meshwright.design import description, design, outline
 from tests.quick import quick
 
 
@@ -48,9 +49,10 @@ def test_every_status_and_flag_is_explained(capsys):
         ("contact ratio", "quantity contact_ratio: over how many pitches"),
         ("hob_pitch_radius_mm", "key hob_pitch_radius_mm [design] reference radius of the hob (cylindrical-worm)"),
         ("misalignment.center_distance_mm", "[misalignment]"),
+        ("wide", "reason wide: the equations cannot be told to have one solution"),
     ],
 )
-def test_quantities_and_keys_are_explained(capsys, words, said):
+def test_quantities_reasons_and_keys_are_explained(capsys, words, said):
     assert main(["explain", *words.split()]) == 0
     shown = capsys.readouterr().out
     assert said in shown and not ("." in words and "[design]" in shown)
@@ -101,6 +103,16 @@ def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, wo
     result = drive.tca([0.0])
     assert result.status == ("converged",) and not any(flag != "off_face" for flag in result.flags[0])
     assert drive.contact_ratio().contact_ratio > 1.0
+
+
+def test_a_first_design_gives_the_keys_of_a_tool_that_no_word_chooses():
+    """A family of one drive has no words; what its tool alone needs to know is suggested like any other size."""
+    family = description.families()["face-worm"]
+    own = [p | {"tools": ["blade"]} if p["key"] == "blade_parabola_per_mm" else p for p in family.parameters]
+    given = {"m": 3.0, "z_1": 2, "z_2": 51, "a": math.nan}
+    text = outline.first_design(replace(family, parameters=own), "own", {}, given, {}).text
+    assert tomllib.loads(text)["design"]["blade_parabola_per_mm"] > 0.0
+    assert "design.profile_arc_radius_mm" in description.families()["cylindrical-worm"].unused({"worm_profile": "ZI"})
 
 
 #: Worms of every form; steep threads and hollow flanks are those whose wheels an edge meets first.
@@ -208,6 +220,10 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
     assert main(["tca", "plain-za.toml", "--phi-deg", "0", "--json", "./plain-za.toml"]) == 2
     assert "is the design itself" in capsys.readouterr().err
     assert (tmp_path / "plain-za.toml").read_text() == text
+    assert main(["tca", "plain-za", "--phi-deg", "0", "--json", "new.txt", "--csv", "./new.txt"]) == 2
+    assert "--csv ./new.txt: is the file of --json too" in capsys.readouterr().err
+    assert not (tmp_path / "new.txt").exists()
+    assert main(["tca", "plain-za", "--phi-deg", "0", "--json", "/dev/null", "--csv", "/dev/null"]) == 0
 
 
 @pytest.mark.parametrize(

@@ -53,7 +53,7 @@ class Joint:
 
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
-    checks = (_keys, _names, _completion, _guards, _sample, _systems, _limits)
+    checks = (_keys, _names, _words, _completion, _guards, _sample, _domains, _systems, _turns, _limits, _exact)
     for check in checks:
         for message in check(drive):
             raise DescriptionError(f"{drive.name}: {message}")
@@ -125,6 +125,19 @@ def _names(drive: Drive) -> Iterator[str]:
             yield f"the symbol {p.symbol.name!r} of the key {p.key!r} is no name in C; use letters, digits and _"
 
 
+def _words(drive: Drive) -> Iterator[str]:
+    """What is one of a few words or a count."""
+    if drive.handed not in ("", "right", "left"):
+        yield f"handed = {drive.handed!r}: use 'right', 'left', or '' for a drive that has but one hand"
+    if (loading := drive.loading) is None:
+        return
+    members = [body.name for body in drive.bodies]
+    if loading.torque_on not in members:
+        yield f"loading: torque_on = {loading.torque_on!r} is no member; use one of {', '.join(members)}"
+    if loading.pairs < 1:
+        yield f"loading: pairs = {loading.pairs}: at least one pair of teeth bears the load"
+
+
 def _strangers(drive: Drive, expression: Number, known: Collection[sp.Symbol]) -> list[str]:
     """Names in an expression that nothing gives a value."""
     return sorted(q.name for q in drive.definitions.free(expression) if q not in known)
@@ -138,7 +151,11 @@ def _completion(drive: Drive) -> Iterator[str]:
                 yield f"a {what} fills {rule.target}, which is no parameter"
             if strangers := _strangers(drive, rule.value, parameters):
                 yield f"the {what} for {rule.target} needs {', '.join(strangers)}, which no key gives"
+    taken = [p.key for p in drive.parameters if p.table == Table.DESIGN]
     for name, value, _ in drive.sizes:
+        if name in taken:
+            yield f"the size {name!r} is also a key of the design or another size; rename one of them"
+        taken.append(name)
         if strangers := _strangers(drive, value, parameters):
             yield f"the size {name} needs {', '.join(strangers)}, which no key gives"
     if strangers := _strangers(drive, drive.reference_angle, parameters):
@@ -170,6 +187,27 @@ def _sample(drive: Drive) -> Iterator[str]:
             yield f"the sample design must give exactly one of {', '.join(group)}"
 
 
+def _domains(drive: Drive) -> Iterator[str]:
+    for p in drive.parameters:
+        if p.default is not None and not _within(p, p.default):
+            yield f"the default {p.default} of the key {p.key!r} is outside its domain; change one of them"
+        if (given := drive.sample.get(_in_sample(p))) is None:
+            continue
+        try:
+            inside = _within(p, sp.Rational(str(given)) * p.factor)
+        except (TypeError, ValueError):
+            yield f"the sample design gives {given!r} for {_in_sample(p)!r}; give a number"
+            continue
+        if not inside:
+            yield f"the sample design gives {given} for {_in_sample(p)!r}, outside its domain; change one of them"
+
+
+def _within(p: Parameter, value: sp.Expr) -> bool:
+    """Whether a number, in inner units, is one that the parameter may have."""
+    low, high = map(float, p.symbol.domain)
+    return low < float(value) < high or p.lower_included and low == float(value)
+
+
 def _systems(drive: Drive) -> Iterator[str]:
     if len(drive.residual) != len(drive.unknowns):
         yield f"{len(drive.residual)} equations of contact for {len(drive.unknowns)} unknowns"
@@ -186,6 +224,41 @@ def _systems(drive: Drive) -> Iterator[str]:
     for system in drive.systems:
         for target in system.fills.keys() - parameters:
             yield f"the design system {system.name} fills {target}, which is no parameter"
+
+
+def _turns(drive: Drive) -> Iterator[str]:
+    """Each member turns about one axis: the pinion by the input angle, the wheel by the transmission error too."""
+    for body, variable in ((drive.pinion, drive.instant), (drive.wheel, drive.error)):
+        try:
+            body.motion.axis(variable)
+        except ValueError as error:
+            yield f"the motion of the {body.name}: {error}"
+
+
+def _exact(drive: Drive) -> Iterator[str]:
+    """Numbers are exact and real: an inexact one has no place in a proof, one that is no number none in a gear."""
+    for what, expression in _expressions(drive):
+        for atom in sp.sympify(expression).atoms():
+            if isinstance(atom, sp.Float):
+                yield f"{what} has the inexact number {atom}; write it as a sympy.Rational"
+            elif not (isinstance(atom, sp.Symbol | sp.Rational) or atom is sp.pi):
+                yield f"{what} has {atom}, which is no real number, or has no exact form in a description"
+
+
+def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
+    """Every expression of the description, and what it is."""
+    yield from ((f"the definition of {symbol}", value) for symbol, value in drive.definitions.items())
+    yield from ((f"the default of {p.key}", p.default) for p in drive.parameters if p.default is not None)
+    yield from ((f"the rule for {rule.target}", rule.value) for rule in (*drive.rules, *drive.proportions))
+    yield from ((f"the guard {guard.message!r}", guard.positive) for guard in drive.guards)
+    yield from ((f"the size {name}", value) for name, value, _ in drive.sizes)
+    yield from (("an equation of contact", equation) for equation in drive.residual)
+    yield from ((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())
+    yield from (("the ratio", drive.ratio), ("the wheel's angle", drive.wheel_angle))
+    for member in (*drive.bodies, *drive.regions):
+        yield from ((f"the limit {m.event!r} of the {member.name}", m.positive) for m in member.margins)
+    for function in drive.functions:
+        yield from ((f"{r.name} of {function.name}", value) for r in function.results for value in r.values)
 
 
 def _limits(drive: Drive) -> Iterator[str]:

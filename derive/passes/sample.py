@@ -9,6 +9,7 @@ import sympy as sp
 
 from derive.language.drive import PATH, Drive
 from derive.language.symbols import Table
+from derive.language.validate import DescriptionError
 from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Schedule
 from derive.program.tape import Lowering, Stage, Tape
@@ -29,6 +30,10 @@ PATH_STEPS = 16
 
 #: Newton's last change on the way: what is left of the error is its square.
 ON_PATH = 1e-4
+
+
+class NoSample(DescriptionError, ArithmeticError):
+    """A sample design without a contact at its angle, as far as Newton's method finds it."""
 
 
 class Completion:
@@ -164,13 +169,13 @@ def _iteration(
             try:
                 numbers = evaluate(inputs)
             except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
-                raise ArithmeticError(f"the sample of {unknowns} leaves the real numbers; choose another") from error
+                raise NoSample(f"the sample of {unknowns} leaves the real numbers; choose another") from error
             change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
             if max(map(abs, change), default=0) < (tolerance or exact):
                 return
-        raise ArithmeticError(f"the sample of {unknowns} does not converge; choose another sample design")
+        raise NoSample(f"the sample of {unknowns} does not converge; choose another sample design")
 
     return iterate
 

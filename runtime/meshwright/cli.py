@@ -42,7 +42,8 @@ def parser(names=None):
         text = (summary + module.__doc__.strip().partition("\n")[2]).replace("``", "`")
         sub = subparsers.add_parser(name, help=summary, description=text)
         module.add_arguments(sub)
-        sub.set_defaults(run=module.run)
+        files = [a.dest for a in sub._actions if re.search("DESIGN|FILE", a.metavar or "")]
+        sub.set_defaults(run=module.run, files=files)
     return top
 
 
@@ -90,14 +91,24 @@ def joined(arguments):
 
 
 def _refuse_overwriting(options):
-    """A file that is read is not written to: a slip of the keyboard costs no design."""
-    given = {name: value for name, value in vars(options).items() if isinstance(value, str | Path)}
-    design = Path(given.pop("design", ""))
-    if not design.is_file():
-        return
+    """A file is read or written once: a slip of the keyboard costs no design, no measurement and no result."""
+    given = {name: getattr(options, name) for name in options.files}
+    design = given.pop("design", None)
+    seen = {"design": design} if design and Path(design).is_file() else {}
     for name, value in given.items():
-        if Path(value).is_file() and Path(value).samefile(design):
-            raise UsageError(f"--{name.replace('_', '-')} {value}: is the design itself; name another file")
+        for other, place in seen.items():
+            if _one_file(Path(value or "-"), Path(place)):
+                whose = "the design itself" if other == "design" else f"the file of {_as_typed(other)} too"
+                raise UsageError(f"{_as_typed(name)} {value}: is {whose}; name another file")
+        if value not in (None, "-"):
+            seen[name] = value
+
+
+def _one_file(a, b):
+    """Whether two paths lead to one file; a device or a pipe is none."""
+    if a.exists() and b.exists():
+        return a.is_file() and a.samefile(b)
+    return a.resolve() == b.resolve()
 
 
 def main(arguments=None):

@@ -9,7 +9,7 @@ import sympy as sp
 from derive import drives
 from derive.language import vectors as v
 from derive.language.contact import contact
-from derive.language.drive import Margin, Role
+from derive.language.drive import Loading, Margin, Role
 from derive.language.symbols import Guard, Quantity, Rule, Table, parameter
 from derive.language.validate import DescriptionError, validate, validate_normals, validate_regions
 from derive.passes.joints import joints
@@ -88,6 +88,29 @@ CASES = {
     "teeth of no key": (lambda d: replace(d, pinion_teeth="teeth"), "pinion_teeth.*'teeth'"),
     "together of no keys": (lambda d: replace(d, together=(("design.modul_mm",),)), "design.modul_mm"),
     "reference angle of strangers": (lambda d: replace(d, reference_angle=sp.Symbol("q")), "reference angle needs q"),
+    "sample that is no number": (
+        lambda d: replace(d, sample={**d.sample, "module_mm": "wide"}), "'wide' for 'module_mm'"
+    ),
+    "sample outside its domain": (
+        lambda d: replace(d, sample={**d.sample, "pressure_angle_deg": 90}), "gives 90.*domain"
+    ),
+    "default outside its domain": (
+        lambda d: _with_key(d, parameter("crown_mm", "c", "crown", domain=(0, 1), default=0)), "default 0.*'crown_mm'"
+    ),
+    "size twice": (lambda d: replace(d, sizes=(*d.sizes, d.sizes[0])), "size 'center_distance_mm' is also"),
+    "size of a key's name": (
+        lambda d: replace(d, sizes=(*d.sizes, ("module_mm", sp.S.One, "one"))), "size 'module_mm' is also"
+    ),
+    "hand that is none": (lambda d: replace(d, handed="upright"), "handed = 'upright': use 'right', 'left'"),
+    "torque on nobody": (lambda d: replace(d, loading=Loading(3, "gear")), "torque_on = 'gear'.*pinion, wheel"),
+    "load on no pair": (lambda d: replace(d, loading=Loading(0, "wheel")), "pairs = 0"),
+    "inexact number": (
+        lambda d: replace(d, rules=(*d.rules, Rule(d.parameters[1].symbol, sp.Float("0.3")))), "rule for m.*Rational"
+    ),
+    "number that is none": (lambda d: _with_margin(d, Margin("off_tip", "tip", X / 0)), "'tip' of the pinion has zoo"),
+    "wheel that does not turn": (
+        lambda d: replace(d, wheel=replace(d.wheel, motion=d.pinion.motion)), "motion of the wheel.*does not turn"
+    ),
 }  # fmt: skip
 
 

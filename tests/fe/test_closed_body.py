@@ -91,6 +91,7 @@ def test_what_has_no_closed_body_says_why(capsys):
         closed_body(Drive.load("plain-za"), "pinion", 1)
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid", "--teeth", "999", "--stl", "-"]) == 2
     assert main(["surface", "helical-crowned", "--member", "wheel", "--solid"]) == 2
+    assert main(["surface", "helical-crowned", "--member", "wheel", "--region", "fillet", "--solid", "--stl", "-"]) == 2
     assert "choose from 1 to" in capsys.readouterr().err
 
 

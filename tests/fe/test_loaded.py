@@ -1,6 +1,7 @@
 """Semi-analytic loaded contact and its parts against closed forms."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
 from meshwright.fe import cells
+from meshwright.fe import pair as pairs
 from meshwright.fe.blocks import Block
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance, spline_weights, tooth_compliance
@@ -109,6 +111,18 @@ def test_two_pairs_share_the_torque(concave, compliance):
 
 
 @pytest.mark.validate
+def test_every_pitch_is_loaded_like_the_first(concave):
+    """Whole pitches later other teeth do the same: forces, and the error of the loaded wheel."""
+    pitch = concave.pinion.pitch
+    first, *others = (
+        loaded_contact(concave, (0.35 + pitches) * pitch, 3, TORQUE, None) for pitches in (0, 1, 2, -7, 100)
+    )
+    for pitches, found in zip((1, 2, -7, 100), others, strict=True):
+        assert [pair.contact.pairs_later - pitches for pair in found.pairs] == [0, 1]
+        assert [pair.force for pair in found.pairs] == pytest.approx([pair.force for pair in first.pairs], rel=1e-9)
+        assert found.rotation == pytest.approx(first.rotation, rel=1e-9)
+
+
 def test_loads_do_the_same_work_on_one_anothers_displacements(concave, compliance, monkeypatch):
     """Betti's theorem, of cells of both pairs with edges nearby, and cells that bear one another's loads stably: what
     is factorised pair by pair tells the pressures under which cells move as they do.
@@ -162,16 +176,19 @@ def test_torque_on_either_member(concave):
     assert on_wheel.transmission_error == pytest.approx(on_pinion.transmission_error, rel=1e-3)
 
 
-def test_command(capsys):
+def test_command(capsys, monkeypatch):
+    """At 40 degrees the teeth are taken to be broken out."""
+    there, broken = pairs.first_touches, math.radians(40)
+    monkeypatch.setattr(pairs, "first_touches", lambda g, angle, n: there(g, angle, n) if angle < broken else ())
     status = main(["loaded", "spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg=0,3,40", "--json", "-"])
     document = json.loads(capsys.readouterr().out)
-    assert status == 1  # at 40 degrees the reference pair and its neighbours have left contact
+    assert status == 1
     assert document["schema"] == "meshwright.loaded/1"
     single, double, none = document["points"]
     assert set(single) >= {"pinion_angle_deg", "loaded_transmission_error_arcsec", "mesh_stiffness_n_per_um", "pairs"}
     assert [pair["share"] for pair in single["pairs"]] == [1.0]
     assert sum(pair["share"] for pair in double["pairs"]) == pytest.approx(1.0)
-    assert none["pairs"] == [] and none["loaded_transmission_error_arcsec"] is None
+    assert none["status"] == "no_contact" and none["pairs"] == [] and none["loaded_transmission_error_arcsec"] is None
 
 
 @pytest.mark.validate

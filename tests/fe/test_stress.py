@@ -172,8 +172,10 @@ def test_without_solver_the_input_is_written(monkeypatch, capsys, tmp_path):
 
 
 def test_no_pair_at_this_angle(capsys, tmp_path):
-    arguments = ["spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg", "40", "--folder", str(tmp_path)]
-    assert main(["fe", *arguments]) == 2
+    """Between two pairs whose low teeth have left contact and not yet met."""
+    arguments = ["spherical-table-4-4-concave", "--torque-nm", "100", "--phi-deg", "5.4", "--folder", str(tmp_path)]
+    low = [f"--set=blank.{member}_tip_addendum_mm=1" for member in ("pinion", "wheel")]
+    assert main(["fe", *arguments, *low]) == 2
     assert "--phi-deg" in capsys.readouterr().err
 
 

@@ -12,10 +12,10 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 #: Chromium without a window, which draws WebGL with its processor.
 HEADLESS = ("--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
-#: Widths of a window, px: a telephone's, a tablet's, a desk's.
-WIDTHS = (500, 900, 1400)
+#: Widths of a window, px: telephones', a tablet's, a small and a large desk's.
+WIDTHS = (390, 500, 900, 1001, 1400)
 
-#: What of a page is cut off: wider than the window without scrolling, hidden overflow, text outside its picture.
+#: What of a page is cut off: wider than the window without scrolling, hidden, outside its picture or its cell.
 CUT_OFF = """(() => {
   const found = new Set(), width = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > width + 1) found.add("the page is wider than the window");
@@ -28,6 +28,7 @@ CUT_OFF = """(() => {
       if (e.tagName === "text" && box.width && Math.max(...over) > 1) found.add(`outside its picture: ${said}`);
       continue;
     }
+    if (["TD", "TH"].includes(e.tagName) && e.scrollWidth > e.clientWidth + 1) found.add(`beyond its cell: ${said}`);
     const hides = ["hidden", "clip"].includes(getComputedStyle(e).overflowX);
     if (hides && e.clientWidth && e.scrollWidth > e.clientWidth + 1) found.add(`cut off: ${said} ${e.value ?? ""}`);
     if (box.width && box.right > width + 1 && !scrolls(e.parentElement)) found.add(`beyond the window: ${said}`);

@@ -132,10 +132,25 @@ def test_a_folder_that_is_none_is_refused(tmp_path):
     assert done.returncode == 2 and "no such folder" in done.stderr and "python -m derive" in done.stderr
 
 
+#: A drive of the tree under another name, with a hand that is none.
+CONTRADICTION = """
+from dataclasses import replace
+from derive.drives import spherical
+
+def catalogue():
+    drive = replace(spherical.spherical("spur", "spur"), name="a_drive", handed="upright")
+    return {"a_drive": lambda: drive}
+"""
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [("x = 1\n", "offers no catalogue()"), ("def catalogue(:\n", "line 1"),
-     ("def catalogue():\n    return {'a': lambda: 1}\n", "builds a int")],
+     ("def catalogue():\n    return {'a': lambda: 1}\n", "builds a int"),
+     ("def catalogue():\n    return ['a']\n", "catalogue() returns ['a']; return a dict"),
+     ("def catalogue():\n    return {}\n", "catalogue() returns {}; return a dict"),
+     (CONTRADICTION, "handed = 'upright'"),
+     (CONTRADICTION.replace('"a_drive"', '"face_worm"'), "name 'face_worm' is that of a drive of another family")],
 )  # fmt: skip
 def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text, reason):
     path = tmp_path / "mine.py"

@@ -205,11 +205,16 @@ def test_a_sample_that_is_no_design_is_bad_input_and_the_others_are_solved():
         assert (status[-1] == 0).all()
 
 
-@pytest.mark.parametrize("key", ["design.worm_pitch_radius_mm", "design.worm_threads"])
-def test_a_key_that_is_not_free_is_refused(key):
-    """Determined by the lead angle that is given; a whole number."""
+@pytest.mark.parametrize(
+    ("key", "why"),
+    [("design.worm_pitch_radius_mm", "another key of the design determines it"),
+     ("design.worm_threads", "whole number"),
+     ("design.grinding_wheel_radius_mm", "no key of a 'ZN worm with a wheel cut by a ZN hob'")],
+)  # fmt: skip
+def test_a_key_that_is_not_free_is_refused(key, why):
+    """Determined by the lead angle that is given; a whole number; of another tool."""
     plan = sweep.Plan(designs.read("plain-zn"), (sweep.Variation(key, "uniform", 19.0, 21.0),), ANGLES, 1)
-    with pytest.raises(DesignError, match=key.partition(".")[2]):
+    with pytest.raises(DesignError, match=f"{key.partition('.')[2]}.*{why}"):
         sweep.check(plan)
 
 

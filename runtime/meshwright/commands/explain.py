@@ -1,11 +1,11 @@
-"""Say what a flag, a status, an event or a quantity of the results means, or a key; without WORD, all but the keys."""
+"""Say what a flag, status, event, reason or quantity of the results means, or a key; without WORD, all but the keys."""
 
 import difflib
 
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
 from meshwright.contact import words
-from meshwright.contact.analysis import status_text, statuses
+from meshwright.contact.analysis import reasons, status_text, statuses
 from meshwright.contact.results import impossible
 from meshwright.design import description, schema
 
@@ -17,11 +17,12 @@ def add_arguments(parser):
 
 
 def meanings():
-    """``{"status" | "flag" | "event": {word: what it means}}``."""
+    """``{"status" | "flag" | "event" | "reason" | "quantity": {word: what it means}}``."""
     return {
         "status": {word: status_text(word) for word in dict.fromkeys(statuses().values())},
         "flag": {word: _flag(word) for word in words.FLAGS},
         "event": words.EVENTS,
+        "reason": reasons(),
         "quantity": words.QUANTITIES,
     }
 
@@ -58,7 +59,7 @@ def _key(word, known):
     if not lines:
         near = difflib.get_close_matches(word, [*(name for meant in known.values() for name in meant), *listed], n=1)
         remedy = f"did you mean {near[0]!r}?" if near else "`meshwright explain` lists them, `meshwright drives` keys"
-        raise UsageError(f"explain {word}: no such flag, status, event, quantity or key; {remedy}")
+        raise UsageError(f"explain {word}: no such flag, status, event, reason, quantity or key; {remedy}")
     return lines
 
 

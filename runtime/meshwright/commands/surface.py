@@ -56,6 +56,8 @@ def add_arguments(parser):
 def run(options):
     shape = _shape(options.grid)
     drive = common.drive_of(options)
+    if options.solid and options.region != "flank":
+        raise UsageError(f"--region {options.region}: a body has all its regions; leave --region or --solid out")
     if options.solid:
         return _write_solid(options, drive)
     if options.teeth is not None:

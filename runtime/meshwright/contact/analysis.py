@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import count, takewhile
 
 import numpy as np
 
@@ -244,6 +245,12 @@ def status_codes(*words):
 def status_text(word):
     """What a status word means, in a sentence."""
     return text(library().mw_status_text(status_codes(word)[0]))
+
+
+def reasons():
+    """Why a proof shows nothing, in a sentence, by the word for it."""
+    words = takewhile(bool, (text(library().mw_reason_word(code)) for code in count(1)))
+    return {word: text(library().mw_reason_text(code)) for code, word in enumerate(words, 1)}
 
 
 def flag_names(m):

@@ -69,6 +69,12 @@ class Family:
         return next((name for name, variant in self.variants.items()
                      if all(agrees(allowed, words[key]) for key, allowed in variant.items() if key != but)), None)
 
+    def unused(self, words):
+        """Places of the keys of tools that words of a design choose, but none of these (key → word)."""
+        listed = [w for variant in self.variants.values() for w in variant.values() if not isinstance(w, dict)]
+        others = {word for meant in listed for word in meant} - {*words.values()}
+        return {f"{p['table']}.{p['key']}" for p in self.parameters if p["tools"] and {*p["tools"]} <= others}
+
 
 def _joint(family, place, found, everywhere):
     """One entry for what the drives of a family say of a key."""

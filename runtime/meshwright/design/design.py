@@ -357,18 +357,19 @@ def _check_exclusive(description, given):
 
 def _check_needed(description, checked, places=None):
     """Every key that the drive requires is given, and none that its tools do not use."""
+    kind = f"a drive of the kind {description['title']!r}"
     own = {(p["table"], p["key"]) for p in description["parameters"]}
     family = metadata.families(places)[description["family"]]
     own |= {metadata.table_and_key(place) for place in family.choosing}
     for p in description["parameters"]:
         if p["required"] and p["table"] != "flank" and checked[p["table"]].get(p["key"]) is None:
             place = f"{p['table']}.{p['key']}"
-            raise DesignError(place, None, f"a {description['title']} cannot be made without it", "add it")
+            raise DesignError(place, None, f"{kind} cannot be made without it", "add it")
     for p in family.parameters:
         table, key = p["table"], p["key"]
         if table != "flank" and (table, key) not in own and (value := checked[table].get(key)) is not None:
             of = f"; it is a key of {', '.join(p['tools'])}" if p["tools"] else _counted(family, table, key)
-            raise DesignError(f"{table}.{key}", value, f"a {description['title']} does not use it{of}", "remove it")
+            raise DesignError(f"{table}.{key}", value, f"{kind} does not use it{of}", "remove it")
 
 
 def _counted(family, table, key):

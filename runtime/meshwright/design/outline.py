@@ -29,12 +29,12 @@ def first_design(family, name, words, given, own):
     tables) that replace suggestions or stand beside them. Raises :class:`UsageError` where the options contradict each
     other.
     """
-    usable = _places(family, words)
+    unused = family.unused(words)
     symbols, chosen, told = dict(given), {}, []
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
     for suggestion in family.outline["suggestions"]:
         place = suggestion["place"]
-        if place and place not in usable or not _meant(suggestion, words):
+        if place in unused or not _meant(suggestion, words):
             continue
         number = _number(suggestion, symbols)
         if suggestion["name"] in symbols and math.isnan(number):
@@ -108,12 +108,6 @@ def _unsound(suggestion, number, symbols):
     least, most = (value(bound, symbols) for bound in suggestion["within"])
     said = f"{suggestion['name']} = {number:.4g}: {suggestion['why']}; sound designs have {least:g} to {most:g}"
     return "" if least <= number <= most else said
-
-
-def _places(family, words):
-    """The keys ("table.key") that the drive of these words has: those of the family and those of the tools named."""
-    chosen = {*words.values()}
-    return {f"{p['table']}.{p['key']}" for p in family.parameters if not p["tools"] or chosen & {*p["tools"]}}
 
 
 def _meant(suggestion, words):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
@@ -28,6 +29,10 @@ from meshwright.fe.sizes import solid_sizes
 from meshwright.fe.thread_flanks import place_in_contact, threads
 from meshwright.fe.tooth import Teeth
 
+#: Share of a pitch by which an angle half-way between two pairs may be off.
+_HALF_WAY = 1e-9
+
+#: Share of a pitch in which a path of contact is followed at most.
 _STEP_PITCHES = 0.25
 
 MemberName = Literal["pinion", "wheel"]
@@ -88,12 +93,17 @@ def teeth_of(drive: Drive, member: MemberName, rim_thickness: float | None) -> T
 
 
 def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
-    """The reference pair if it touches at pinion angle 0; else the one in the middle of its contact at each angle."""
+    """The pair in the middle at each pinion angle: the reference pair up to half a pitch about 0, where it touches, or
+    else about the middle of its contact.
+    """
     ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
-    if len(ends) < 2 or min(ends) <= 0.0 <= max(ends):
-        return lambda angle: 0
-    middle = 0.5 * sum(ends)
-    return lambda angle: round((angle - middle) / pitch)
+    middle = 0.0 if len(ends) < 2 or min(ends) <= 0.0 <= max(ends) else 0.5 * sum(ends)
+
+    def pair(angle: float) -> int:
+        pitches = (angle - middle) / pitch
+        return int(math.copysign(math.ceil(abs(pitches) - 0.5 - _HALF_WAY), pitches))
+
+    return pair
 
 
 def _check_point_contact(drive: Drive) -> None:

@@ -136,7 +136,7 @@ def _tables(family, name, read, words):
     for group in table["exclusive"]:
         given = [key for key in group if keys[key]["name"] in read]
         dropped |= set(given[1:])
-    unused = _unused(family, words)
+    unused = family.unused(words)
     tables = {"drive": family.name}
     if name and len(name) <= 200 and name.isprintable():
         tables["name"] = name
@@ -149,12 +149,6 @@ def _tables(family, name, read, words):
         table_name, key = metadata.table_and_key(place)
         tables.setdefault(table_name, {})[key] = word
     return tables
-
-
-def _unused(family, words):
-    """The keys of tools that the design's words do not name."""
-    used = set(words.values())
-    return {f"{p['table']}.{p['key']}" for p in family.parameters if p["tools"] and not used & set(p["tools"])}
 
 
 def _in_key_unit(p, number):
@@ -228,7 +222,7 @@ def _check_agreement(document, table, found, symbols):
 
 
 def _report(document, table, found, tables, symbols, doubts):
-    mapped, seen, unused = [], set(), _unused(found.family, words_of(found.family, tables))
+    mapped, seen, unused = [], set(), found.family.unused(words_of(found.family, tables))
     for spec in (*table["attributes"], *table["words"]):
         component = found.components.get(spec["component"])
         if component is None or spec["attribute"] not in component.attributes:

@@ -232,10 +232,12 @@ def column(drive, key):
     if any(key in group for group in description["together"]) and not _is_given(drive.design, table, name):
         raise DesignError(key, None, "it makes sense only together with others", "give all of them in the design")
     for k, p in enumerate(description["parameters"]):
-        if (p["table"], p["key"]) == (table, name) and designs.is_real(p):
+        if (p["table"], p["key"]) == (table, name):
+            if not designs.is_real(p):
+                raise DesignError(key, None, "a whole number or a word does not vary", "vary another key")
             return k, p
     if any((p["table"], p["key"]) == (table, name) for p in known):
-        raise DesignError(key, None, f"a {description['title']} does not use it", "vary another key")
+        raise DesignError(key, None, f"no key of a {description['title']!r}", "vary another key")
     raise DesignError(key, None, "no real parameter of this drive", "`meshwright drives` lists the keys as table.key")
 
 
