@@ -249,6 +249,12 @@ class Drive:
         return grid(self, member, shape, region, inset)
 
     @cached_property
+    def other_side(self):
+        """The drive of the same design whose flank is the other side of the teeth; None where a side has its own."""
+        apart = self.design.description["flanks_apart"]
+        return None if apart else self.with_(flank=self.design.other_flank)
+
+    @cached_property
     def uses(self):
         """What contact uses of the flanks: see :class:`~meshwright.flank.region.Uses`."""
         from meshwright.pattern.used import uses

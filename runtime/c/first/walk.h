@@ -87,14 +87,15 @@ static const place *nearest(const search *h, const place *known, const place *at
 }
 
 /* Where every vertex of the mesh meets the pinion's flank: each piece of the mesh from its vertex nearest to a known
- * place, walked to from the nearest one by then, and from there along its edges. tried[vertices] is work. */
+ * place, walked to from the nearest one by then, and from there along its edges; none where so many of the nearest cannot
+ * be walked to. tried[vertices] is work. */
 static void flood(const search *h, const place *known, place *at, unsigned char *tried)
 {
     const mw_flank_mesh *mesh = h->mesh;
-    enum { AT_MOST = 3 };
+    enum { AT_MOST = 3, FAR_OFF = 64 };
     memset(tried, 0, mesh->vertices);
     for (size_t v = 0; v < mesh->vertices; v++) at[v].good = 0;
-    for (;;) {
+    for (int missed = 0, reached = 0; reached || missed < FAR_OFF; missed++) {
         size_t seed = mesh->vertices;
         double least = HUGE_VAL;
         for (size_t v = 0; v < mesh->vertices; v++)
@@ -107,6 +108,7 @@ static void flood(const search *h, const place *known, place *at, unsigned char 
         const place *near = nearest(h, known, at, seed);
         const double finest = sqrt(least / away(h, seed, near->q)) / (double)FINEST_WALK;
         if (!lead(h, near, seed, fmin(finest, 0.25), at)) continue;
+        reached = 1;
         for (int grown = 1; grown;) {
             grown = 0;
             for (size_t t = 0; t < 3 * mesh->triangles; t++) {

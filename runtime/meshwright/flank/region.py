@@ -415,53 +415,79 @@ def _rays(chart, limits, start, ways):
     """Where a chart's lines through an inner place leave the region, one for each of the ``ways``, an axis and a sign:
     coordinate (infinite if it does not), the limit that ends it, and the last place (k,) inside.
     """
-    axes, signs = np.array([axis for axis, _ in ways]), np.array([sign for _, sign in ways])
-    q, here = np.tile(start, (len(ways), 1)), start[list(chart.free)]
-    inner, outer, limit = here[axes], signs * np.inf, np.zeros(len(ways), dtype=int)
+    rays = _Rays.of(chart, limits, start, ways)
+    ended = np.flatnonzero(np.isfinite(rays.outer))
+    ends, exact = rays.divided(ended), LAST_PLACES * np.spacing(np.abs(rays.outer[ended]))
+    rays.inner[ended], rays.outer[ended] = narrowed(
+        lambda at, which: rays.least(at, ended[which]), rays.inner[ended], rays.outer[ended], ends, exact
+    )
+    rays.divided(ended)
+    names = [limits.names[k] if np.isfinite(end) else None for end, k in zip(rays.outer, rays.limit, strict=True)]
+    reached = np.where(np.isfinite(rays.outer), rays.inner, rays.outer)
+    return list(zip(reached.tolist(), names, rays.q, strict=True))
 
-    def look(at, which):
-        places = np.tile(here, (len(at), 1))
-        places[np.arange(len(at)), axes[which]] = at
-        trials = chart.complete(places, q[which])
-        return trials, limits.values(chart.flank(trials))
 
-    def least(at, which):
-        trials, values = look(at, which := ended[which])
+@dataclass(frozen=True)
+class _Rays:
+    """Lines of a chart through the coordinates ``here`` (2,), R of them, along ``axes`` (R,). Each leaves the region
+    between its coordinates ``inner`` and ``outer`` (R,), the latter infinite if it does not, by a limit's number
+    ``limit`` (R,); ``q`` (R, k) are the last places inside.
+    """
+
+    chart: Chart
+    limits: Limits
+    here: np.ndarray
+    axes: np.ndarray
+    inner: np.ndarray
+    outer: np.ndarray
+    limit: np.ndarray
+    q: np.ndarray
+
+    @classmethod
+    def of(cls, chart, limits, start, ways):
+        """Followed from an inner place, in ever longer steps, until they have left the region."""
+        here, axes = start[list(chart.free)], np.array([axis for axis, _ in ways])
+        steps = np.array([sign for _, sign in ways]) * FIRST_STEP * chart.sizes[list(chart.free)][axes]
+        limit, q = np.zeros(len(ways), dtype=int), np.tile(start, (len(ways), 1))
+        rays = cls(chart, limits, here, axes, here[axes], np.copysign(np.inf, steps), limit, q)
+        going = np.arange(len(ways))
+        for _ in range(MAX_STEPS):
+            further = rays.inner[going] + steps[going]
+            inside = rays.least(further, going) >= 0.0
+            rays.outer[going[~inside]] = further[~inside]
+            going = going[inside]
+            if not going.size:
+                break
+            rays.inner[going], steps[going] = further[inside], GROWTH * steps[going]
+        return rays
+
+    def least(self, at, which):
+        """The least limit (M,) at coordinates (M,) of the rays ``which`` (M,), which keep what they meet."""
+        trials, values = self._at(at, which)
         inside = values.min(axis=1) >= 0.0
-        q[which[inside]], limit[which[~inside]] = trials[inside], np.argmin(values[~inside], axis=1)
+        self.q[which[inside]], self.limit[which[~inside]] = trials[inside], np.argmin(values[~inside], axis=1)
         return values.min(axis=1)
 
-    def divide():
-        """Go to the first of some places between at which a line is outside."""
-        at = inner[ended, None] + np.arange(PARTS + 1) / PARTS * (outer - inner)[ended, None]
-        trials, values = look(at[:, 1:].ravel(), np.repeat(ended, PARTS))
-        trials, values = (found.reshape(len(ended), PARTS, found.shape[1]) for found in (trials, values))
+    def divided(self, which):
+        """Narrow some rays to the first of the places between at which they are outside; the least limit inside, and
+        that outside.
+        """
+        at = self.inner[which, None] + np.arange(PARTS + 1) / PARTS * (self.outer - self.inner)[which, None]
+        trials, values = self._at(at[:, 1:].ravel(), np.repeat(which, PARTS))
+        trials, values = (found.reshape(len(which), PARTS, found.shape[1]) for found in (trials, values))
         outside = ~(values.min(axis=2) >= 0.0)
         outside[:, -1] = True  # the outer end, whose coordinate rounding may have moved
-        rows, first = np.arange(len(ended)), np.argmax(outside, axis=1)
-        limit[ended] = np.argmin(values[rows, first], axis=1)
-        q[ended] = np.where(first[:, None] > 0, trials[rows, first - 1], q[ended])
-        inner[ended], outer[ended] = at[rows, first], at[rows, first + 1]
-        return limits.least(chart.flank(q[ended])), values[rows, first].min(axis=1)
+        rows, first = np.arange(len(which)), np.argmax(outside, axis=1)
+        self.limit[which] = np.argmin(values[rows, first], axis=1)
+        self.q[which] = np.where(first[:, None] > 0, trials[rows, first - 1], self.q[which])
+        self.inner[which], self.outer[which] = at[rows, first], at[rows, first + 1]
+        return self.limits.least(self.chart.flank(self.q[which])), values[rows, first].min(axis=1)
 
-    going, step = np.arange(len(ways)), FIRST_STEP * chart.sizes[list(chart.free)][axes]
-    for _ in range(MAX_STEPS):
-        further = inner[going] + signs[going] * step[going]
-        trials, values = look(further, going)
-        inside = values.min(axis=1) >= 0.0
-        outer[going[~inside]] = further[~inside]
-        going = going[inside]
-        q[going], inner[going], step[going] = trials[inside], further[inside], GROWTH * step[going]
-        if not going.size:
-            break
-    ended = np.flatnonzero(np.isfinite(outer))
-    exact = LAST_PLACES * np.spacing(np.abs(outer[ended]))
-    ends = divide()
-    inner[ended], outer[ended] = narrowed(least, inner[ended], outer[ended], ends, exact)
-    divide()
-    reached = np.where(np.isfinite(outer), inner, outer)
-    return [(float(end), limits.names[k] if np.isfinite(end) else None, last)
-            for end, k, last in zip(reached, limit, q, strict=True)]  # fmt: skip
+    def _at(self, at, which):
+        places = np.tile(self.here, (len(at), 1))
+        places[np.arange(len(at)), self.axes[which]] = at
+        trials = self.chart.complete(places, self.q[which])
+        return trials, self.limits.values(self.chart.flank(trials))
 
 
 def _closed(chart, limits, start, places, beyond):

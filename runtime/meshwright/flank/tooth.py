@@ -41,14 +41,6 @@ class Tooth:
     parameters: np.ndarray | None
 
 
-def other_flank(drive):
-    """The drive of the same design whose flank is the other side of the teeth; None where a side has its own design."""
-    if drive.design.description["flanks_apart"]:
-        return None
-    words = next(p["choices"] for p in drive.design.description["parameters"] if p["table"] == "flank")
-    return drive.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
-
-
 def drawn_mesh(region, cell):
     """The mesh of a region with its border resolved, in cells of about ``cell`` mm: one that is fit to be drawn."""
     drawn = mesh(region, FIRST)
@@ -74,7 +66,7 @@ def tooth(drive, member, near, teeth):
     pitch = 2 * math.pi / teeth
     x, y = near.points[:, 0], near.points[:, 1]
     inwards = -np.sign(np.median(x * near.normals[:, 1] - y * near.normals[:, 0])) if len(x) else 1.0  # an empty flank
-    far = other_flank(drive)
+    far = drive.other_side
     if far is None:
         across = np.full(len(x), inwards * ASSUMED * pitch)
         return Tooth(across, _turned(-near.normals, across), None)
