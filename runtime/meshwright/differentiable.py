@@ -74,7 +74,7 @@ def parameters(design, free):
     """
     description = design.description
     if isinstance(free, str) or len({*free}) < len(free):
-        raise UsageError(f"free = {free!r}: give different places, such as [\"design.hob_pitch_radius_mm\"]")
+        raise UsageError(f"free = {free!r}: give a tuple of different places, each table.key")
     given = designs.given_vector(design)
     places = [_place(description, key) for key in free]
     known = ~np.isnan(given)
