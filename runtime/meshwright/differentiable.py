@@ -73,6 +73,8 @@ def parameters(design, free):
     :class:`~meshwright.base.errors.UsageError` for an unknown place.
     """
     description = design.description
+    if isinstance(free, str) or len({*free}) < len(free):
+        raise UsageError(f"free = {free!r}: give a tuple of different places, each table.key")
     given = designs.given_vector(design)
     places = [_place(description, key) for key in free]
     known = ~np.isnan(given)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer
 from meshwright.contact import analysis
 from meshwright.design import design as designs
@@ -36,6 +37,8 @@ class Sensitivity:
 
     def of(self, key):
         """Column of a key."""
+        if key not in self.keys:
+            raise UsageError(f"{key}: no parameter of this sensitivity; use one of {', '.join(self.keys)}")
         return self.keys.index(key)
 
 
@@ -48,7 +51,7 @@ def sensitivity(drive, angles):
     points are those of the drive of that hand.
     """
     description, checked = drive.design.description, drive.design
-    angles = np.atleast_1d(np.asarray(angles, dtype=float))
+    angles = analysis.checked_angles(angles)
     columns = [k for k, p in enumerate(description["parameters"]) if _counts(p, k, checked)]
     design = np.stack([_of_design(checked, column) for column in columns], axis=1)
     changes, points = _of_contact(drive, angles, design)

@@ -110,6 +110,12 @@ def test_an_unknown_place_is_named():
         differentiable.parameters(Drive.load("recess-action-full").design, ("design.hob_radius",))
 
 
+@pytest.mark.parametrize("free", [("design.hob_pitch_radius_mm",) * 2, "design.hob_pitch_radius_mm"])
+def test_places_are_different_ones(free):
+    with pytest.raises(UsageError, match="give a tuple of different places"):
+        differentiable.parameters(Drive.load("recess-action-full").design, free)
+
+
 FACE_WORM = ("face-worm-conical-convex", "face-worm-cylindrical-concave")
 
 

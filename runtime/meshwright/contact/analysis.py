@@ -19,7 +19,10 @@ def largest_angle():
 
 def checked_angles(angles):
     """Angles (rad) as an array (N,); raises :class:`~meshwright.base.errors.UsageError` for what cannot be traced."""
-    angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
+    try:
+        angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
+    except (TypeError, ValueError):
+        angles = np.array([np.nan])
     if angles.ndim != 1 or not np.all(np.abs(angles) <= largest_angle()):
         raise UsageError(
             f"angles: must be a one-dimensional array of finite numbers; give none beyond {largest_angle():g} rad"

@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, text
-from meshwright.contact.analysis import trace
+from meshwright.contact.analysis import largest_angle, trace
 from meshwright.contact.certificate import OUTCOMES
 from meshwright.contact.model import DriveModel
 from meshwright.contact.results import ARCSEC
@@ -183,6 +184,7 @@ def certified_path(drive, begin, end, tube=TUBE, longest=math.inf):
 
     Its pieces are at most ``longest``, rad, and such that the transmission error stays within ``tube`` of them, rad.
     """
+    refuse_empty(begin, end)
     nodes = np.empty(9)
     library().mw_piece_nodes(pointer(nodes))
     pieces, ends, gaps = [], [], []
@@ -205,6 +207,13 @@ def certified_path(drive, begin, end, tube=TUBE, longest=math.inf):
             least = 2.0 * (to - angle)  # a long gap is not searched through in short steps
             angle, step = to, min(longest, least)
     return CertifiedPath(drive, begin, end, tuple(pieces), tuple(ends), tuple(gaps))
+
+
+def refuse_empty(begin, end):
+    """Raise :class:`~meshwright.base.errors.UsageError` unless two angles, rad, are the ends of a path."""
+    most = largest_angle()
+    if not (all(isinstance(angle, int | float | np.number) for angle in (begin, end)) and -most <= begin < end <= most):
+        raise UsageError(f"begin = {begin}, end = {end}: give the smaller angle first, none beyond {most:g} rad")
 
 
 def _extend(gaps, begin, end, reason):

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer
 from meshwright.contact.model import DriveModel
 
@@ -57,6 +58,10 @@ class Function:
 
     def __call__(self, *arguments):
         """Results by name: arrays of the arguments' common shape, with a last axis where a result is a vector."""
+        if len(arguments) != len(self.arguments):
+            raise UsageError(
+                f"{self.description['name']}: {len(arguments)} arguments; give {', '.join(self.arguments) or 'none'}"
+            )
         grid = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in arguments)) if arguments else []
         shape = grid[0].shape if grid else ()
         q = np.ascontiguousarray(np.stack([g.ravel() for g in grid], axis=1)) if grid else np.empty((1, 0))

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, record
 from meshwright.contact import exact
 from meshwright.contact.certificate import InWords
@@ -150,6 +151,8 @@ def turned(ends, count, teeth):
 
 def ranges(drive, solutions, neighbours):
     """Ranges of two parameters of each flank by member, a little beyond where the flanks end."""
+    if not (isinstance(neighbours, int) and neighbours >= 0):
+        raise UsageError(f"neighbours = {neighbours!r}: give a whole number of pairs on either side, 0 or more")
     pitches = PITCHES + neighbours
     here = drive.trace(np.linspace(-pitches, pitches, ANGLES) * drive.pitch())[0]
     known = np.concatenate([here, solutions])

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact import exact
-from meshwright.contact.certified_path import CertifiedPath, certified_path
+from meshwright.contact.certified_path import CertifiedPath, certified_path, refuse_empty
 from meshwright.contact.model import DriveModel
 from meshwright.cycle import certified_first as single
 
@@ -86,6 +86,7 @@ def certify_first_path(drive, begin, end, neighbours=1):
     """:class:`FirstAlongPath` from one pinion angle to another, rad, of the right-hand drive, and of so many
     ``neighbours`` on either side, all with both members where this pair's contact holds them.
     """
+    refuse_empty(begin, end)
     pitch = drive.pitch()
     contacts = drive.tca(drive.design.mirror.sign * np.linspace(begin, end, single.ANGLES))
     boxes = single.ranges(drive, contacts.solutions, neighbours)

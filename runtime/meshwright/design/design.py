@@ -35,6 +35,8 @@ def read(name_or_path):
 
 def text_of(name_or_path):
     """The text of a packaged design or of a design file."""
+    if not isinstance(name_or_path, str | Path):
+        raise DesignError("DESIGN", name_or_path, "no name and no path", "name a packaged design or a TOML file")
     path = PACKAGED / f"{name_or_path}.toml"
     if not path.exists():
         path = Path(name_or_path)
@@ -236,6 +238,8 @@ def _shown(parameter, number):
 def validated(tables, places=None):
     """Family and tables of a design, each key checked by itself; raises :class:`DesignError`."""
     known = metadata.families(places)
+    if not isinstance(tables, dict):
+        raise DesignError("design", tables, "must be tables", "give a dictionary, as a TOML file is read")
     if "drive" not in tables:
         raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
     family = tables["drive"]
@@ -345,7 +349,7 @@ def _mirrored(description, checked):
 
 def _check_exclusive(description, given):
     for group in description["exclusive"]:
-        present = [key for key in group if key in given]
+        present = [key for key in group if given.get(key) is not None]
         pair = " and ".join(group)
         if len(present) > 1:
             raise DesignError(

@@ -40,8 +40,9 @@ def grid(drive, member, shape, name, inset=0.0):
 
     Raises :class:`~meshwright.base.errors.UsageError` if nothing of the surface lies within the limits.
     """
-    if min(shape) < 2:
-        raise UsageError(f"--grid {shape[0]}x{shape[1]}: needs at least 2 points each way; for example --grid 21x41")
+    if np.shape(shape) != (2,) or not all(isinstance(n, int | np.integer) and n >= 2 for n in shape):
+        asked = "x".join(map(str, shape)) if np.shape(shape) == (2,) else shape
+        raise UsageError(f"--grid {asked}: needs at least 2 points each way; for example --grid 21x41")
     whole = drive.region(member, name)
     triangles = mesh(whole, tuple(n - 1 for n in shape))
     if not len(triangles.triangles):

@@ -96,7 +96,7 @@ class Flank:
 
     def curvature(self, parameters):
         """:class:`FlankCurvature` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
-        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        q = self._rows(parameters)
         outputs = {o["name"]: slice(o["offset"], o["offset"] + o["size"]) for o in self.body["curvature"]}
         rows = np.empty((len(q), max(at.stop for at in outputs.values())))
         library().mw_flank(
@@ -111,7 +111,7 @@ class Flank:
 
     def limit_slopes(self, parameters):
         """Slopes (N, 1 + margins, k) by the parameters, at ``parameters`` (N, k), of ``regular`` and of each margin."""
-        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        q = self._rows(parameters)
         slopes = np.empty((len(q), 1 + len(self.body["margins"]), q.shape[1]))
         compiled = self.drive.design.model
         library().mw_bounds(compiled, self.number, 1, pointer(self.state), pointer(q), len(q), pointer(slopes))
@@ -121,7 +121,7 @@ class Flank:
         """Second derivatives by the parameters at ``parameters`` (N, k): of the point (N, 3, k, k), body frame, mm, and
         of each implicit condition (N, c, k, k). Flanks have them, other regions do not.
         """
-        q = np.ascontiguousarray(np.atleast_2d(np.asarray(parameters, dtype=float)))
+        q = self._rows(parameters)
         k, limits, compiled = q.shape[1], 1 + len(self.body["margins"]), self.drive.design.model
         rows, columns = np.triu_indices(k)
         pairs = np.empty((len(q), 3 + limits + self.body["conditions"], len(rows)))
@@ -137,7 +137,8 @@ class Flank:
         body's axis. ``sizes`` (k,) are natural sizes. NaN where Newton's method finds none.
         """
         evaluate, state, k, outputs, _, _ = self._evaluated
-        q, values, o = start.copy(), np.ascontiguousarray(values), np.empty(outputs)
+        q, o = self._rows(start).copy(), np.empty(outputs)
+        values = np.ascontiguousarray(values, dtype=float).reshape(len(q), 2)
         apart = factors[0].size if factors.ndim == 3 else 0
         by = ffi.new("mw_coordinates *", (evaluate, k, outputs, apart, pointer(sizes), pointer(factors)))
         if library().mw_places(by, state, pointer(values), len(q), pointer(o), pointer(q)) < 0:
@@ -146,8 +147,7 @@ class Flank:
 
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
-        q = np.asarray(parameters, dtype=float, order="C")
-        q = q if q.ndim == 2 else np.atleast_2d(q)
+        q = self._rows(parameters)
         evaluate, state, k, outputs, margins, c = self._evaluated
         n = len(q)
         rows = np.empty((n, outputs))
@@ -162,6 +162,18 @@ class Flank:
             margins={event: rows[:, at + i] for i, event in enumerate(margins)},
             conditions=rows[:, at + len(margins) :].reshape(n, c, 1 + k) if c else np.empty((n, 0, 1 + k)),
         )
+
+    def _rows(self, parameters):
+        """Parameters (N, k) as C reads them; one point may come without its axis."""
+        try:
+            q = np.asarray(parameters, dtype=float, order="C")
+        except (TypeError, ValueError):
+            q = np.empty(0)
+        q, names = q if q.ndim == 2 else np.atleast_2d(q), self.body["parameters"]
+        if q.ndim != 2 or q.shape[1] != len(names):
+            of = f"the {self.region} of the {self.body['name']}"
+            raise UsageError(f"parameters: {of} has {', '.join(names)}; give an array (N, {len(names)}) of numbers")
+        return q
 
     @cached_property
     def _evaluated(self):
