@@ -86,16 +86,25 @@ static const place *nearest(const search *h, const place *known, const place *at
     return found;
 }
 
+/* Attempts to reach a vertex; the mark of one beside a vertex that cannot be walked to. */
+enum { AT_MOST = 3, BESIDE = 128 };
+
+static void mark_beside(const mw_flank_mesh *mesh, size_t vertex, unsigned char *tried)
+{
+    for (size_t t = 0; t < 3 * mesh->triangles; t++)
+        if ((size_t)mesh->corner[t] == vertex)
+            for (size_t k = t - t % 3; k < t - t % 3 + 3; k++) tried[mesh->corner[k]] = (unsigned char)(tried[mesh->corner[k]] | BESIDE);
+}
+
 /* Where every vertex of the mesh meets the pinion's flank: each piece of the mesh from its vertex nearest to a known
- * place, walked to from the nearest one by then, and from there along its edges; none where so many of the nearest cannot
- * be walked to. tried[vertices] is work. */
+ * place, walked to from the nearest one by then, and from there along its edges. As long as none is found, vertices beside
+ * one that cannot be walked to are left out. tried[vertices] is work. */
 static void flood(const search *h, const place *known, place *at, unsigned char *tried)
 {
     const mw_flank_mesh *mesh = h->mesh;
-    enum { AT_MOST = 3, FAR_OFF = 64 };
     memset(tried, 0, mesh->vertices);
     for (size_t v = 0; v < mesh->vertices; v++) at[v].good = 0;
-    for (int missed = 0, reached = 0; reached || missed < FAR_OFF; missed++) {
+    for (int reached = 0;;) {
         size_t seed = mesh->vertices;
         double least = HUGE_VAL;
         for (size_t v = 0; v < mesh->vertices; v++)
@@ -107,7 +116,11 @@ static void flood(const search *h, const place *known, place *at, unsigned char 
         tried[seed] = AT_MOST;
         const place *near = nearest(h, known, at, seed);
         const double finest = sqrt(least / away(h, seed, near->q)) / (double)FINEST_WALK;
-        if (!lead(h, near, seed, fmin(finest, 0.25), at)) continue;
+        if (!lead(h, near, seed, fmin(finest, 0.25), at)) {
+            if (!reached) mark_beside(mesh, seed, tried);
+            continue;
+        }
+        for (size_t v = 0; v < mesh->vertices && !reached; v++) tried[v] = (unsigned char)(tried[v] & ~BESIDE);
         reached = 1;
         for (int grown = 1; grown;) {
             grown = 0;
