@@ -9927,7 +9927,7 @@ static inline const char *mwi_status_text(int status)
 }
 static inline int mwi_usable(const mw_model *m)
 {
-    if (m->abi != MW_MODEL_ABI) return 0;
+    if (m == NULL || m->abi != MW_MODEL_ABI) return 0;
     if (m->nx < 1 || m->nx > MW_MAX_UNKNOWNS || m->nstart < 0 || m->nstart > MW_MAX_UNKNOWNS) return 0;
     if (m->nanchor < 0 || m->nanchor > MW_MAX_ANCHOR) return 0;
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;

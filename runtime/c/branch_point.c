@@ -135,9 +135,9 @@ static void scale_rows(singular *e, const double *y)
 
 int mw_branch_point(const mw_model *m, double *s, int crossing, double *phi, double *x)
 {
-    singular e = { m, s, m->nx, crossing ? m->nx + 1 : m->nx, { 0.0 }, { 0.0 } };
     double z[NZ] = { 0.0 }, start[NY], there[NX], R[NX], A[NX][NY], step = HUGE_VAL, away = 0.0;
     if (!mwi_usable(m) || !mwi_angle_in_range(*phi)) return MW_BAD_INPUT;
+    singular e = { m, s, m->nx, crossing ? m->nx + 1 : m->nx, { 0.0 }, { 0.0 } };
     m->set_phi(s, *phi);
     m->scale(s, e.scale);
     e.scale[e.n] = 1.0;

@@ -31,7 +31,7 @@ const mw_model *mw_model_at(int index)
 
 const mw_model *mw_find(const char *drive)
 {
-    for (int i = 0; i < mw_model_count(); i++)
+    for (int i = 0; drive && i < mw_model_count(); i++)
         if (strcmp(mw_model_at(i)->drive, drive) == 0) return mw_model_at(i);
     return NULL;
 }

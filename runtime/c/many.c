@@ -23,9 +23,10 @@ static int look(const mw_model *m, const double *s, const double *x, int status,
 void mw_contacts(const mw_model *m, double *s, const double *phi, size_t n, const double *x, mw_info *info, double *o,
                  mw_contact *contact)
 {
-    const int usable = mwi_usable(m);
+    for (size_t k = 0; k < n && !mwi_usable(m); k++) info[k].status = MW_BAD_INPUT;
+    if (!mwi_usable(m)) return;
     for (size_t k = 0; k < n; k++, x += m->nx, o += m->no) {
-        if (!usable || !mwi_angle_in_range(phi[k])) info[k].status = MW_BAD_INPUT;
+        if (!mwi_angle_in_range(phi[k])) info[k].status = MW_BAD_INPUT;
         if (info[k].status >= 0) {
             m->set_phi(s, phi[k]);
             info[k].status = look(m, s, x, info[k].status, o, contact + k);
@@ -39,6 +40,7 @@ size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t 
 {
     size_t succeeded = 0;
     if (mw_trace(m, p, phi, n, s, work, x, info) > 0) m->setup(p, s);
+    if (!mwi_usable(m)) return 0;
     for (size_t k = 0; k < n; k++, x += m->nx, o += m->no) {
         for (int attempt = 0; attempt < 2 && info[k].status >= 0; attempt++) {
             m->set_phi(s, phi[k]);
@@ -60,10 +62,10 @@ size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t 
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags)
 {
-    const int usable = mwi_usable(m);
-    for (size_t d = 0; d < designs; d++, p += m->np) {
+    const int usable = mwi_usable(m), nx = usable ? m->nx : 0, np = usable ? m->np : 0;
+    for (size_t d = 0; d < designs; d++, p += np) {
         if (usable) m->setup(p, s);
-        for (size_t k = 0; k < n; k++, x += m->nx, status++, points += 3, flags++) {
+        for (size_t k = 0; k < n; k++, x += nx, status++, points += 3, flags++) {
             mw_contact c;
             *flags = 0;
             points[0] = points[1] = points[2] = NAN;

@@ -151,7 +151,7 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     size_t succeeded = 0;
     const int usable = mwi_usable(m), guard = usable ? m->setup(p, s) : 0;
     for (size_t k = 0; k < n && (!usable || guard); k++) info[k] = mwi_ended(MW_BAD_INPUT, guard);
-    for (size_t i = 0; i < n * (size_t)m->nx && guard; i++) x[i] = NAN;
+    for (size_t i = 0; guard && i < n * (size_t)m->nx; i++) x[i] = NAN;
     if (!usable || guard || n == 0) return 0;
     t.m = t.pair.m = m;
     t.pair.p = p, t.pair.s = s, t.pair.work = work;

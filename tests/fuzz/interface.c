@@ -499,7 +499,7 @@ static void words(reader *r, fuzzed *f)
 
 #include "proofs.h"
 
-/* A table of another version, or larger than the solver's arrays: refused by all. */
+/* No table, one of another version, or larger than the solver's arrays: refused by all. */
 static void foreign(reader *r, fuzzed *f)
 {
     mw_model other = *f->m;
@@ -510,24 +510,32 @@ static void foreign(reader *r, fuzzed *f)
     const int excess = 1 + (int)byte(r) * 8388608;
     *field[which] = byte(r) & 1 ? most[which] + excess : which == 0 ? MW_MODEL_ABI - excess : -excess;
     double *x = start(r, f), *o = numbers((size_t)f->m->no), *change = changes(r, f->m->np), phi = 0.1;
+    const mw_model *const wrong = byte(r) & 1 ? &other : NULL;
     mw_info info;
     mw_contact contact;
-    int refused = mw_solve(&other, f->p, phi, f->s, f->work, x, &info) == MW_BAD_INPUT;
-    refused += mw_refine(&other, f->s, x, &info) == MW_BAD_INPUT;
-    refused += mw_touch(&other, x, o) == MW_BAD_INPUT;
-    refused += mw_contact_at(&other, f->s, x, o, &contact) == MW_BAD_INPUT;
-    refused += mw_branch_point(&other, f->s, 0, &phi, x) == MW_BAD_INPUT;
-    refused += mw_contact_tangent(&other, f->p, change, phi, 0.0, f->s, x, o, o) == MW_BAD_INPUT;
-    refused += mw_complete_tangent(&other, f->given, f->p, change) == MW_BAD_INPUT;
-    refused += mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
-    refused += mw_complete(&other, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
-    refused += mw_follow(&other, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
-    refused += mw_from_nodes(&other, f->s, &phi, x, 1, &(int){0}, &phi, 1, x, &info) == 0;
-    refused += mw_observe(&other, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
-    refused += mw_arclength(&other, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
-    refused += mw_trace(&other, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
-    if (refused != 14) fail("a foreign table is not refused");
-    calls += 14;
+    int refused = mw_solve(wrong, f->p, phi, f->s, f->work, x, &info) == MW_BAD_INPUT;
+    refused += mw_refine(wrong, f->s, x, &info) == MW_BAD_INPUT;
+    refused += mw_touch(wrong, x, o) == MW_BAD_INPUT;
+    refused += mw_contact_at(wrong, f->s, x, o, &contact) == MW_BAD_INPUT;
+    refused += mw_branch_point(wrong, f->s, 0, &phi, x) == MW_BAD_INPUT;
+    refused += mw_contact_tangent(wrong, f->p, change, phi, 0.0, f->s, x, o, o) == MW_BAD_INPUT;
+    refused += mw_complete_tangent(wrong, f->given, f->p, change) == MW_BAD_INPUT;
+    refused += mw_flank_tangent(wrong, 0, f->p, change, f->from->x, 1, o) == MW_BAD_INPUT;
+    refused += mw_complete(wrong, f->p, f->work, &info) != 0 && info.status == MW_BAD_INPUT;
+    refused += mw_follow(wrong, f->s, phi, x, &phi, 1, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    refused += mw_from_nodes(wrong, f->s, &phi, x, 1, &(int){0}, &phi, 1, x, &info) == 0;
+    refused += mw_observe(wrong, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
+    refused += mw_arclength(wrong, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
+    refused += mw_trace(wrong, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
+    refused += mw_analyse(wrong, f->p, &phi, 1, f->s, f->work, x, &info, o, &contact) == 0 && info.status == MW_BAD_INPUT;
+    info.status = MW_CONVERGED;
+    mw_contacts(wrong, f->s, &phi, 1, x, &info, o, &contact);
+    refused += info.status == MW_BAD_INPUT;
+    info.status = MW_CONVERGED;
+    mw_contact_points(wrong, f->p, 1, &phi, 1, x, &info.status, f->s, o, contact.point, &contact.flags);
+    refused += info.status == MW_BAD_INPUT;
+    if (refused != 17) fail("a foreign table is not refused");
+    calls += 17;
     without_proofs(r, f, &other);
     other = *f->m;
     other.kernels = NULL; /* the header alone */

@@ -120,8 +120,7 @@ def _number(suggestion, symbols):
     found = next((v for e in suggestion["values"] if math.isfinite(v := value(e, symbols))), math.nan)
     if suggestion["whole"] and math.isfinite(found):
         return int(found)
-    if suggestion["decimals"] is not None:
-        found = round(found, suggestion["decimals"])
+    found = float(f"{found:.14g}") if suggestion["decimals"] is None else round(found, suggestion["decimals"])
     return found + 0.0  # no minus before 0
 
 
