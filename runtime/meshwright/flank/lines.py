@@ -17,9 +17,14 @@ from meshwright.flank.sections import Sections, lengthwise, solved
 #: Cells of the mesh that shows where a region is, at least.
 CELLS = 24
 
-#: Samples of a line across the tooth on which its ends are looked for; they are located to so many units in the last
-#: place.
-SAMPLES, LAST_PLACES = 65, 4.0
+#: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
+SAMPLES, BISECTIONS = 65, 56
+
+#: A step of this many towards an end is a bisection.
+HALVED = 4
+
+#: Places on a line are located to so many units in the last place.
+LAST_PLACES = 4.0
 
 #: Lines along the border count as inside: the limits there are zero to rounding, mm; and how much it varies along one.
 ROUNDING, NOISE = 1e-9, 1e-13
@@ -365,7 +370,9 @@ def _longest_runs(inside):
 
 def _both_ends(region, across, q, profile, along, within):
     """Parameters (2, M, k) where each line leaves the region beyond its first and its last sample ``within`` (2, M) of
-    the profile (S, M). ``across`` are the limits that can end a line.
+    the profile (S, M), by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT 11, 1971), by bisection
+    where there is no surface; steps of inverse quadratic interpolation have left the surface's sheet at its cusps.
+    ``across`` are the limits that can end a line.
     """
 
     def least(places):
@@ -373,19 +380,31 @@ def _both_ends(region, across, q, profile, along, within):
 
     columns, index, along = np.tile(np.arange(len(along)), 2), np.concatenate(within), np.tile(along, 2)
     sign = np.repeat([-1, 1], len(columns) // 2)
-    beyond = np.clip(index + sign, 0, len(profile) - 1)
-    inner, outer, best = profile[index, columns], profile[beyond, columns], q[index, columns].copy()
+    inner, beyond = profile[index, columns].copy(), np.clip(index + sign, 0, len(profile) - 1)
+    outer, best = profile[beyond, columns].copy(), q[index, columns].copy()
     inside = least(best)
     floor = np.minimum(inside, 0.0) - NOISE
-
-    def margin(at, which):
-        trial = solve(region, at, along[which], best[which])
-        value = least(trial) - floor[which]
-        best[which[value >= 0.0]] = trial[value >= 0.0]
-        return value
-
-    ends = inside - floor, least(q[beyond, columns]) - floor
-    narrowed(margin, inner, outer, ends, LAST_PLACES * np.spacing(np.abs(outer)), 2.0 * NOISE)
+    outside = least(q[beyond, columns]) - floor
+    inside = inside - floor
+    left = np.flatnonzero(inner != outer)
+    for step in range(BISECTIONS):
+        if not len(left):
+            break
+        a, b, fa, fb = inner[left], outer[left], inside[left], outside[left]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = fa / (fa - fb)
+        # now and then the middle: a limit function may be far from a straight line
+        share = np.where(np.isfinite(fb) & (share > 0.0) & (share < 1.0) & (step % HALVED > 0), share, 0.5)
+        trial = solve(region, a + share * (b - a), along[left], best[left])
+        value = least(trial) - floor[left]
+        good = value >= 0.0
+        inner[left] = np.where(good, a + share * (b - a), a)
+        outer[left] = np.where(good, b, a + share * (b - a))
+        inside[left] = np.where(good, value, 0.5 * fa)
+        outside[left] = np.where(good, 0.5 * fb, value)
+        best[left] = np.where(good[:, None], trial, best[left])
+        near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
+        left = left[~near]
     return best.reshape(2, -1, best.shape[1])
 
 
