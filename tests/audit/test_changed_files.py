@@ -30,15 +30,15 @@ def test_a_changed_file_is_refused(drive, capsys):
 
 @pytest.mark.validate
 def test_a_change_of_each_stage_is_made_and_refused():
-    """One of each kind of file of the smallest drive."""
+    """Some of each kind of file of the smallest drive; those that change no value tell nothing."""
     drive, rng = Measured(ALL[0]), random.Random(1)
-    first = {}
+    first = {stage: [] for stage in STAGES}
     for mutant in drive.mutants(1, rng):
-        if "derive" not in mutant.function:
-            first.setdefault(mutant.stage, mutant)
-    assert set(first) == set(STAGES)
-    outcomes = {stage: drive.judged(mutant).by for stage, mutant in first.items() if stage != "description"}
-    assert set(outcomes.values()) == {REFUSED}
+        if "derive" not in mutant.function and len(first[mutant.stage]) < 3:
+            first[mutant.stage].append(mutant)
+    for stage, mutants in first.items():
+        outcomes = [drive.judged(mutant).by for mutant in mutants if stage != "description"]
+        assert mutants and set(outcomes) <= {REFUSED, EQUAL} and (REFUSED in outcomes or not outcomes), stage
 
 
 def test_an_exchange_that_changes_no_value_is_told_apart():
