@@ -92,7 +92,7 @@ def description(drive):
     for p in drive.parameters:
         default = "" if p.default is None else f", default {p.default}"
         required = ", required" if p.required else ""
-        lines.append(f"  {p.table.value}.{p.key}: {_quantity(p.symbol)}{default}{required}")
+        lines.append(f"  {p.table}.{p.key}: {_quantity(p.symbol)}{default}{required}")
     lines += ["", "rules", *(f"  {rule.target} = {rule.value}" for rule in drive.rules)]
     lines += ["", "guards", *(f"  {g.positive} > 0: {g.message}" for g in drive.guards)]
     for body in drive.bodies:

@@ -6,7 +6,7 @@
  * same bits everywhere.
  *
  * Operations: setup 249, set_phi 7, R 144, R and J 377, step 447, observe 693.
- * Equations (hash 1e752940c52dd079728dd76aff910303c917740d3c6075fde55843099a602652):
+ * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
  *   conventions/rotations
  *   conventions/sums
  *   cylindrical_worm/contact

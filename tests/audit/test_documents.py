@@ -22,6 +22,13 @@ def test_the_committed_record_is_what_the_prover_says_now():
     assert json.loads(committed.read_text(encoding="utf-8"))["root"] == record.ledger().root
 
 
+def test_chapters_of_our_own_name_the_source_that_they_are_about():
+    root = Path(__file__).resolve().parents[2]
+    own = [chapter.document for chapter in record.chapters() if not chapter.document.sha256]
+    assert len(own) >= 8
+    assert [document.file for document in own if not (root / document.file).exists()] == []
+
+
 MISPRINTS = {
     "recess-action/eq-7": "sign of a term",
     "recess-action/eq-13": "omega2 for omega1",

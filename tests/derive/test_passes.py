@@ -90,6 +90,14 @@ def test_the_description_names_keys_rules_motions_and_equations(capsys):
         assert words in shown
 
 
+@pytest.mark.parametrize("drive", ["bevel_formate", "cylindrical_gears", "face_worm", "spherical_convex_spur"])
+def test_the_description_of_every_family_can_be_read(drive, capsys):
+    assert command.main(["show", drive]) == 0
+    shown = capsys.readouterr().out
+    for p in drives.catalogue([drive])[drive]().parameters:
+        assert f"  {p.table}.{p.key}: {p.symbol.name}" in shown
+
+
 def test_show_says_which_drives_there_are(capsys):
     assert command.main(["show", "nonsense"]) == 2
     assert "no drive 'nonsense'" in capsys.readouterr().err

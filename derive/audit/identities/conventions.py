@@ -6,7 +6,7 @@ from derive.audit.ledger import Chapter
 DOCUMENT = Document(
     key="conventions",
     name="conventions",
-    file="derive/chain.py",
+    file="derive/language/chain.py",
     sha256="",
     about="Active right-handed rotations, column vectors, products acting right to left. Fixed frame f: z along the "
     "worm axis, x from worm to wheel.",
