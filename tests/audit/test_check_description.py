@@ -87,6 +87,15 @@ def test_a_normal_that_points_inward_is_refused():
         only(Drive(json.loads(description), head + signature + changed), "normal of flank_pinion")
 
 
+def test_a_rule_that_rests_on_its_own_value_is_refused(tmp_path):
+    description, header = paths(SPUR)
+    for path in header.parent.glob(f"{SPUR}*.h"):
+        text = path.read_text(encoding="utf-8")
+        (tmp_path / path.name).write_text(text.replace("p[10] = p[5];", "p[10] = p[10];"), encoding="utf-8")
+    with pytest.raises(Rejected, match=header.name):
+        check_description.check_drive(description, tmp_path / header.name)
+
+
 def test_a_changed_factor_of_a_motion_is_refused():
     description, header = (path.read_text(encoding="utf-8") for path in paths(SPUR))
     described = json.loads(description)

@@ -49,7 +49,7 @@ from .calculus import (
 )
 from .kernels import check_arc_kernel, check_kernels, check_near_kernel
 from .lanes import check_flank_tangent, check_lanes, check_tangent
-from .refusal import Rejected
+from .refusal import UNREADABLE, Rejected
 from .straight_line import Header, read_companion, read_header
 
 
@@ -89,7 +89,7 @@ def check_header(path: Path) -> int:
         checks = list(checks_of(header))
         for _, check in checks:
             attempt(*check)
-    except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
+    except (Rejected, *UNREADABLE) as error:
         raise Rejected(f"{path.name}: {error}") from error
     return len(checks) + 1
 

@@ -28,7 +28,7 @@ from .described import Described
 from .draws import Draws, on_both_flanks
 from .laws import check_contact, check_enveloping, check_made, check_slope, slopes_of
 from .printed import is_about, read_printed, statements_of
-from .refusal import Rejected, require
+from .refusal import UNREADABLE, Rejected, require
 from .statements import check_said, check_statement
 
 
@@ -56,9 +56,9 @@ def check_drive(path: Path, printed: list) -> int:
         for words, check in checks:
             try:
                 on_both_flanks(*check, draws=draws)
-            except (LookupError, ValueError, AttributeError, TypeError, ArithmeticError, StopIteration) as error:
+            except (*UNREADABLE, StopIteration) as error:
                 raise Rejected(f"{words}: {error!r}") from error
-    except (Rejected, ValueError, LookupError) as error:
+    except (Rejected, *UNREADABLE) as error:
         raise Rejected(f"{path.name}: {error}") from error
     return len(checks)
 

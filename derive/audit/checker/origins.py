@@ -19,7 +19,7 @@ from .lines import read_file, read_json
 from .machine import Circle, Machine
 from .modular import PRIME, Number, add, divide, multiply
 from .printed import read_expression
-from .refusal import Rejected, require
+from .refusal import UNREADABLE, Rejected, require
 from .straight_line import Function
 
 ZERO = Number(0, (), {})
@@ -44,8 +44,7 @@ def check_origins(folder: Path, objects: dict[str, dict]) -> int:
             drives[name] = Described(read_json(read_file(path)))
         try:
             on_both_flanks(check_origin, step, drives[name])
-        except (ArithmeticError, AttributeError, LookupError, RecursionError, StopIteration, SyntaxError, TypeError,
-                ValueError) as error:  # fmt: skip
+        except (*UNREADABLE, StopIteration, SyntaxError) as error:
             raise Rejected(f"{step['id']}: {error!r}") from error
     return len(steps)
 

@@ -7,7 +7,7 @@ import re
 from .certificates import CHECKS, OUTCOME_OF_KIND
 from .notation import read_equation, read_formula
 from .record import definitions_of, linked
-from .refusal import Rejected, require
+from .refusal import UNREADABLE, Rejected, require
 
 
 def check_certificate(certificate: dict, objects: dict[str, dict]) -> dict:
@@ -19,7 +19,7 @@ def check_certificate(certificate: dict, objects: dict[str, dict]) -> dict:
     )
     try:
         return CHECKS[certificate["kind"]](certificate, equation, definitions_of(equation, objects)) or {}
-    except (Rejected, ArithmeticError, LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
+    except (Rejected, *UNREADABLE) as error:
         raise Rejected(f"{equation['id']}: {error}") from error
 
 
@@ -127,7 +127,7 @@ def check_bindings(verdict: dict, source: dict, objects: dict[str, dict]) -> Non
             require(equation["sources"] == [verdict["source"]], f"{name}: an equation of another source")
             try:
                 check_content(equation, text, source, [objects[key] for key in printed])
-            except (Rejected, ArithmeticError, LookupError, TypeError, ValueError, AttributeError) as error:
+            except (Rejected, *UNREADABLE) as error:
                 raise Rejected(f"{name}: {error}") from error
 
 

@@ -95,7 +95,3 @@ class Checks:
 
 def draws() -> dict:
     return {"description": (Draws(1), Draws(-1)), "any": kept_draws()}
-
-
-#: What a check ends in that cannot read what it is given.
-UNREADABLE = (LookupError, ValueError, AttributeError, TypeError, ArithmeticError)

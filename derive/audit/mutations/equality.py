@@ -13,10 +13,10 @@ import mpmath
 from derive.audit.checker import modular
 from derive.audit.checker.casadi_functions import casadi, program_of
 from derive.audit.checker.machine import Machine, machine
-from derive.audit.checker.refusal import Rejected
+from derive.audit.checker.refusal import UNREADABLE, Rejected
 from derive.audit.checker.straight_line import Function, literal_of, read_body, read_header, read_lanes
 from derive.audit.checker.tables import OPERATIONS
-from derive.audit.mutations.checks import STATE, UNREADABLE
+from derive.audit.mutations.checks import STATE
 from derive.audit.mutations.of_c import functions_of
 from derive.audit.mutations.stages import HEADERS, SEED
 

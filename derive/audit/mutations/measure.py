@@ -12,9 +12,9 @@ from pathlib import Path
 
 from derive.audit.checker import attempts, check_print
 from derive.audit.checker.printed import read_printed
-from derive.audit.checker.refusal import Rejected
+from derive.audit.checker.refusal import UNREADABLE, Rejected
 from derive.audit.checker.tables import Table
-from derive.audit.mutations.checks import UNREADABLE, Checks, draws, reads
+from derive.audit.mutations.checks import Checks, draws, reads
 from derive.audit.mutations.equality import programs, same_programs, same_tables
 from derive.audit.mutations.of_c import of_header, of_tables
 from derive.audit.mutations.of_casadi import of_casadi, rebuilt

@@ -28,7 +28,7 @@ from .any_root import kept_draws, with_any_root
 from .as_they_stand import CHOSEN, check_as_they_stand
 from .casadi_functions import Casadi, casadi, check_casadi, parts_of
 from .edges import BoundedDrive, check_edge_slopes, check_edges, check_slopes, check_systems
-from .refusal import Rejected, require
+from .refusal import UNREADABLE, Rejected, require
 from .straight_line import read_companion
 from .tables import tables_of
 
@@ -72,7 +72,7 @@ def check_drive(description: Path, header: Path, folder: Path) -> int:
         draws = kept_draws()
         for _, (check, *arguments) in checks:
             with_any_root(check, tuple(arguments), draws)
-    except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
+    except (Rejected, *UNREADABLE) as error:
         raise Rejected(f"{header.name}: {error}") from error
     return len(checks)
 

@@ -62,7 +62,7 @@ from .design import (
 )
 from .draws import Draws, on_both_flanks
 from .drive import Drive
-from .refusal import Rejected, require
+from .refusal import UNREADABLE, Rejected, require
 from .straight_line import read_companion
 
 
@@ -137,7 +137,7 @@ def check_drive(description: Path, header: Path) -> int:
         checks, draws = list(checks_of(drive)), (Draws(1), Draws(-1))
         for _, check in checks:
             on_both_flanks(*check, draws=draws)
-    except (Rejected, LookupError, ValueError, AttributeError, TypeError, ArithmeticError) as error:
+    except (Rejected, *UNREADABLE) as error:
         raise Rejected(f"{header.name}: {error}") from error
     return len(checks)
 

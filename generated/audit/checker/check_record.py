@@ -39,7 +39,7 @@ from pathlib import Path
 from .certificates import POINTS
 from .origins import check_origins
 from .record import check_step, check_use, read_record, root_of
-from .refusal import Rejected
+from .refusal import UNREADABLE, Rejected
 from .seal import check_files
 from .verdicts import check_certificate, check_verdict
 
@@ -48,7 +48,7 @@ def verify(folder: Path) -> dict[str, int | str]:
     """Check everything in a folder; the counts and the root hash, or Rejected."""
     try:
         return verified(folder.resolve())
-    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+    except UNREADABLE as error:
         raise Rejected(f"something is not of the form that it must have ({type(error).__name__}: {error})") from error
 
 

@@ -7,6 +7,10 @@ class Rejected(Exception):
     """The record is not what it claims to be; the message says where."""
 
 
+#: What a checker ends in that cannot read what it is given, or that goes round in what it is given.
+UNREADABLE = (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
+
+
 def require(condition: object, message: str) -> None:
     if not condition:
         raise Rejected(message)
