@@ -368,6 +368,10 @@ class Tape:
         ``instead`` holds the arguments of nodes that are computed from others than their own.
         """
         arguments, seen = self.arguments, set(known)
+        if instead:
+            arguments = [*arguments]
+            for i, args in instead.items():
+                arguments[i] = args
         order: list[int] = []
         stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
         pop, push, done, see = stack.pop, stack.append, order.append, seen.add
@@ -375,20 +379,27 @@ class Tape:
             i = pop()
             if i < 0:
                 done(~i)
-            elif i not in seen:
+                continue
+            while i not in seen:
                 see(i)
-                args = arguments[i] if instead is None else instead.get(i, arguments[i])
-                if args:
-                    push(~i)
-                    for a in args[::-1]:
-                        if a not in seen:
-                            push(a)
+                args = arguments[i]
+                if not args:
+                    break
+                push(~i)
+                i = args[0]  # on to the first argument at once; the last waits
+                if args[-1] not in seen:
+                    push(args[-1])
         return order
 
     def inputs_of(self, outputs: Collection[int]) -> set[sp.Symbol]:
         """Symbols of the inputs that ``outputs`` depend on."""
         read = {a for i in self.needed(outputs) for a in self.nodes[i].args} | set(outputs)
         return {self.nodes[i].value for i in read if self.nodes[i].op == "input"}
+
+    def _pair(self, i: int) -> tuple[int, int | None]:
+        """The arguments of an operation; None for a second one that it does not take."""
+        args = self.arguments[i]
+        return args[0], args[1] if len(args) == 2 else None
 
     def evaluate(
         self,
@@ -414,14 +425,14 @@ class Tape:
         symbols = {i: self.nodes[i].value for i in leaves if self.nodes[i].op == "input"}
         make = getattr(arithmetic, "mpf", float)
         constants = {i: _number(self._exact[i], make) for i in leaves if i in self._exact}
-        steps = [(i, _operation(self.nodes[i].op, arithmetic), self.nodes[i].args) for i in order]
+        steps = [(i, _operation(self.nodes[i].op, arithmetic), *self._pair(i)) for i in order]
 
         def run(inputs: Mapping[sp.Symbol, Any]) -> list[Any]:
             values = dict(constants)
             for i, symbol in symbols.items():
                 values[i] = inputs[symbol]
-            for i, apply, args in steps:
-                values[i] = apply(*[values[a] for a in args])
+            for i, apply, a, b in steps:
+                values[i] = apply(values[a]) if b is None else apply(values[a], values[b])
             return [values[i] for i in outputs]
 
         return run
