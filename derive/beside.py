@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 from collections.abc import Callable
+from functools import cache
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
@@ -12,13 +13,14 @@ T = TypeVar("T")
 
 
 def begun(work: Callable[[], T]) -> Callable[[], T]:
-    """Begin ``work`` in a copy of this process; the function returned waits for what it returns, or raises its error.
+    """Begin ``work`` in a copy of this process; the function returned waits for what it returns, once however often it
+    is called, or raises its error.
 
     What ``work`` changes stays in the copy. With one processor, or where processes cannot be copied, ``work`` is done
     when it is asked for.
     """
     if not hasattr(os, "sched_getaffinity") or len(os.sched_getaffinity(0)) < 2:
-        return work
+        return cache(work)
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=_send, args=(sender, work), daemon=True)  # ends with this one, asked for or not
@@ -36,7 +38,7 @@ def begun(work: Callable[[], T]) -> Callable[[], T]:
             raise error
         return made
 
-    return result
+    return cache(result)
 
 
 def _send(sender: Connection, work: Callable[[], object]) -> None:

@@ -20,6 +20,7 @@ from pathlib import Path
 from derive import beside, compiler, drives, outside
 from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
+from derive.audit.provenance import Proved
 from derive.emit import families
 from derive.files import remove_parts, replace_text
 from derive.language.validate import DescriptionError
@@ -113,17 +114,17 @@ def _known(names):
 
 def _into(folder, words):
     """Write the drives of names, or of files, into a folder of drives."""
-    record = _record()
     if not words:
         raise outside.FileError("--into: no drive is named; name drives, a file that defines some, or all")
+    proved = beside.begun(_proved)
     for word in [*drives.catalogue()] if EVERY in words else words:
         if word.endswith(".py"):
             path = Path(word)
             for name, build in outside.catalogue_of(path).items():
-                outside.write(partial(outside.built, path, name, build), name, record, folder, log, path)
+                outside.write(partial(outside.built, path, name, build), name, proved, folder, log, path)
         else:
             (name,) = _known([word])
-            outside.write(drives.catalogue([name])[name], name, record, folder, log)
+            outside.write(drives.catalogue([name])[name], name, proved, folder, log)
 
 
 def _replace(folder, files):
@@ -133,13 +134,13 @@ def _replace(folder, files):
 
 def _some(names):
     """The files of the drives named."""
-    record = _record()
-    return {path: text for name in names for path, text in _of_drive(record, name, beside.begun).items()}
+    proved = beside.begun(_proved)
+    return {path: text for name in names for path, text in _compiled(name, proved, beside.begun).items()}
 
 
-def _record():
+def _proved():
     with log("prove", "audit record, as written"):
-        return read_record(compiler.RECORD)
+        return Proved.by(read_record(compiler.RECORD))
 
 
 def _everything(every):
@@ -151,7 +152,7 @@ def _everything(every):
     with log("define", "families"):
         known = drives.catalogue()
         table = families.table(build() for build in known.values())
-    files = _of_drives([*known] if every else packaged(table), ledger.objects)
+    files = _of_drives([*known] if every else packaged(table), Proved.by(ledger.objects))
     files["families.json"] = families.text(table)
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
@@ -159,17 +160,21 @@ def _everything(every):
     return files
 
 
-def _of_drives(names, record):
+def _of_drives(names, proved):
     """The files of these drives, each made by whichever process is free; those that take longest come last."""
     from concurrent.futures import ProcessPoolExecutor
 
     with ProcessPoolExecutor() as processes:
-        made = list(processes.map(partial(_of_drive, record), reversed(names)))
+        made = list(processes.map(partial(_of_drive, proved), reversed(names)))
     return {path: text for files in reversed(made) for path, text in files.items()}
 
 
-def _of_drive(record, name, *begun):
-    return compiler.compile_drive(drives.catalogue([name])[name], name, record, log, None, None, *begun)
+def _of_drive(proved, name):
+    return _compiled(name, lambda: proved)
+
+
+def _compiled(name, proved, *begun):
+    return compiler.compile_drive(drives.catalogue([name])[name], name, proved, log, None, None, *begun)
 
 
 def _written(folder):

@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from derive.audit.provenance import provenance
-from derive.emit import bounded, c99, casadi, certified, certify, lanes, metadata, sensitivity
+from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_regions
 from derive.passes import guards
@@ -43,14 +43,14 @@ if not RUNTIME.exists():
     RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
-def compile_drive(page, name, record, log, open_=None, emitted=None, begun=lambda work: work):
+def compile_drive(page, name, proved, log, open_=None, emitted=None, begun=lambda work: work):
     """All generated files of the drive ``name`` that the function ``page`` builds: relative path → text.
 
-    ``record`` holds the objects of the audit record against which it is checked, by their hash. A statement that it
-    does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason. ``emitted`` is
-    called with path and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`) does half the
-    work in a process of its own. Raises :class:`~derive.language.validate.DescriptionError` for a drive whose page
-    contradicts itself.
+    The function ``proved`` returns what the audit record proves (:class:`~derive.audit.provenance.Proved`). A statement
+    that it does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason.
+    ``emitted`` is called with path and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`)
+    does half the work in a process of its own. Raises :class:`~derive.language.validate.DescriptionError` for a drive
+    whose page contradicts itself.
     """
     with log("define", name):
         drive = define(page)
@@ -62,7 +62,7 @@ def compile_drive(page, name, record, log, open_=None, emitted=None, begun=lambd
         plan = bind(plan)
     apart = begun(partial(checked, plan))
     with log("prove", name):
-        origin = provenance(record, plan, open_)
+        origin = provenance(proved(), plan, open_)
     files = {}
     with log("emit", name):
         for made in (lambda: emit(plan, origin), apart):
@@ -81,15 +81,18 @@ def define(page):
 
 
 def checked(plan):
-    """Headers of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
+    """Files of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
     and its regions go on from the flanks.
     """
+    from derive.emit import casadi  # CasADi and NumPy take as long to load as to use
+
     validate_normals(plan.drive, observation(plan), plan.sample)
     validate_regions(plan.drive, joints(plan))
     c = f"c/{plan.drive.name}"
     return [
         (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
+        *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
     ]
 
 
@@ -99,8 +102,6 @@ def emit(plan, origin):
     c = f"c/{drive.name}"
     yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
     yield f"descriptions/{drive.name}.json", description.text(drive)
-    for name, text in casadi.texts(plan).items():
-        yield f"casadi/{name}.casadi", text
     # last: these add nodes to the tapes, the changes of the inputs and design systems at the end of their path
     tangents = sensitivity.tangents(plan)
     yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)

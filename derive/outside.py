@@ -63,9 +63,9 @@ def built(path, name, build):
     return drive
 
 
-def write(page, name, record, folder, log, source=None):
-    """Derive the drive ``name`` that ``page`` builds into a folder and compile it; ``source`` is the file that defines
-    it, if it is not of the tree.
+def write(page, name, proved, folder, log, source=None):
+    """Derive the drive ``name`` that ``page`` builds into a folder and compile it; ``proved`` is as in
+    :func:`derive.compiler.compile_drive`, ``source`` the file that defines the drive, if it is not of the tree.
     """
     from meshwright.base import compile as build
 
@@ -86,7 +86,7 @@ def write(page, name, record, folder, log, source=None):
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
-            files = compiler.compile_drive(kept, name, record, log, open_, emitted, beside.begun)
+            files = compiler.compile_drive(kept, name, proved, log, open_, emitted, beside.begun)
             described = json.loads(files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, open_, found[0](), source)

@@ -7,6 +7,7 @@ definitions and the operations of the tape. The prove stage refuses one that the
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import TypedDict
 
 from derive.audit.checker.record import root_of
@@ -23,27 +24,41 @@ class Provenance(TypedDict):
     equations_of: dict[str, list[str]]
 
 
-def provenance(objects: dict[str, dict], plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
+@dataclass(frozen=True)
+class Proved:
+    """What a record proves: its root hash, and of each of its statements whether it is proved."""
+
+    root_hash: str
+    statements: Mapping[str, bool]
+
+    @classmethod
+    def by(cls, objects: dict[str, dict]) -> Proved:
+        """By the objects of a record by their hash, just proved or read from where it was written."""
+        verdicts = [item for item in objects.values() if item["object"] == "verdict"]
+        return cls(root_of(objects), {verdict["id"]: _holds(objects, verdict) for verdict in verdicts})
+
+
+def provenance(proved: Proved, plan: Schedule, open_: dict[str, str] | None = None) -> Provenance:
     """Root hash and equation ids of a drive, by function name without the drive's prefix.
 
-    ``objects`` are those of the record by their hash, just proved or read from where it was written. A statement that
-    they do not prove is refused or, where ``open_`` is given, left out and entered there with the reason.
+    A statement that is not ``proved`` is refused or, where ``open_`` is given, left out and entered there with the
+    reason.
     """
     steps = dict(_steps(plan))
     for f in functions(plan):
         operations = (f.tape.origins[i].statement for i in partial_operations(f))
         steps[f.name] = joined(steps.get(f.name, ()), operations)
-    missing = dict(_not_proved(objects, {key for keys in steps.values() for key in keys}))
+    missing = dict(_not_proved(proved, {key for keys in steps.values() for key in keys}))
     if missing and open_ is None:
         name, reason = next(iter(missing.items()))
         raise ValueError(f"{plan.drive.name} rests on {name}, which {reason}")
     if open_ is not None:
         open_ |= missing
-    proved = {name: [key for key in keys if key not in missing] for name, keys in steps.items()}
+    held = {name: [key for key in keys if key not in missing] for name, keys in steps.items()}
     return {
-        "root_hash": root_of(objects),
-        "equations": sorted({key for keys in proved.values() for key in keys}),
-        "equations_of": {name: keys for name, keys in proved.items() if keys},
+        "root_hash": proved.root_hash,
+        "equations": sorted({key for keys in held.values() for key in keys}),
+        "equations_of": {name: keys for name, keys in held.items() if keys},
     }
 
 
@@ -65,19 +80,22 @@ def _steps(plan: Schedule) -> Iterator[tuple[str, tuple[str, ...]]]:
     yield from ((function.name, function.rests_on) for function in plan.functions)
 
 
-def _not_proved(objects: Mapping[str, dict], names: set[str]) -> Iterator[tuple[str, str]]:
+def _not_proved(proved: Proved, names: set[str]) -> Iterator[tuple[str, str]]:
     """The statements that the record does not prove, each with what it says of it."""
-    verdicts = {item["id"]: item for item in objects.values() if item["object"] == "verdict"}
     for name in sorted(names):
-        if name not in verdicts:
+        if name not in proved.statements:
             yield name, "the record does not hold"
-        elif not _holds(objects, verdicts[name]):
+        elif not proved.statements[name]:
             yield name, "is not a proved statement of the record"
 
 
 def _holds(objects: Mapping[str, dict], verdict: dict) -> bool:
     """Proved, or ambiguous with a proved reading (damaged print)."""
     return verdict["status"] in ("proved", "proved_with_correction") or any(
-        reading["parts"] and all(objects[part["certificate"]]["outcome"] == "proved" for part in reading["parts"])
+        reading["parts"] and all(_is_proof(objects.get(part["certificate"])) for part in reading["parts"])
         for reading in verdict["readings"]
     )
+
+
+def _is_proof(certificate: Mapping | None) -> bool:
+    return certificate is not None and certificate.get("outcome") == "proved"

@@ -7,6 +7,7 @@ the steps by which they were made. ``derive/README.md`` documents the form; noth
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
+from functools import cache
 from typing import TypeAlias
 
 import sympy as sp
@@ -38,7 +39,11 @@ def prefix(expression: Number) -> Prefix:
 
     Rational numbers are ``["/", p, q]``. Raises TypeError for what has no exact form.
     """
-    e = sp.sympify(expression)
+    return _prefix(sp.sympify(expression))
+
+
+@cache
+def _prefix(e: sp.Expr) -> Prefix:
     if isinstance(e, sp.Symbol):
         return e.name
     if isinstance(e, sp.Integer):
@@ -47,7 +52,7 @@ def prefix(expression: Number) -> Prefix:
         return ["/", int(e.p), int(e.q)]
     if e is sp.pi:
         return ["pi"]
-    operands = [prefix(argument) for argument in e.args]
+    operands = [_prefix(argument) for argument in e.args]
     if isinstance(e, sp.Add):
         return ["+", *operands]
     if isinstance(e, sp.Mul):
@@ -191,17 +196,19 @@ def sources(drive: Drive) -> list[dict[str, Data]]:
 
 
 def _words(data: Data) -> set[str]:
-    """Every text in plain data."""
-    found: set[str] = set()
+    """Every text in plain data, of which the same list may be in many places."""
+    found, seen = set[str](), set[int]()
     left = [data]
     while left:
         part = left.pop()
         if isinstance(part, str):
             found.add(part)
-        elif isinstance(part, Mapping):
-            left.extend(part.values())
-        elif isinstance(part, Sequence):
-            left.extend(part)
+        elif id(part) not in seen:
+            seen.add(id(part))
+            if isinstance(part, Mapping):
+                left.extend(part.values())
+            elif isinstance(part, Sequence):
+                left.extend(part)
     return found
 
 

@@ -237,12 +237,25 @@ def _turns(drive: Drive) -> Iterator[str]:
 
 def _exact(drive: Drive) -> Iterator[str]:
     """Numbers are exact and real: an inexact one has no place in a proof, one that is no number none in a gear."""
+    seen: set[sp.Expr] = set()
     for what, expression in _expressions(drive):
-        for atom in sp.sympify(expression).atoms():
+        for atom in _atoms(sp.sympify(expression), seen):
             if isinstance(atom, sp.Float):
                 yield f"{what} has the inexact number {atom}; write it as a sympy.Rational"
             elif not (isinstance(atom, sp.Symbol | sp.Rational) or atom is sp.pi):
                 yield f"{what} has {atom}, which is no real number, or has no exact form in a description"
+
+
+def _atoms(expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[sp.Expr]:
+    """Atoms of an expression, without those of parts ``seen`` before, to which its own are added."""
+    pending = [expression]
+    while pending:
+        part = pending.pop()
+        if part not in seen:
+            seen.add(part)
+            pending += part.args
+            if not part.args:
+                yield part
 
 
 def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:

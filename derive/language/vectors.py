@@ -74,11 +74,16 @@ def norm(a: Vector) -> sp.Expr:
 
 def radius(x: sp.Expr, y: sp.Expr) -> sp.Expr:
     """√(x² + y²)."""
-    return root(x**2 + y**2)
+    return root(_power(x, 2) + _power(y, 2))
 
 
 def root(a: Number) -> sp.Expr:
-    return sp.Pow(a, sp.Rational(1, 2), evaluate=not isinstance(sp.sympify(a), sp.Add))
+    return _power(sp.sympify(a), sp.Rational(1, 2))
+
+
+def _power(a: sp.Expr, exponent: Number) -> sp.Expr:
+    """A power, of a sum without asking whether its terms are finite."""
+    return sp.Pow(a, exponent, evaluate=not isinstance(a, sp.Add))
 
 
 def arc(y: Number, x: Number) -> sp.Expr:

@@ -4,12 +4,14 @@ Field operations are those of the residues; roots, sines, cosines and arcs are r
 passes use (odd, even). A wrong pass is let through with a probability of about its degree over 2^60.
 """
 
+import operator
 import random
 import secrets
 import weakref
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache, partial
+from typing import Any
 
 import sympy as sp
 
@@ -67,11 +69,11 @@ def _fnma(a: int, b: int, c: int) -> int:
     return c - a * b
 
 
-_APPLY: dict[str, Callable[..., int]] = {
-    "add": int.__add__,
-    "sub": int.__sub__,
-    "mul": int.__mul__,
-    "neg": int.__neg__,
+_APPLY: dict[str, Callable[..., Any]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "neg": operator.neg,
     "div": _quotient,
     "fma": _fma,
     "fms": _fms,
@@ -116,19 +118,26 @@ def residues(program: Routine) -> list[int]:
 
 
 def _computed(program: Routine) -> list[int]:
-    p = _prime()
-    values: dict[int, int] = {}
-
-    def value(i: int) -> int:
-        if i not in values:
-            if program.tape.nodes[i].args and i not in program.known:
-                raise PassError(f"{program.name or 'a routine'} reads node {i} before it is computed")
-            values[i] = _residue(program.tape, i)
-        return values[i]
-
-    for i, step in program.steps:
-        values[i] = _APPLY[step.op](*[values[a] if a in values else value(a) for a in step.args]) % p
+    p, values = _prime(), _Values(program)
+    value = values.__getitem__
+    for i, (op, args, _) in program.steps:
+        values[i] = _APPLY[op](*map(value, args)) % p
     return [value(i) % p for i in program.outputs]
+
+
+class _Values(dict[int, int]):
+    """Residues of what a routine has computed so far, and of the nodes that it reads."""
+
+    def __init__(self, program: Routine) -> None:
+        super().__init__()
+        self._program = program
+
+    def __missing__(self, i: int) -> int:
+        program = self._program
+        if program.tape.nodes[i].args and i not in program.known:
+            raise PassError(f"{program.name or 'a routine'} reads node {i} before it is computed")
+        self[i] = value = _residue(program.tape, i)
+        return value
 
 
 def same(name: str, before: Routine, after: Routine) -> Routine:

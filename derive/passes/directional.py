@@ -14,7 +14,6 @@ class Derivatives:
     def __call__(self, i: int) -> int:
         for k in [*self.tape.needed([i], self._done), i]:
             if k not in self._done:
-                args = self.tape.nodes[k].args
-                known = {a: self._done.get(a, self.tape.constant(0)) for a in args}
-                self._done[k] = self.tape.rule(k, known) if args else self.tape.constant(0)
+                args, zero = self.tape.arguments[k], self.tape.constant(0)
+                self._done[k] = self.tape.rule(k, [self._done.get(a, zero) for a in args]) if args else zero
         return self._done[i]

@@ -37,20 +37,22 @@ def fused_products(tape: Tape, order: Sequence[int], outputs: Iterable[int]) -> 
     A product goes into its sums if that leaves no other use of it. Where a sum could take either argument, it takes
     the one that is known later.
     """
-    users: dict[int, list[int]] = {i: [] for i in order}
+    nodes, arguments = tape.nodes, tape.arguments
+    users: dict[int, list[int]] = {}
     depth: dict[int, int] = {}
     for i in order:
-        args = [a for a in tape.nodes[i].args if a in users]
-        depth[i] = 1 + max((depth[a] for a in args), default=0)
-        for a in args:
-            users[a].append(i)
+        users[i], deepest = [], 0
+        for a in arguments[i]:
+            if a in depth:
+                users[a].append(i)
+                deepest = max(deepest, depth[a])
+        depth[i] = deepest + 1
     kept = set(outputs)
+    products = [i for i in order if nodes[i].op == "mul" and users[i] and i not in kept]
     taken: dict[int, int] = {}
-    for i in sorted(order, key=lambda k: -depth[k]):
-        if tape.nodes[i].op != "mul" or i in kept or not users[i]:
-            continue
-        if all(_takes(tape.nodes[u], i) and u not in taken for u in users[i]):
-            taken |= dict.fromkeys(users[i], i)
+    for i in sorted(products, key=depth.__getitem__, reverse=True):
+        if all(u not in taken and _takes(nodes[u], i) for u in users[i]):
+            taken.update(dict.fromkeys(users[i], i))
     return taken
 
 

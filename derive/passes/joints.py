@@ -192,8 +192,7 @@ def _damped(values: Row, slopes: list[Row], damping: float) -> Row:
 
 
 def _solved(matrix: list[Row], right: Row) -> Row:
-    numbers = [[mpmath.mpf(a) for a in (*row, b)] for row, b in zip(matrix, right, strict=True)]
-    return [float(x) for x in solution(numbers)]
+    return solution([[*row, b] for row, b in zip(matrix, right, strict=True)], float)
 
 
 def _unit(vector: Row) -> Row:

@@ -58,9 +58,9 @@ def forward(tape: Tape, residual: Sequence[int], unknowns: Sequence[int]) -> Lin
     fewest operations.
     """
     variables = _variables(tape, residual, unknowns, {})
-    columns, partial = [*unknowns, *variables], _Forward(tape, variables)
-    rows = [partial(row, columns) for row in residual]
-    rows += [_closed(tape, partial(v, columns), len(unknowns) + k, None, v) for k, v in enumerate(variables)]
+    partial = _Forward(tape, [*unknowns, *variables])
+    rows = [partial(row) for row in residual]
+    rows += [_closed(tape, partial(v), len(unknowns) + k, None, v) for k, v in enumerate(variables)]
     return Linear(rows, len(unknowns), len(residual))
 
 
@@ -69,9 +69,9 @@ def _assembled(
 ) -> Linear:
     variables = _variables(tape, residual, unknowns, equations)
     columns = [*unknowns, *variables]
-    forward, backward = _Forward(tape, variables), _Backward(tape, columns)
+    forward, backward = _Forward(tape, columns), _Backward(tape, columns)
     rows = [*residual, *(equations.get(variable, (variable,))[0] for variable in variables)]
-    sides = [[side(row, columns) for side in (forward, backward)] for row in rows]
+    sides = [[side(row) for side in (forward, backward)] for row in rows]
     for k, variable in enumerate(variables):
         for way, row in enumerate(sides[len(residual) + k]):
             sides[len(residual) + k][way] = _closed(tape, row, len(unknowns) + k, equations.get(variable), variable)
@@ -179,49 +179,51 @@ def _variables(
 
 
 class _Forward:
-    """Derivatives by each variable while the others are held, by the chain rule from the inputs on."""
+    """Derivatives by each column, an input or a variable, while the others are held: by the chain rule from them on."""
 
-    def __init__(self, tape: Tape, variables: Iterable[int]) -> None:
-        self.tape = tape
-        self.variables = set(variables)
-        self._done: dict[tuple[int, int], int] = {}
+    def __init__(self, tape: Tape, columns: Sequence[int]) -> None:
+        self.tape, self.columns = tape, columns
+        self._bits = {column: 1 << k for k, column in enumerate(columns)}
+        self._moved: dict[int, int] = {}  # operation behind the rows → the bits of what moves it
+        self._done: list[dict[int, int]] = [{} for _ in columns]
 
-    def __call__(self, i: int, variables: Iterable[int]) -> list[int]:
-        """∂(node i)/∂(each variable); node i itself may be one of them."""
-        return [self._by(i, variable) for variable in variables]
+    def __call__(self, i: int) -> list[int]:
+        """∂(node i)/∂(each column); node i itself may be one of them."""
+        arguments, bits, moved = self.tape.arguments, self._bits, self._moved
+        for k in self.tape.needed(arguments[i], {*bits, *moved}):
+            moved[k] = 0
+            for a in arguments[k]:
+                moved[k] |= bits[a] if a in bits else moved.get(a, 0)
+        return [self._by(i, column, done) for column, done in zip(self.columns, self._done, strict=True)]
 
-    def _by(self, i: int, variable: int) -> int:
-        stack = [i]
+    def _by(self, i: int, column: int, done: dict[int, int]) -> int:
+        tape, arguments, moved, own = self.tape, self.tape.arguments, self._moved, self._bits[column]
+
+        def slopes(k: int) -> list[int]:
+            return [done[a] if a in done else tape.constant(int(a == column)) for a in arguments[k]]
+
+        stack = [a for a in arguments[i] if a in moved]
         while stack:
             top = stack[-1]
-            args = self.tape.nodes[top].args
-            missing = [a for a in args if not self._held(a, variable) and (a, variable) not in self._done]
-            if missing:
+            if top in done:
+                stack.pop()
+            elif not moved[top] & own:
+                done[top] = tape.constant(0)
+            elif missing := [a for a in arguments[top] if a in moved and a not in done]:
                 stack.extend(missing)
-                continue
-            slopes = {a: self._slope(a, variable) for a in args}
-            self._done[top, variable] = self.tape.rule(top, slopes) if args else self._slope(top, variable)
-            stack.pop()
-        return self._slope(i, variable) if i == variable else self._done[i, variable]
-
-    def _held(self, i: int, variable: int) -> bool:
-        return i == variable or i in self.variables or not self.tape.nodes[i].args
-
-    def _slope(self, i: int, variable: int) -> int:
-        if self._held(i, variable):
-            return self.tape.constant(1 if i == variable else 0)
-        return self._done[i, variable]
+            else:
+                done[top] = tape.rule(top, slopes(top))
+        return tape.rule(i, slopes(i)) if arguments[i] and i != column else tape.constant(int(i == column))
 
 
 class _Backward:
-    """The same by the adjoint chain rule, from the result back: once for all variables."""
+    """The same by the adjoint chain rule, from the result back: once for all columns."""
 
-    def __init__(self, tape: Tape, variables: Sequence[int]) -> None:
-        self.tape = tape
-        self.variables = variables
+    def __init__(self, tape: Tape, columns: Sequence[int]) -> None:
+        self.tape, self.columns = tape, columns
 
-    def __call__(self, i: int, variables: Iterable[int]) -> list[int]:
-        tape, known = self.tape, set(self.variables) - {i}
+    def __call__(self, i: int) -> list[int]:
+        tape, known = self.tape, set(self.columns) - {i}
         order = tape.needed([i], known)
         moved = set(known)
         for k in order:
@@ -233,7 +235,7 @@ class _Backward:
                 continue
             for a in dict.fromkeys(tape.nodes[k].args):
                 if a in moved:
-                    slopes = {b: tape.constant(int(b == a)) for b in tape.nodes[k].args}
+                    slopes = [tape.constant(int(b == a)) for b in tape.arguments[k]]
                     share = tape.mul(adjoint[k], tape.rule(k, slopes))
                     adjoint[a] = tape.add(adjoint[a], share) if a in adjoint else share
-        return [adjoint.get(x, tape.constant(0)) if x != i else tape.constant(1) for x in variables]
+        return [adjoint.get(x, tape.constant(0)) if x != i else tape.constant(1) for x in self.columns]

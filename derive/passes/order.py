@@ -8,7 +8,6 @@ last use of a value is (list scheduling).
 from __future__ import annotations
 
 import heapq
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
@@ -71,83 +70,99 @@ def latency_order(
     """
     graph = _Graph(program, outputs)
     copies = [_Copy(graph, lag) for lag in lags]
-    first = [i for i, args in graph.args.items() if not args]
-    coming: list[tuple[float, int, int]] = [(0, k, i) for k in range(len(lags)) for i in first]
+    first = [n for n, args in enumerate(graph.args) if not args]
+    coming = [(0.0, k, graph.nodes[n], n) for k in range(len(lags)) for n in first]
     heapq.heapify(coming)
-    ready: list[tuple[float, int, int, int]] = []
+    ready: list[tuple[int, int, int]] = []
     result: list[tuple[int, int]] = []
     time = 0.0
     while coming or ready:
         while coming and (coming[0][0] <= time + _AHEAD or not ready):
-            at, k, i = heapq.heappop(coming)
+            at, k, _, n = heapq.heappop(coming)
             time = max(time, at - _AHEAD)
-            copies[k].ready.add(i)
-            heapq.heappush(ready, (*copies[k].urgency(i), k, i))
-        *_, k, i = heapq.heappop(ready)
-        if i not in copies[k].ready:  # it was more urgent, and came sooner
+            copies[k].ready[n] = True
+            heapq.heappush(ready, (copies[k].lateness[n], n, k))
+        _, n, k = heapq.heappop(ready)
+        copy = copies[k]
+        if not copy.ready[n]:  # it was more urgent, and came sooner
             continue
-        result.append((k, i))
-        released, hastened = copies[k].start(i, time)
-        for n in hastened:
-            heapq.heappush(ready, (*copies[k].urgency(n), k, n))
-        for n in released:
-            heapq.heappush(coming, (copies[k].possible[n], k, n))
-        time += graph.cost[i] / _WIDTH
+        result.append((k, graph.nodes[n]))
+        released, hastened = copy.start(n, time)
+        for u in hastened:
+            heapq.heappush(ready, (copy.lateness[u], u, k))
+        for u in released:
+            heapq.heappush(coming, (copy.possible[u], k, graph.nodes[u], u))
+        time += graph.cost[n] / _WIDTH
     return result
 
 
 class _Graph:
-    """What each operation waits for and who waits for it, how long the chain behind it is, what it costs."""
+    """The operations of a program by their numbers in its order: the node, what each waits for and who waits for it,
+    how long the chain behind it is, what it costs, how many results it has and whether one is an output.
+    """
 
     def __init__(self, program: Mapping[int, Operation], outputs: Iterable[int]) -> None:
+        self.nodes: list[int] = []
+        self.args: list[list[int]] = []
+        self.users: list[list[int]] = []
+        self.latency: list[int] = []
+        self.cost: list[int] = []
+        self.results: list[int] = []
         turned: dict[tuple[int, ...], int] = {}
-        alone = {i: turned.setdefault(o.args, i) if o.op in ("sin", "cos") else i for i, o in program.items()}
-        nodes = dict.fromkeys(alone.values())
-        within = {i: dict.fromkeys(alone[a] for a in program[i].args if a in alone) for i in nodes}
-        self.args = {i: tuple(args) for i, args in within.items()}
-        self.users: dict[int, list[int]] = {i: [] for i in nodes}
-        for i, args in self.args.items():
-            for a in args:
-                self.users[a].append(i)
-        self.latency = {i: _LATENCY[program[i].op] for i in nodes}
-        self.cost = {i: _OPERATIONS.get(program[i].op, 1) for i in nodes}
-        self.height: dict[int, int] = {}
-        for i in reversed(nodes):
-            self.height[i] = self.latency[i] + max((self.height[u] for u in self.users[i]), default=0)
-        self.rank = {i: k for k, i in enumerate(nodes)}
-        self.results = Counter(alone.values())
-        self.kept = {alone[i] for i in outputs if i in alone}
+        number: dict[int, int] = {}
+        for i, step in program.items():
+            op, own = step.op, len(self.nodes)
+            if op in ("sin", "cos") and (other := turned.setdefault(step.args, own)) != own:
+                number[i] = other
+                self.results[other] += 1
+                continue
+            number[i] = own
+            args = list(dict.fromkeys([number[a] for a in step.args if a in number]))
+            for n in args:
+                self.users[n].append(own)
+            self.nodes.append(i)
+            self.args.append(args)
+            self.users.append([])
+            self.latency.append(_LATENCY[op])
+            self.cost.append(_OPERATIONS.get(op, 1))
+            self.results.append(1)
+        self.height = [0] * len(self.nodes)
+        for n, users in reversed([*enumerate(self.users)]):
+            self.height[n] = self.latency[n] + max([self.height[u] for u in users], default=0)
+        self.kept = {number[i] for i in outputs if i in number}
 
 
 class _Copy:
-    """How far one copy of the program has come."""
+    """How far one copy of the program has come.
+
+    ``lateness`` sorts operations, the most urgent first; it only falls. ``possible`` is when the arguments are there.
+    """
 
     def __init__(self, graph: _Graph, lag: int) -> None:
-        self._graph, self._lag = graph, lag
-        self._uses = {i: len(users) + (i in graph.kept) for i, users in graph.users.items()}
-        self._waits = {i: len(args) for i, args in graph.args.items()}
-        self.possible: dict[int, float] = dict.fromkeys(graph.args, 0.0)  # when the arguments are there
-        self.ready: set[int] = set()
+        self._graph, count = graph, len(graph.nodes)
+        self._uses = uses = [len(users) + (n in graph.kept) for n, users in enumerate(graph.users)]
+        self._waits = [len(args) for args in graph.args]
+        self.possible = [0.0] * count
+        self.ready = [False] * count
+        self.lateness = [
+            lag - graph.height[n] + _REGISTER * (graph.results[n] - [uses[a] for a in graph.args[n]].count(1))
+            for n in range(count)
+        ]
 
-    def urgency(self, i: int) -> tuple[float, int]:
-        """Sorts operations, the most urgent first; it only grows."""
-        graph, uses = self._graph, self._uses
-        registers = -graph.results[i]
-        for a in graph.args[i]:
-            registers += uses[a] == 1
-        return self._lag - graph.height[i] - _REGISTER * registers, graph.rank[i]
-
-    def start(self, i: int, time: float) -> tuple[list[int], list[int]]:
-        """Start operation i; returns those that may come now, and those ready that have become more urgent."""
+    def start(self, n: int, time: float) -> tuple[list[int], list[int]]:
+        """Start operation n; returns those that may come now, and those ready that have become more urgent."""
         graph, uses, waits, possible = self._graph, self._uses, self._waits, self.possible
-        finished = max(time, possible[i]) + graph.latency[i]
-        self.ready.remove(i)
+        finished = max(time, possible[n]) + graph.latency[n]
+        self.ready[n] = False
         released, hastened = list[int](), list[int]()
-        for a in graph.args[i]:
+        for a in graph.args[n]:
             uses[a] -= 1
             if uses[a] == 1:
-                hastened += [u for u in graph.users[a] if u in self.ready]
-        for u in graph.users[i]:
+                for u in graph.users[a]:
+                    self.lateness[u] -= _REGISTER
+                    if self.ready[u]:
+                        hastened.append(u)
+        for u in graph.users[n]:
             waits[u] -= 1
             if possible[u] < finished:
                 possible[u] = finished

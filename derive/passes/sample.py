@@ -1,8 +1,9 @@
 """A small Newton iteration on the tape itself, used at generation time only: sample solutions and self-tests."""
 
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import mpmath
 import sympy as sp
@@ -14,9 +15,9 @@ from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Schedule
 from derive.program.tape import Lowering, Stage, Tape
 
-#: Inputs and their numbers, and a matrix, of many digits.
+#: Inputs and their numbers, of many digits; a matrix, of these or of floats.
 Values: TypeAlias = dict[sp.Symbol, mpmath.mpf]
-Rows: TypeAlias = list[list[mpmath.mpf]]
+Real = TypeVar("Real", float, mpmath.mpf)
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
 DIGITS = 40
@@ -125,7 +126,7 @@ def beside(plan: Schedule) -> list[float]:
     n, flat = len(plan.unknowns), [*(e for row in plan.jacobian for e in row), *plan.scales]
     with mpmath.workdps(DIGITS):
         numbers = plan.tape.evaluate(flat, plan.sample, mpmath)
-        _, pivots = _eliminated([[*numbers[i * n : i * n + n], mpmath.mpf(0)] for i in range(n)])
+        _, pivots = _eliminated([[*numbers[i * n : i * n + n], mpmath.mpf(0)] for i in range(n)], mpmath.mpf)
     share = BESIDE if len(pivots) == n else 0.0
     return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
@@ -170,7 +171,7 @@ def _iteration(
                 numbers = evaluate(inputs)
             except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
                 raise NoSample(f"the sample of {unknowns} leaves the real numbers; choose another") from error
-            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)])
+            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)], mpmath.mpf)
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
             if max(map(abs, change), default=0) < (tolerance or exact):
@@ -180,23 +181,24 @@ def _iteration(
     return iterate
 
 
-def solution(rows: Rows) -> list[mpmath.mpf]:
+def solution(rows: list[list[Real]], number: type[Real]) -> list[Real]:
     """Solution of matrix · change = residual, given as rows (matrix | residual); directions that the equations do not
     see stay put.
 
-    A pair that touches along a line has such a direction at every contact.
+    A pair that touches along a line has such a direction at every contact. The arithmetic is that of ``number``.
     """
-    change = [mpmath.mpf(0)] * len(rows)
-    rows, pivots = _eliminated(rows)
+    change = [number(0)] * len(rows)
+    rows, pivots = _eliminated(rows, number)
     for step, j in reversed(pivots):
-        known = sum((rows[step][k] * change[k] for _, k in pivots if k != j), mpmath.mpf(0))
+        known = sum((rows[step][k] * change[k] for _, k in pivots if k != j), number(0))
         change[j] = (rows[step][-1] - known) / rows[step][j]
     return change
 
 
-def _eliminated(rows: Rows) -> tuple[Rows, list[tuple[int, int]]]:
+def _eliminated(rows: list[list[Real]], number: type[Real]) -> tuple[list[list[Real]], list[tuple[int, int]]]:
     """Rows (matrix | residual) after elimination with complete pivoting, and the pivots (row, column) worth using."""
-    n, rows, negligible = len(rows), list(rows), mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
+    digits = sys.float_info.dig if number is float else mpmath.mp.dps
+    n, rows, negligible = len(rows), list(rows), number(10) ** (-digits // 2)
     pivots: list[tuple[int, int]] = []
     for step in range(n):
         free = [j for j in range(n) if j not in [column for _, column in pivots]]

@@ -6,12 +6,12 @@ it reads is what it does not compute.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from derive.program.tape import Tape
 
 
-@dataclass(frozen=True)
-class Operation:
+class Operation(NamedTuple):
     """An operation of a routine. ``op`` is one of the tape's, or a sum that takes a product: fma a·b + c, fms a·b − c,
     fnma c − a·b; there ``product`` is the node of a·b, which is no operation of its own.
     """
@@ -57,5 +57,5 @@ def routine(
 ) -> Routine:
     """The routine that computes ``outputs`` as the tape has them."""
     results, read = tuple(outputs), frozenset(known)
-    steps = tuple((i, Operation(tape.nodes[i].op, tape.nodes[i].args)) for i in tape.needed(results, read))
+    steps = tuple([(i, Operation(tape.nodes[i].op, tape.arguments[i])) for i in tape.needed(results, read)])
     return Routine(tape, results, read, steps, tuple(later), name)

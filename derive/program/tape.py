@@ -66,7 +66,9 @@ class Tape:
         self._constants: dict[Exact, int] = {}
         self._exact: dict[int, Exact] = {}
         self._enclosures: dict[int, Enclosure] = {}
-        self._derivatives: dict[tuple[int, int], int] = {}
+        self._derivatives: dict[int, dict[int, int]] = {}
+        self._inputs: dict[int, int] = {}
+        self._reads: list[int] = []
 
     # -- building ---------------------------------------------------------------------------------------------
 
@@ -286,29 +288,39 @@ class Tape:
 
     def derivative(self, i: int, variable: int) -> int:
         """Node of ∂(node i)/∂(input node ``variable``), by the forward chain rule."""
+        reads, arguments = self._inputs_read(), self.arguments
+        own = self._inputs.get(variable, 0)
+        known = self._derivatives.setdefault(variable, {})
         stack = [i]
         while stack:
             top = stack[-1]
-            if (top, variable) in self._derivatives:
+            if top in known:
                 stack.pop()
-                continue
-            missing = [a for a in self.nodes[top].args if (a, variable) not in self._derivatives]
-            if missing:
+            elif not reads[top] & own:
+                known[top] = self.constant(0)
+            elif missing := [a for a in arguments[top] if a not in known]:
                 stack.extend(missing)
-                continue
-            self._derivatives[top, variable] = self._rule(top, variable)
-            stack.pop()
-        return self._derivatives[i, variable]
+            else:
+                args = arguments[top]
+                known[top] = self.rule(top, [known[a] for a in args]) if args else self.constant(1)
+        return known[i]
 
-    def _rule(self, i: int, variable: int) -> int:
-        if not self.nodes[i].args:
-            return self.constant(1 if i == variable else 0)
-        return self.rule(i, {a: self._derivatives[a, variable] for a in self.nodes[i].args})
+    def _inputs_read(self) -> list[int]:
+        """For each node the inputs behind it: a bit for each, that which ``_inputs`` gives it."""
+        reads = self._reads
+        for i in range(len(reads), len(self.nodes)):
+            own = 0
+            for a in self.arguments[i]:
+                own |= reads[a]
+            if self.nodes[i].op == "input":
+                own = self._inputs[i] = 1 << len(self._inputs)
+            reads.append(own)
+        return reads
 
-    def rule(self, i: int, derivatives: Mapping[int, int]) -> int:
-        """The chain rule at one node, given the derivative of each of its arguments."""
-        zero, d = self._constants.get(0), [derivatives[a] for a in self.nodes[i].args]
-        if zero is not None and all(k == zero for k in d):
+    def rule(self, i: int, d: Sequence[int]) -> int:
+        """The chain rule at one node, given the derivatives of its arguments."""
+        zero = self._constants.get(0)
+        if zero is not None and d.count(zero) == len(d):
             return zero
         if i not in self.origins:
             return self._chain(i, d)
@@ -368,6 +380,10 @@ class Tape:
         ``instead`` holds the arguments of nodes that are computed from others than their own.
         """
         arguments, seen = self.arguments, set(known)
+        if instead:
+            arguments = [*arguments]
+            for i, args in instead.items():
+                arguments[i] = args
         order: list[int] = []
         stack = [*outputs][::-1]  # of nodes to visit; ~i: the arguments of i are done
         pop, push, done, see = stack.pop, stack.append, order.append, seen.add
@@ -375,20 +391,27 @@ class Tape:
             i = pop()
             if i < 0:
                 done(~i)
-            elif i not in seen:
+                continue
+            while i not in seen:
                 see(i)
-                args = arguments[i] if instead is None else instead.get(i, arguments[i])
-                if args:
-                    push(~i)
-                    for a in args[::-1]:
-                        if a not in seen:
-                            push(a)
+                args = arguments[i]
+                if not args:
+                    break
+                push(~i)
+                i = args[0]  # on to the first argument at once; the last waits
+                if args[-1] not in seen:
+                    push(args[-1])
         return order
 
     def inputs_of(self, outputs: Collection[int]) -> set[sp.Symbol]:
         """Symbols of the inputs that ``outputs`` depend on."""
         read = {a for i in self.needed(outputs) for a in self.nodes[i].args} | set(outputs)
         return {self.nodes[i].value for i in read if self.nodes[i].op == "input"}
+
+    def _pair(self, i: int) -> tuple[int, int | None]:
+        """The arguments of an operation; None for a second one that it does not take."""
+        args = self.arguments[i]
+        return args[0], args[1] if len(args) == 2 else None
 
     def evaluate(
         self,
@@ -414,14 +437,14 @@ class Tape:
         symbols = {i: self.nodes[i].value for i in leaves if self.nodes[i].op == "input"}
         make = getattr(arithmetic, "mpf", float)
         constants = {i: _number(self._exact[i], make) for i in leaves if i in self._exact}
-        steps = [(i, _operation(self.nodes[i].op, arithmetic), self.nodes[i].args) for i in order]
+        steps = [(i, _operation(self.nodes[i].op, arithmetic), *self._pair(i)) for i in order]
 
         def run(inputs: Mapping[sp.Symbol, Any]) -> list[Any]:
             values = dict(constants)
             for i, symbol in symbols.items():
                 values[i] = inputs[symbol]
-            for i, apply, args in steps:
-                values[i] = apply(*[values[a] for a in args])
+            for i, apply, a, b in steps:
+                values[i] = apply(values[a]) if b is None else apply(values[a], values[b])
             return [values[i] for i in outputs]
 
         return run

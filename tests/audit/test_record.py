@@ -13,7 +13,7 @@ import pytest
 from derive.audit import __main__ as command
 from derive.audit import ledger, record
 from derive.audit.checker.record import read_record
-from derive.audit.provenance import provenance
+from derive.audit.provenance import Proved, provenance
 from derive.drives import catalogue
 from derive.passes.schedule import schedule
 
@@ -127,20 +127,20 @@ def test_verify_reports_rejection(tmp_path, capsys):
 def test_a_function_may_only_rest_on_what_is_proved():
     plan = schedule(catalogue()["spherical_spur_spur"]())
     with pytest.raises(ValueError, match="conventions/rotations, which the record does not hold"):
-        provenance({}, plan)
+        provenance(Proved.by({}), plan)
 
 
 def test_a_new_tool_brings_its_own_provenance():
     """The statement that a surface names appears in every function that reads it; one that is not proved is an error
     that names it.
     """
-    objects = read_record(GENERATED / "audit")
+    proved = Proved.by(read_record(GENERATED / "audit"))
     plan = schedule(catalogue()["spherical_spur_spur"]())
     drive = plan.drive
 
     def with_wheel_on(statement):
         plan.drive = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(statement)))
-        return provenance(objects, plan)["equations_of"]
+        return provenance(proved, plan)["equations_of"]
 
     used = with_wheel_on("helicoids/zc-limit")
     assert all("helicoids/zc-limit" in used[name] for name in ("flank_wheel", "eval", "step", "observe"))

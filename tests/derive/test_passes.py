@@ -39,7 +39,7 @@ def test_one_wrong_operation_is_caught(step, wrong):
     other = {"add": "sub", "sub": "add", "mul": "add", "sin": "cos"}[wrong]
     at = next(k for k, (_, operation) in enumerate(step.steps) if operation.op == wrong)
     i, operation = step.steps[at]
-    harmed = replace(step, steps=(*step.steps[:at], (i, replace(operation, op=other)), *step.steps[at + 1 :]))
+    harmed = replace(step, steps=(*step.steps[:at], (i, operation._replace(op=other)), *step.steps[at + 1 :]))
     with pytest.raises(check.PassError, match="step computes other values"):
         check.same("harm", step, harmed)
 
@@ -54,7 +54,7 @@ def test_a_product_subtracted_from_the_wrong_side_is_caught(step):
     fused = fuse(step)
     at = next(k for k, (_, operation) in enumerate(fused.steps) if operation.op == "fms")
     i, operation = fused.steps[at]
-    harmed = (*fused.steps[:at], (i, replace(operation, op="fnma")), *fused.steps[at + 1 :])
+    harmed = (*fused.steps[:at], (i, operation._replace(op="fnma")), *fused.steps[at + 1 :])
     with pytest.raises(check.PassError):
         check.same("fuse", step, replace(fused, steps=harmed))
 

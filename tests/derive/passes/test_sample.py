@@ -24,7 +24,7 @@ def test_without_a_root_it_says_which_sample_does_not_converge():
 def test_a_direction_that_the_equations_do_not_see_stays_put():
     """x + y = 3 twice: the change solves it by the one unknown, and leaves the other."""
     rows = [[mpmath.mpf(1), mpmath.mpf(1), mpmath.mpf(3)]] * 2
-    change = solution(rows)
+    change = solution(rows, mpmath.mpf)
     assert sum(change) == 3 and 0 in change
 
 
