@@ -6,8 +6,10 @@ What is proved is of the equations, for the decimals of the design: see :class:`
 
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from numbers import Rational
 from typing import ClassVar
 
 import numpy as np
@@ -178,6 +180,10 @@ def certify(drive, angles, solutions, lines, degrees=None):
     they were given so.
     """
     sign = int(drive.design.mirror.sign)
+    if degrees is not None and not (
+        isinstance(degrees, Sequence) and len(degrees) == len(angles) and all(isinstance(d, Rational) for d in degrees)
+    ):
+        raise UsageError(f"degrees: must be exact; give {len(angles)} fractions, one an angle")
     if degrees is None:
         phi = exact.doubles(sign * np.asarray(angles))
     else:
@@ -202,6 +208,15 @@ def refined(drive, result, certificates):
         reference = _reference(drive, result.reference_error)
     wheel_angles = result.wheel_angles + (error - result.error)
     return replace(result, error=error, wheel_angles=wheel_angles, reference_error=float(reference))
+
+
+def checked_certificates(drive, result, certificates):
+    """The :class:`Certificates` of a TCA: ``certificates``, if they can be these, or made anew if they are None."""
+    if certificates is None:
+        return drive.certify(result.angles, result)
+    if not isinstance(certificates, Certificates) or len(certificates.records) != len(result.angles):
+        raise UsageError("certificates: no proofs of these contacts; give what certify(angles, result) returns")
+    return certificates
 
 
 def _reference(drive, error):
