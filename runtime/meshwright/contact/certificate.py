@@ -4,6 +4,7 @@ how far the transmission error and the contact point can be off.
 What is proved is of the equations, for the decimals of the design: see :class:`Certificates`.
 """
 
+import operator
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -43,7 +44,8 @@ class EnclosedDesign:
     @classmethod
     def of(cls, design, m):
         """The design, completed by rules and design systems and set up, all in double-double with error bounds."""
-        p = exact.wides([*_given(design)])
+        numbers = _completed(design.description, _given(design)).values()
+        p = exact.wides([None if number is None else (number, number) for number in numbers])
         parameters, slots = pointer(p, "mw_wide[]"), library().mw_enclosed_slots(m)
         failed = library().mw_enclose_design(m, parameters, pointer(np.empty(m.np + 1)))
         state = np.full(slots, np.nan, dtype=record("mw_wide"))
@@ -54,14 +56,29 @@ class EnclosedDesign:
 
 
 def _given(design):
-    """Bounds of every parameter that the design gives, in the unit of its key; None where it is open."""
+    """Exact numbers that the design gives, by symbol, in the unit of the key; None where it leaves one open."""
     for p in design.description["parameters"]:
         word = design.tables["flank"] if p["table"] == "flank" else design.tables[p["table"]].get(p["key"])
         if word is None:
-            yield None
+            yield p["name"], None
         else:
-            number = Fraction(p["choices"][word]) if p["choices"] else exact.decimal(word)
-            yield number, number
+            yield p["name"], Fraction(p["choices"][word]) if p["choices"] else exact.decimal(word)
+
+
+def _completed(description, given):
+    """The same with what defaults and rules make of them that are sums: the sum of an angle and its opposite is 0, of
+    their enclosures only near it. What another rule may fill is left to it, and to enclosures all that follows.
+    """
+    numbers, enclosed = dict(given), set()
+    names = [description["parameters"][index]["name"] for index in description["rules"]]
+    for name, terms in zip(names, description["exact_rules"], strict=True):
+        if numbers[name] is not None or name in enclosed:
+            continue
+        if terms is None or enclosed & terms.keys():
+            enclosed.add(name)
+        elif None not in (values := [numbers.get(of, Fraction(1)) for of in terms]):
+            numbers[name] = sum(map(operator.mul, map(Fraction, terms.values()), values))
+    return numbers
 
 
 class InWords:
@@ -136,8 +153,8 @@ class Certificates(InWords):
         """In a sentence, how many contacts are certain, and why others are not."""
         outcomes, errors = self.outcomes, self.error_arcsec()
         shown, total = outcomes.count("unique"), len(outcomes)
-        others = Counter(reason.replace("_", " ") for reason in self.reasons if reason)
-        why = ", ".join(f"{count} {reason}" for reason, count in others.items())
+        others = Counter(message for reason, message in zip(self.reasons, self.messages, strict=True) if reason)
+        why = "; ".join(f"{message} (at {_angles(count)})" for message, count in others.items())
         if not shown:
             return f"not certified: {why}"
         width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
@@ -170,6 +187,10 @@ class Certificates(InWords):
 
     def _point(self, balls):
         return (balls["mid"] * self.drive.design.mirror.flip).tolist()
+
+
+def _angles(count):
+    return "1 angle" if count == 1 else f"{count} angles"
 
 
 def certify(drive, angles, solutions, lines, degrees=None):
