@@ -23,7 +23,7 @@ from derive.audit.checker.refusal import Rejected
 from derive.audit.provenance import Proved
 from derive.emit import families
 from derive.files import remove_parts, replace_text
-from derive.language.validate import DescriptionError
+from derive.language.validate import DescriptionError, validate_outlines
 from derive.packaged import packaged
 from meshwright.base.compile import CompileError
 
@@ -120,8 +120,11 @@ def _into(folder, words):
     for word in [*drives.catalogue()] if EVERY in words else words:
         if word.endswith(".py"):
             path = Path(word)
-            for name, build in outside.catalogue_of(path).items():
-                outside.write(partial(outside.built, path, name, build), name, proved, folder, log, path)
+            listed = [outside.built(path, name, build) for name, build in outside.catalogue_of(path).items()]
+            # a family of the tree has drives beside these, and its outline is checked there
+            validate_outlines(d for d in listed if d.family.replace("-", "_") not in drives.FAMILIES)
+            for drive in listed:
+                outside.write(lambda drive=drive: drive, drive.name, proved, folder, log, path)
         else:
             (name,) = _known([word])
             outside.write(drives.catalogue([name])[name], name, proved, folder, log)
@@ -151,7 +154,9 @@ def _everything(every):
         ledger = record.ledger()
     with log("define", "families"):
         known = drives.catalogue()
-        table = families.table(build() for build in known.values())
+        listed = [build() for build in known.values()]
+        validate_outlines(listed)
+        table = families.table(listed)
     files = _of_drives([*known] if every else packaged(table), Proved.by(ledger.objects))
     files["families.json"] = families.text(table)
     with log("emit", "audit record"):

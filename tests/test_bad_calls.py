@@ -1,6 +1,7 @@
 """Python calls that cannot be: wrong shapes, kinds and ranges are refused in words, before any of them reaches C."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from meshwright.sensitivity import sensitivity
 
 NO_ANGLES = {
     "a word": "abc", "complex": [1j], "an object": [object()], "ragged": [[1.0], [1.0, 2.0]], "a table": {},
-    "two axes": [[0.0, 1.0]], "no number": [math.nan], "nothing": None, "too large": [1e300],
+    "two axes": [[0.0, 1.0]], "no number": [math.nan], "nothing": None, "too large": [1e300], "no double": 10**400,
 }  # fmt: skip
 
 
@@ -61,7 +62,73 @@ def test_neighbours_are_counted(drive, neighbours):
         drive.certify_first([0.0], neighbours=neighbours)
 
 
-@pytest.mark.parametrize("shape", [(3,), None, (2.5, 3), (1, 9), "21x41"])
+@pytest.mark.parametrize("pitches", NO_ANGLES.values(), ids=NO_ANGLES)
+def test_pitches_are_finite_numbers(drive, pitches):
+    with pytest.raises(UsageError, match="pitches: must be a one-dimensional array of finite numbers"):
+        drive.about_the_middle(pitches)
+
+
+@pytest.mark.parametrize("angle", [*NO_ANGLES.values(), [0.0]])
+def test_all_contacts_are_those_at_one_angle(drive, angle):
+    with pytest.raises(UsageError, match="angle: must be a finite number"):
+        drive.contacts(angle)
+
+
+@pytest.mark.parametrize("result", [3, "x", [0.0]])
+def test_what_is_proved_is_a_contact_analysis(drive, result):
+    for use in (drive.certify, drive.certify_first, drive.first_contact):
+        with pytest.raises(UsageError, match=r"result: .*give what tca\(angles\) returns"):
+            use([0.0], result)
+    with pytest.raises(UsageError, match=r"result: .*give what tca\(angles\) returns"):
+        drive.refined(result)
+
+
+def test_proofs_and_exact_angles_are_as_many_as_contacts(drive):
+    """Fewer would be read beyond their end."""
+    two = drive.tca([0.0, 0.1])
+    with pytest.raises(UsageError, match="result: "):
+        drive.certify([0.0, 0.1, 0.2], two)
+    for certificates in (3, drive.certify([0.0])):
+        with pytest.raises(UsageError, match=r"certificates: .*give what certify\(angles, result\) returns"):
+            drive.refined(two, certificates)
+        with pytest.raises(UsageError, match="certificates: "):
+            drive.certify_first(two.angles, two, certificates)
+    for degrees in ([Fraction(0)], 3, [0.0, 0.1], "01"):
+        with pytest.raises(UsageError, match="degrees: must be exact; give 2 fractions"):
+            drive.certify(two.angles, two, degrees)
+
+
+@pytest.mark.parametrize("member", ["gear", None, 3])
+def test_teeth_are_those_of_a_member(drive, member):
+    with pytest.raises(UsageError, match="no member .*; use pinion or wheel"):
+        drive.teeth(member)
+
+
+def test_functions_and_requests_are_named(drive):
+    with pytest.raises(UsageError, match="no function 'solid_gear'; it has .*undercut_place_wheel"):
+        drive.function("solid_gear")
+    with pytest.raises(UsageError, match="request = 3: .*give a meshwright.limits.Request"):
+        drive.limits(3)
+
+
+@pytest.mark.parametrize("folder", [3, b"generated", ["generated"]])
+def test_a_folder_of_drives_is_a_path(folder):
+    with pytest.raises(UsageError, match="drives = .*: no path; name a folder"):
+        Drive.load("plain-za", drives=folder)
+
+
+@pytest.mark.parametrize("inset", [-0.1, 0.5, math.nan, None])
+def test_a_grid_keeps_off_less_than_half_of_the_flank(drive, inset):
+    with pytest.raises(UsageError, match="inset = .*share from 0 to below 0.5"):
+        drive.surface("wheel", (3, 3), inset=inset)
+
+
+def test_a_grid_fits_in_memory(drive):
+    with pytest.raises(UsageError, match="1000000x1000000: 1000000000000 points; 4000000 at most"):
+        drive.surface("wheel", (10**6, 10**6))
+
+
+@pytest.mark.parametrize("shape", [(3,), None, (2.5, 3), (1, 9), "21x41", ([1, 2], [3])])
 def test_a_grid_has_two_whole_numbers_of_points(drive, shape):
     with pytest.raises(UsageError, match="needs at least 2 points each way"):
         drive.surface("wheel", shape)

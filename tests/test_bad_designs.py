@@ -13,6 +13,8 @@ from meshwright.design import design
 CASES = [
     ({"design.normal_module_mm": 0.0}, ("normal_module_mm", "0", "greater than 0")),
     ({"design.normal_module_mm": -2.0}, ("normal_module_mm", "-2", "greater than 0")),
+    ({"design.normal_module_mm": 1e-300}, ("normal_module_mm", "1e-300", "not be less than 1e-09", "larger")),
+    ({"design.worm_lead_angle_deg": 1e-300}, ("worm_lead_angle_deg", "1e-300", "not be less than 1e-09", "larger")),
     ({"design.normal_module_mm": float("nan")}, ("normal_module_mm", "nan", "finite")),
     ({"design.normal_module_mm": float("inf")}, ("normal_module_mm", "inf", "finite")),
     ({"design.normal_module_mm": "2"}, ("normal_module_mm", "'2'", "number")),

@@ -385,7 +385,7 @@ def _solids(cutter):
         "rounding": (k.fillet_radius.symbol, "mm"),
         "taper": (taper, ""),
         "thickness": (sp.pi * m_ax / 2, "mm"),
-        "screw_parameter": (p_1, "mm"),
+        "screw_parameter": (p_1, "mm/rad"),
         "span_root": (k.blade_depth.symbol / slant, "mm"),
         "span_middle": (0, "mm"),
         "span_tip": (-sp.Rational(8, 5) * m_ax, "mm"),

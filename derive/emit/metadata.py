@@ -6,9 +6,11 @@ import math
 from dataclasses import asdict
 
 import mpmath
+import sympy as sp
 
 from derive.language.description import prefix, rules, sources
 from derive.language.drive import Count
+from derive.language.replace import replaced
 from derive.language.symbols import interface_unit
 from derive.passes import sample
 from derive.program.tape import Stage
@@ -54,6 +56,7 @@ def describe(plan, provenance):
         "sizes": [_size(*entry) for entry in drive.sizes],
         "systems": [_system(drive, system) for system in drive.systems],
         "rules": _rules(drive),
+        "exact_rules": [_terms(drive, rule) for rule in drive.completion],
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in plan.guards],
         "outputs": _named(plan.observed),
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
@@ -227,6 +230,20 @@ def _rules(drive):
     """Which parameter each default and rule fills, in the order in which they run."""
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
     return [index[rule.target] for rule in drive.completion]
+
+
+def _terms(drive, rule):
+    """A rule that is a sum of keys with rational factors, in the units of the keys: factor by symbol, and of a constant
+    by "1"; None for all others.
+    """
+    factors = {p.symbol: p.factor for p in drive.parameters}
+    if rule.value.has(sp.Pow, sp.Function):
+        return None
+    numbers = replaced(rule.value, {q: factor * q for q, factor in factors.items()}) / factors[rule.target]
+    terms = sp.expand(numbers).as_coefficients_dict()
+    if any(not factor.is_Rational or (of != 1 and of not in factors) for of, factor in terms.items()):
+        return None
+    return {str(of): str(factor) for of, factor in terms.items()}
 
 
 def _system(drive, system):

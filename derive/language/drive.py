@@ -60,7 +60,7 @@ class Margin:
     joins: str = ""
 
     def __post_init__(self) -> None:
-        if self.role is None:
+        if self.role is None and self.event in {role.value for role in Role}:
             object.__setattr__(self, "role", Role(self.event))
 
 

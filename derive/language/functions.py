@@ -76,6 +76,20 @@ class Function:
     rests_on: tuple[str, ...] = ()
 
 
+#: How names of functions begin that say sizes of solid teeth.
+SOLID = "solid_"
+
+#: What :func:`solid` may say of a member: the unit of each size, "flank" or "fillet" for that of the profile parameter
+#: of this surface.
+SOLID_UNITS = {
+    "module": "mm", "root_radius": "mm", "teeth": "", "face_first": "mm", "face_last": "mm",
+    "flank_root": "flank", "tip_first": "flank", "tip_last": "flank", "middle": "flank",
+    "fillet_junction": "fillet", "fillet_land": "fillet",
+    "tip_radius": "mm", "rounding": "mm", "taper": "", "thickness": "mm", "screw_parameter": "mm/rad",
+    "span_root": "flank", "span_middle": "flank", "span_tip": "flank",
+}  # fmt: skip
+
+
 def solid(member: str, sizes: Mapping[str, tuple[Number, str]]) -> Function:
     """The function ``solid_<member>`` that makes a solid of the member; ``sizes`` are values and units by name.
 
@@ -94,7 +108,7 @@ def solid(member: str, sizes: Mapping[str, tuple[Number, str]]) -> Function:
     flanks have designs of their own: ``thickness`` along the axis at the middle, ``screw_parameter``.
     """
     return Function(
-        f"solid_{member}",
+        f"{SOLID}{member}",
         f"sizes of the solid teeth of the {member}",
         (),
         tuple(Result(name, (sp.sympify(value),), unit) for name, (value, unit) in sizes.items()),

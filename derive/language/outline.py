@@ -12,6 +12,7 @@ from derive.language.symbols import Quantity
 
 #: What a person gives: module (mm), numbers of teeth or threads, centre distance (mm; not a number if left out).
 m, z_1, z_2, a = (Quantity(name, unit) for name, unit in (("m", "mm"), ("z_1", ""), ("z_2", ""), ("a", "mm")))
+OPTIONS = m, z_1, z_2, a
 
 
 @dataclass(frozen=True)

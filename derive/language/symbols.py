@@ -76,6 +76,24 @@ _INTERFACE_UNITS: dict[str, tuple[str, sp.Expr]] = {
 }
 
 
+#: Words of units that end no key of another unit: those above, and others that a key might be meant in.
+_OF_UNITS = {
+    "mm", "um", "deg", "per", "rad", "rad2", "m", "cm", "nm", "inch", "grad", "gon", "degree", "degrees", "arcmin",
+    "arcsec", "rpm", "percent",
+}  # fmt: skip
+
+
+def foreign_unit(key: str) -> str:
+    """The word of a unit that ends a key before its suffix, as of a length in cm or a slope per deg, or ""."""
+    word = key.removesuffix(interface_unit(key)[0]).rstrip("_").rpartition("_")[2]
+    return word if word in _OF_UNITS else ""
+
+
+def unit_suffixes() -> tuple[str, ...]:
+    """The suffixes of keys that name a unit."""
+    return tuple(_INTERFACE_UNITS)
+
+
 def interface_unit(key: str) -> tuple[str, str, sp.Expr]:
     """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
     suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")

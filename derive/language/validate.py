@@ -1,21 +1,27 @@
 """What a description must be before anything is derived from it: every name has one meaning, every limit a known one.
 
-:func:`validate` reads the description alone; :func:`validate_normals` looks at a solved contact of the sample design,
-:func:`validate_regions` at the places where fillets and flanks of that design join.
+:func:`validate` reads the description alone; :func:`validate_normals` and :func:`validate_ratio` look at a solved
+contact of the sample design, :func:`validate_regions` at the places where fillets and flanks of that design join,
+:func:`validate_outlines` at what the drives of a family have together.
 """
 
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any, TypeAlias
 
 import mpmath
 import sympy as sp
 
 from derive.language.drive import PATH, Body, Drive, Margin, Role
+from derive.language.functions import SOLID, SOLID_UNITS
+from derive.language.outline import OPTIONS, Outline
+from derive.language.replace import replaced
+from derive.language.sampled import vanishes
 from derive.language.surface import Surface
-from derive.language.symbols import Parameter, Quantity, Table
+from derive.language.symbols import Parameter, Quantity, Table, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
 
 #: The observation of a contact, by name, and its inputs.
@@ -53,7 +59,10 @@ class Joint:
 
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
-    checks = (_keys, _names, _words, _completion, _guards, _sample, _domains, _systems, _turns, _limits, _exact)
+    checks = (
+        _keys, _units, _names, _words, _completion, _guards, _sample, _domains, _systems, _turns, _limits, _solids,
+        _exact,
+    )  # fmt: skip
     for check in checks:
         for message in check(drive):
             raise DescriptionError(f"{drive.name}: {message}")
@@ -86,6 +95,17 @@ def _keys(drive: Drive) -> Iterator[str]:
             yield f"the group of keys given together names {place!r}, which is not declared"
     if drive.pinion_teeth not in known:
         yield f"pinion_teeth names the key {drive.pinion_teeth!r}, which is not declared"
+
+
+def _units(drive: Drive) -> Iterator[str]:
+    """The unit of a key is its suffix, and that of its symbol the inner one that goes with it."""
+    for key in (*(p.key for p in drive.parameters), *(key for key, *_ in drive.sizes)):
+        if word := foreign_unit(key):
+            units = ", ".join(unit_suffixes())
+            yield f"the key {key!r} has {word!r} of a unit that no key has; end it in one of {units}, or in no unit"
+    for p in drive.parameters:
+        if (unit := interface_unit(p.key)[1]) != p.symbol.unit:
+            yield f"the key {p.key!r} is in {unit!r} inside, its symbol {p.symbol} in {p.symbol.unit!r}; change one"
 
 
 def _places(drive: Drive) -> set[str]:
@@ -233,6 +253,34 @@ def _turns(drive: Drive) -> Iterator[str]:
             body.motion.axis(variable)
         except ValueError as error:
             yield f"the motion of the {body.name}: {error}"
+    turned, rest = ({drive.instant: sp.Integer(k), drive.error: sp.S.Zero} for k in (1, 0))
+    angle, ratio = map(drive.definitions.resolve, (drive.wheel_angle, drive.ratio))
+    slope = replaced(angle, turned) - replaced(angle, rest)
+    if slope != ratio and not vanishes(slope - ratio):
+        yield f"the wheel turns by {slope} for one radian of {drive.instant}, the ratio is {ratio}; make both the same"
+
+
+def _solids(drive: Drive) -> Iterator[str]:
+    """Sizes of solid teeth are known ones, in their units."""
+    profiles = {(body.name, "flank"): body.surface.parameters[0] for body in drive.bodies}
+    profiles |= {(region.member, region.name): region.surface.parameters[0] for region in drive.regions}
+    for function in drive.functions:
+        if not function.name.startswith(SOLID):
+            continue
+        member = function.name.removeprefix(SOLID)
+        if member not in (names := [body.name for body in drive.bodies]):
+            yield f"{function.name} is of no member; use {' or '.join(SOLID + name for name in names)}"
+        for r in function.results:
+            where = f"the size {r.name!r} of {function.name}"
+            if (unit := SOLID_UNITS.get(r.name)) is None:
+                yield f"{where} is none that a solid has; use one of {', '.join(SOLID_UNITS)}"
+            elif unit in ("flank", "fillet"):
+                if (profile := profiles.get((member, unit))) is None:
+                    yield f"{where} is of a {unit}, which the {member} does not have; leave it out, or add the region"
+                elif r.unit != profile.unit:
+                    yield f"{where} is in {r.unit!r}; give it in {profile.unit!r}, as the {unit}'s parameter {profile}"
+            elif r.unit != unit:
+                yield f"{where} is in {r.unit!r}; give it in {unit!r}"
 
 
 def _exact(drive: Drive) -> Iterator[str]:
@@ -324,6 +372,66 @@ def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
             f"{drive.name}: both normals point inward: the bodies overlap along them (relative curvatures "
             f"{float(low):.3g} and {float(high):.3g} per mm); turn round the surfaces from which the chains begin"
         )
+
+
+#: Share by which a pair may transmit another ratio at one contact than over a turn: an error of motion is far smaller.
+OFF_RATIO = 0.05
+
+
+def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
+    """Raise :class:`DescriptionError` unless flanks transmit the ratio of the description at the sample's contact.
+
+    Arguments as of :func:`validate_normals`.
+    """
+    pinion, wheel = (observed[f"lever_arm_{body.name}"][0] for body in drive.bodies)
+    ratio, found = float(_number(drive.definitions.resolve(drive.ratio), values)), float(pinion / wheel)
+    if not abs(found - ratio) <= OFF_RATIO * abs(ratio):
+        raise DescriptionError(
+            f"{drive.name}: the ratio is {ratio:.6g}, but the flanks transmit {found:.6g} at the sample's "
+            "contact; give turns of the wheel per turn of the pinion: pinion teeth over wheel teeth"
+        )
+
+
+def validate_outlines(drives: Iterable[Drive]) -> None:
+    """Raise :class:`DescriptionError` for what the outlines of families, of which these are all drives, name but none
+    has.
+    """
+    families: dict[str, list[Drive]] = {}
+    for drive in drives:
+        families.setdefault(drive.family, []).append(drive)
+    for family, members in families.items():
+        outline = next((drive.outline for drive in members if drive.outline), None)
+        for message in _outline(outline(), members) if outline else ():
+            raise DescriptionError(f"outline of the family {family}: {message}")
+
+
+def _outline(outline: Outline, drives: Sequence[Drive]) -> Iterator[str]:
+    words: dict[str, set[str]] = {}
+    for key, word in ((key, word) for drive in drives for key, word in drive.variant.items()):
+        words.setdefault(key, set()).update({word} if isinstance(word, str) else ())
+    places = {f"{p.table}.{p.key}" for drive in drives for p in drive.parameters} | {f"design.{key}" for key in words}
+    known = {q.name for q in OPTIONS}
+    if unknown := outline.options.keys() - {"m", "z", "a"}:
+        yield f"the options {', '.join(sorted(unknown))} are none of m, z and a; leave them out"
+    for key, word in outline.words.items():
+        if word not in words.get(key, ()) and word:
+            yield f"{key} = {word!r} chooses no drive; {_offer(words.get(key) or words)}"
+    for s in outline.suggestions:
+        what = f"the suggestion for {s.place or s.name}"
+        if s.place and s.place not in places and s.place != "design.hand":
+            yield f"{what}: no drive has this key; {_offer(get_close_matches(s.place, places, n=1))}"
+        for key, meant in s.words.items():
+            if unknown := {*meant} - words.get(key, set()):
+                chosen = f"{key} = {', '.join(sorted(unknown))}"
+                yield f"{what}: {chosen} chooses no drive; {_offer(words.get(key) or words)}"
+        for value in (*s.values, *(s.within or ())):
+            if unknown := {str(q) for q in sp.sympify(value).free_symbols} - known:
+                yield f"{what} uses {', '.join(sorted(unknown))}, which no option and none before it gives"
+        known.add(s.symbol.name)
+
+
+def _offer(names: Iterable[str]) -> str:
+    return f"use {' or '.join(listed)}" if (listed := sorted(names)) else "leave it out"
 
 
 def validate_regions(drive: Drive, joints: Iterable[Joint]) -> None:

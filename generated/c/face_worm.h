@@ -7936,7 +7936,7 @@ static inline void face_worm_solid_wheel(const double *s, const double *q, doubl
  *     3 rounding, mm
  *     4 taper
  *     5 thickness, mm
- *     6 screw_parameter, mm
+ *     6 screw_parameter, mm/rad
  *     7 span_root, mm
  *     8 span_middle, mm
  *     9 span_tip, mm

@@ -63,8 +63,10 @@ int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
     const mw_certified *t = mwc_tables_of(m);
     double open[MW_MAX_PARAMETERS];
     if (!mw_encloses(m) || m->np + 1 > MWC_ARGUMENTS || m->np > MW_MAX_PARAMETERS) return 1 + m->nsystems;
-    for (int i = 0; i < m->np; i++)
-        if (p[i].hi == p[i].hi) p[i] = mwc_wide_mul(mwc_bounded(p[i]), t->factors[i]);
+    for (int i = 0; i < m->np; i++) {
+        const int zero = p[i].hi == 0.0 && p[i].radius == 0.0; /* in any unit */
+        if (p[i].hi == p[i].hi && !zero) p[i] = mwc_wide_mul(mwc_bounded(p[i]), t->factors[i]);
+    }
     apply_rules(t, p);
     for (int k = 0; k < m->nsystems; k++) {
         for (int i = 0; i < m->np; i++) open[i] = p[i].hi;

@@ -23,10 +23,10 @@ static int look(const mw_model *m, const double *s, const double *x, int status,
 void mw_contacts(const mw_model *m, double *s, const double *phi, size_t n, const double *x, mw_info *info, double *o,
                  mw_contact *contact)
 {
-    for (size_t k = 0; k < n && !mwi_usable(m); k++) info[k].status = MW_BAD_INPUT;
-    if (!mwi_usable(m)) return;
-    for (size_t k = 0; k < n; k++, x += m->nx, o += m->no) {
-        if (!mwi_angle_in_range(phi[k])) info[k].status = MW_BAD_INPUT;
+    const int usable = mwi_usable(m);
+    for (size_t k = 0; k < n; k++)
+        if (!usable || !mwi_angle_in_range(phi[k])) info[k].status = MW_BAD_INPUT;
+    for (size_t k = 0; usable && k < n; k++, x += m->nx, o += m->no) {
         if (info[k].status >= 0) {
             m->set_phi(s, phi[k]);
             info[k].status = look(m, s, x, info[k].status, o, contact + k);

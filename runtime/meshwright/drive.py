@@ -55,7 +55,7 @@ class Drive:
     def from_tables(cls, tables, backend="c", drives=None):
         """The drive of a design given as nested dictionaries, as in a TOML file; ``drives`` as in :meth:`load`."""
         places = folders() if drives is None else folders(drives)
-        if backend not in BACKENDS:
+        if backend not in [*BACKENDS]:
             raise UsageError(f"backend = {backend!r}: no such backend; use one of {', '.join(BACKENDS)}")
         return cls(designs.check(tables, places), backend)
 
@@ -90,6 +90,8 @@ class Drive:
 
     def teeth(self, member):
         """Number of teeth or threads of ``"pinion"`` or ``"wheel"``."""
+        if member not in (members := [body["name"] for body in self.design.description["bodies"]]):
+            raise UsageError(f"this drive has no member {member!r}; use {' or '.join(members)}")
         pinion = self.design.value(self.design.description["pinion_teeth"])
         return round(pinion if member == "pinion" else pinion / self.ratio)
 
@@ -98,8 +100,10 @@ class Drive:
         return 2 * math.pi / self.design.value(self.design.description["pinion_teeth"])
 
     def about_the_middle(self, pitches):
-        """Pinion angles, rad, so many pitches from the one to which relative errors refer."""
-        return self.design.mirror.sign * self.design.reference_angle + np.asarray(pitches) * self.pitch()
+        """Pinion angles (N,), rad, so many ``pitches`` (N,) from the one to which relative errors refer."""
+        pitch = self.pitch()
+        middle = self.design.mirror.sign * self.design.reference_angle
+        return middle + analysis.checked_pitches(pitches, pitch) * pitch
 
     @cached_property
     def path_start(self):
@@ -173,7 +177,7 @@ class Drive:
         from meshwright.contact.certificate import certify
 
         angles = analysis.checked_angles(angles)
-        result = self.tca(angles) if result is None else result
+        result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
         lines = [word == "line_contact" for word in result.status]
         return certify(self, angles, result.solutions, lines, degrees)
 
@@ -181,21 +185,21 @@ class Drive:
         """A TCA with transmission errors to the last digit, from the proofs of its contacts where these are shown; see
         :func:`~meshwright.contact.certificate.refined`. ``certificates``: its proofs, if there are any.
         """
-        from meshwright.contact.certificate import refined
+        from meshwright.contact.certificate import checked_certificates, refined
 
-        return refined(self, result, self.certify(result.angles, result) if certificates is None else certificates)
+        return refined(self, analysis.checked_result(self, result), checked_certificates(self, result, certificates))
 
     def certify_first(self, angles, result=None, certificates=None, **how):
         """Proofs that nothing touches before the contacts at pinion angles (rad), or where something does:
         :class:`~meshwright.cycle.certified_first.FirstCertificates`. ``result``, ``certificates``: a TCA and the proofs
         of these contacts, if there are any. ``neighbours``: on either side, 1 unless given.
         """
+        from meshwright.contact.certificate import checked_certificates
         from meshwright.cycle.certified_first import certify_first
 
         angles = analysis.checked_angles(angles)
-        result = self.tca(angles) if result is None else result
-        certificates = self.certify(angles, result) if certificates is None else certificates
-        return certify_first(self, result, certificates, **how)
+        result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
+        return certify_first(self, result, checked_certificates(self, result, certificates), **how)
 
     def certify_first_path(self, begin, end, **how):
         """The same at every angle from one to another (rad, of the right-hand drive) at once:
@@ -219,13 +223,14 @@ class Drive:
         """
         from meshwright.cycle.first_contact import first_contacts
 
+        result = None if result is None else analysis.checked_result(self, result)
         return first_contacts(self, analysis.checked_angles(angles), result)
 
     def contacts(self, angle):
         """Every contact of one tooth pair at a pinion angle (rad), one row of the result each."""
         from meshwright.limits import contacts_of
 
-        return contacts_of(self, angle)
+        return contacts_of(self, analysis.checked_angle(angle))
 
     def limits(self, request=None):
         """Undercut, edges of regression, limit points, axes: see :class:`~meshwright.limits.results.Limits`."""

@@ -131,6 +131,26 @@ def test_every_packaged_design_is_enclosed_and_its_contact_certain_or_a_line(nam
         assert np.isnan(complete) or abs(float(given["hi"]) - complete) <= 1e-9 * (1.0 + abs(complete))
 
 
+@pytest.mark.parametrize("given", [("pinion", "wheel"), ("pinion",), ("pinion", "shaft")])
+def test_parallel_axes_are_exactly_parallel_whatever_says_so(given):
+    """The shaft angle is the sum of the helix angles: 0 exactly, not between bounds about 0."""
+    angles = {"pinion_helix_angle_deg": 22.3, "wheel_helix_angle_deg": -22.3, "shaft_angle_deg": 0.0}
+    drive = Drive.load("helical-crowned").with_(
+        design={key: number if key.startswith(given) else None for key, number in angles.items()}
+    )
+    assert drive.enclosed.failed is None
+    index = [p["name"] for p in drive.design.description["parameters"]].index("Sigma")
+    assert drive.enclosed.parameters[index].tolist() == (0.0, 0.0, 0.0)
+    assert drive.certify(drive.about_the_middle([0.0, 0.1])).outcomes == ("unique", "unique")
+
+
+def test_why_nothing_is_certain_is_said_in_a_sentence():
+    said = Drive.load("spherical-table-2-1").certify([0.0, 0.1]).said()
+    assert said == (
+        "not certified: the flanks touch along a line, or nearly: no single point is singled out (at 2 angles)"
+    )
+
+
 def test_contact_along_a_line_is_never_called_a_single_point():
     drive = Drive.load("recess-action-full")
     radius = drive.design.as_solved()["design"]["worm_pitch_radius_mm"]

@@ -10,13 +10,22 @@ from derive import drives
 from derive.language import vectors as v
 from derive.language.contact import contact
 from derive.language.drive import Loading, Margin, Role
-from derive.language.symbols import Guard, Quantity, Rule, Table, parameter
-from derive.language.validate import DescriptionError, validate, validate_normals, validate_regions
+from derive.language.functions import solid
+from derive.language.outline import Suggestion, m
+from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, parameter
+from derive.language.validate import (
+    DescriptionError,
+    validate,
+    validate_normals,
+    validate_outlines,
+    validate_ratio,
+    validate_regions,
+)
 from derive.passes.joints import joints
 from derive.passes.sample import observation
 from derive.passes.schedule import schedule
 
-POINT = "spherical_convex_concave"
+POINT, SMALL = "spherical_convex_concave", "spherical_convex_spur"
 
 
 def _drive(name=POINT):
@@ -40,6 +49,15 @@ def _with_margin(drive, margin):
                                   "cylindrical_worm_zk_zn", "cylindrical_worm_zc_za"])  # fmt: skip
 def test_every_drive_is_consistent(name):
     validate(_drive(name))
+
+
+def _with_solid(drive, member, **sizes):
+    return replace(drive, functions=(solid(member, sizes),))
+
+
+def _without_regions(drive):
+    pinion, wheel = (replace(body, margins=()) for body in drive.bodies)
+    return replace(drive, pinion=pinion, wheel=wheel, regions=())
 
 
 X = Quantity("x_at_pinion", "mm")
@@ -102,6 +120,42 @@ CASES = {
         lambda d: replace(d, sizes=(*d.sizes, ("module_mm", sp.S.One, "one"))), "size 'module_mm' is also"
     ),
     "hand that is none": (lambda d: replace(d, handed="upright"), "handed = 'upright': use 'right', 'left'"),
+    "key in a unit that is none": (
+        lambda d: _with_key(d, parameter("crown_cm", "c", "crown")), "crown_cm.*'cm' of a unit.*end it in one of mm, um"
+    ),
+    "key of a compound unit that is none": (
+        lambda d: _with_key(d, parameter("lead_mm_per_deg", "c", "lead")), "lead_mm_per_deg.*'per' of.*mm_per_rad"
+    ),
+    "size in a unit that is none": (
+        lambda d: replace(d, sizes=(*d.sizes, ("lead_inch", sp.S.One, "lead"))), "lead_inch.*'inch' of a unit"
+    ),
+    "symbol in another unit than its key": (
+        lambda d: _with_key(d, Parameter(Quantity("c", "rad"), "crown_mm")), "'crown_mm' is in 'mm'.*c in 'rad'"
+    ),
+    "event that is none": (
+        lambda d: _with_margin(d, Margin("off_tip", "tipp", X)), "'tipp' of the pinion.*no known event; use one of tip"
+    ),
+    "event without a role of its own": (
+        lambda d: _with_margin(d, Margin("off_tip", "fold", X)), "'fold' of the pinion.*role None; use one of TIP"
+    ),
+    "ratio that the wheel does not follow": (
+        lambda d: replace(d, ratio=1 / d.ratio), r"the wheel turns by .* the ratio is .*; make both"
+    ),
+    "solid of no member": (
+        lambda d: _with_solid(d, "gear", module=(1, "mm")), "solid_gear is of no member; use solid_pinion or solid_"
+    ),
+    "size that no solid has": (
+        lambda d: _with_solid(d, "wheel", tip_frist=(1, "mm")), "'tip_frist' of solid_wheel is none.*use one of module"
+    ),
+    "size of a solid in another unit": (
+        lambda d: _with_solid(d, "wheel", module=(1, "rad")), "'module' of solid_wheel is in 'rad'; give it in 'mm'"
+    ),
+    "end of a flank in another unit than the flank": (
+        lambda d: _with_solid(d, "wheel", tip_last=(1, "rad")), "'tip_last' of solid_wheel is in 'rad'; give it in 'mm'"
+    ),
+    "end of a fillet that is not there": (
+        lambda d: _with_solid(_without_regions(d), "wheel", fillet_land=(1, "rad")), "of a fillet, which the wheel does"
+    ),
     "torque on nobody": (lambda d: replace(d, loading=Loading(3, "gear")), "torque_on = 'gear'.*pinion, wheel"),
     "load on no pair": (lambda d: replace(d, loading=Loading(0, "wheel")), "pairs = 0"),
     "inexact number": (
@@ -123,8 +177,52 @@ def test_a_contradiction_is_refused(drive, case):
 
 def test_an_event_has_its_role_without_saying_so():
     assert Margin("off_tip", "tip", X).role is Role.TIP
-    with pytest.raises(ValueError, match="crest"):
-        Margin("off_tip", "crest", X)
+    assert Margin("off_tip", "crest", X).role is None
+
+
+OUTLINES = {
+    "key": (Suggestion("design.modul_mm", (m,)), "design.modul_mm: no drive has this key; use design.module_mm"),
+    "word": (Suggestion("design.module_mm", (m,), words={"pinion_form": ("round",)}), "pinion_form = round.*use con"),
+    "key of a word": (Suggestion("design.module_mm", (m,), words={"form": ("convex",)}), "form = convex.*pinion_form"),
+    "name": (Suggestion("design.module_mm", (2 * sp.Symbol("n"),)), "uses n, which no option and none before it gives"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", OUTLINES)
+def test_an_outline_that_names_what_no_drive_of_the_family_has_is_refused(drive, case):
+    added, message = OUTLINES[case]
+    outline = drive.outline()
+    changed = replace(drive, outline=lambda: replace(outline, suggestions=(*outline.suggestions, added)))
+    others = [build() for name, build in drives.catalogue([POINT]).items() if name != POINT]
+    with pytest.raises(DescriptionError, match=f"outline of the family spherical: .*{message}"):
+        validate_outlines([changed, *others])
+
+
+def test_an_outline_has_the_options_and_words_that_there_are(drive):
+    outline = drive.outline()
+    for change, message in (
+        ({"options": {"n": "teeth"}}, "options n are none of m, z and a"),
+        ({"words": {"pinion_from": "convex"}}, "pinion_from = 'convex' chooses no drive; use pinion_form or wheel"),
+    ):
+        with pytest.raises(DescriptionError, match=message):
+            validate_outlines([replace(drive, outline=lambda change=change: replace(outline, **change))])
+
+
+@pytest.mark.parametrize("family", ["spherical", "face_worm", "cylindrical_gears"])
+def test_an_outline_names_keys_of_its_family(family):
+    validate_outlines([build() for build in drives.catalogue([family]).values()])
+
+
+@pytest.mark.parametrize("name", [POINT, "cylindrical_gears", "cylindrical_worm_zn_zn"])
+def test_a_ratio_that_is_not_what_the_flanks_transmit_is_refused(name):
+    drive = _drive(name)
+    plan = schedule(drive)
+    with mpmath.workdps(30):
+        observed = observation(plan)
+        validate_ratio(drive, observed, plan.sample)
+        for wrong in (1 / drive.ratio, -drive.ratio):
+            with pytest.raises(DescriptionError, match=r"the ratio is .*transmit .*pinion teeth over wheel teeth"):
+                validate_ratio(replace(drive, ratio=wrong), observed, plan.sample)
 
 
 def _turned_round(body):
@@ -157,7 +255,7 @@ def _meshing(drive, **bodies):
     return replace(changed, residual=contact(*(body.placed for body in order)))
 
 
-SMALL = "spherical_convex_spur"
+
 
 
 def _joined(drive):

@@ -150,6 +150,7 @@ def catalogue():
      ("def catalogue():\n    return ['a']\n", "catalogue() returns ['a']; return a dict"),
      ("def catalogue():\n    return {}\n", "catalogue() returns {}; return a dict"),
      (CONTRADICTION, "handed = 'upright'"),
+     (CONTRADICTION.replace('handed="upright"', 'family="own"'), "outline of the family own: pinion_form = 'convex'"),
      (CONTRADICTION.replace('"a_drive"', '"face_worm"'), "name 'face_worm' is that of a drive of another family")],
 )  # fmt: skip
 def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text, reason):

@@ -20,6 +20,9 @@ ENVIRONMENT, CACHE, GROUP = "MESHWRIGHT_DRIVES", "MESHWRIGHT_CACHE", "meshwright
 
 def folders(*first):
     """The folders of drives, in the order in which they are searched: the ``first`` before all others."""
+    for folder in first:
+        if not isinstance(folder, str | os.PathLike):
+            raise UsageError(f"drives = {folder!r}: no path; name a folder of drives")
     places = tuple(Path(folder).absolute() for folder in first)
     for folder, place in zip(first, places, strict=True):
         if not place.is_dir():

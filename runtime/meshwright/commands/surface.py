@@ -19,14 +19,12 @@ from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.drive import Drive
 from meshwright.flank import exports
+from meshwright.flank.grids import MOST_POINTS
 from meshwright.flank.step import step
 from meshwright.limits.sections import section
 
 #: A STEP file that departs further from the exact surface, mm, is not what was asked for.
 MOST_DEVIATION = 1e-3
-
-#: Larger grids are taken for a mistake.
-MOST_POINTS = 4_000_000
 
 
 def add_arguments(parser):

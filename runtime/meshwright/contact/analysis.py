@@ -19,15 +19,37 @@ def largest_angle():
 
 def checked_angles(angles):
     """Angles (rad) as an array (N,); raises :class:`~meshwright.base.errors.UsageError` for what cannot be traced."""
+    return _numbers("angles: must be a one-dimensional array of finite numbers", angles, largest_angle(), " rad")
+
+
+def checked_angle(angle):
+    """One angle (rad), checked likewise."""
+    return float(_numbers("angle: must be a finite number", [angle], largest_angle(), " rad")[0])
+
+
+def checked_pitches(pitches, pitch):
+    """Multiples of a pitch (rad) as an array (N,), checked likewise."""
+    most = largest_angle() / pitch
+    return _numbers("pitches: must be a one-dimensional array of finite numbers", pitches, most)
+
+
+def _numbers(must_be, values, most, unit=""):
     try:
-        angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
-    except (TypeError, ValueError):
-        angles = np.array([np.nan])
-    if angles.ndim != 1 or not np.all(np.abs(angles) <= largest_angle()):
-        raise UsageError(
-            f"angles: must be a one-dimensional array of finite numbers; give none beyond {largest_angle():g} rad"
-        )
-    return angles
+        values = np.atleast_1d(np.ascontiguousarray(values, dtype=float))
+    except (TypeError, ValueError, OverflowError):
+        values = np.array([np.nan])
+    if values.ndim != 1 or not np.all(np.abs(values) <= most):
+        raise UsageError(f"{must_be}; give none beyond {most:g}{unit}")
+    return values
+
+
+def checked_result(drive, result, angles=None):
+    """A TCA of the drive, of as many points as ``angles`` if these are given; raises UsageError for anything else."""
+    if not isinstance(result, TCA) or result.solutions.shape != (
+        len(result.angles if angles is None else angles), drive.model.nx
+    ):  # fmt: skip
+        raise UsageError("result: no contact analysis of this drive at these angles; give what tca(angles) returns")
+    return result
 
 
 def trace(drive, angles):

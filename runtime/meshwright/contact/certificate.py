@@ -4,10 +4,13 @@ how far the transmission error and the contact point can be off.
 What is proved is of the equations, for the decimals of the design: see :class:`Certificates`.
 """
 
+import operator
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from numbers import Rational
 from typing import ClassVar
 
 import numpy as np
@@ -41,7 +44,8 @@ class EnclosedDesign:
     @classmethod
     def of(cls, design, m):
         """The design, completed by rules and design systems and set up, all in double-double with error bounds."""
-        p = exact.wides([*_given(design)])
+        numbers = _completed(design.description, _given(design)).values()
+        p = exact.wides([None if number is None else (number, number) for number in numbers])
         parameters, slots = pointer(p, "mw_wide[]"), library().mw_enclosed_slots(m)
         failed = library().mw_enclose_design(m, parameters, pointer(np.empty(m.np + 1)))
         state = np.full(slots, np.nan, dtype=record("mw_wide"))
@@ -52,14 +56,29 @@ class EnclosedDesign:
 
 
 def _given(design):
-    """Bounds of every parameter that the design gives, in the unit of its key; None where it is open."""
+    """Exact numbers that the design gives, by symbol, in the unit of the key; None where it leaves one open."""
     for p in design.description["parameters"]:
         word = design.tables["flank"] if p["table"] == "flank" else design.tables[p["table"]].get(p["key"])
         if word is None:
-            yield None
+            yield p["name"], None
         else:
-            number = Fraction(p["choices"][word]) if p["choices"] else exact.decimal(word)
-            yield number, number
+            yield p["name"], Fraction(p["choices"][word]) if p["choices"] else exact.decimal(word)
+
+
+def _completed(description, given):
+    """The same with what defaults and rules make of them that are sums: the sum of an angle and its opposite is 0, of
+    their enclosures only near it. What another rule may fill is left to it, and to enclosures all that follows.
+    """
+    numbers, enclosed = dict(given), set()
+    names = [description["parameters"][index]["name"] for index in description["rules"]]
+    for name, terms in zip(names, description["exact_rules"], strict=True):
+        if numbers[name] is not None or name in enclosed:
+            continue
+        if terms is None or enclosed & terms.keys():
+            enclosed.add(name)
+        elif None not in (values := [numbers.get(of, Fraction(1)) for of in terms]):
+            numbers[name] = sum(map(operator.mul, map(Fraction, terms.values()), values))
+    return numbers
 
 
 class InWords:
@@ -134,8 +153,8 @@ class Certificates(InWords):
         """In a sentence, how many contacts are certain, and why others are not."""
         outcomes, errors = self.outcomes, self.error_arcsec()
         shown, total = outcomes.count("unique"), len(outcomes)
-        others = Counter(reason.replace("_", " ") for reason in self.reasons if reason)
-        why = ", ".join(f"{count} {reason}" for reason, count in others.items())
+        others = Counter(message for reason, message in zip(self.reasons, self.messages, strict=True) if reason)
+        why = "; ".join(f"{message} (at {_angles(count)})" for message, count in others.items())
         if not shown:
             return f"not certified: {why}"
         width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
@@ -170,6 +189,10 @@ class Certificates(InWords):
         return (balls["mid"] * self.drive.design.mirror.flip).tolist()
 
 
+def _angles(count):
+    return "1 angle" if count == 1 else f"{count} angles"
+
+
 def certify(drive, angles, solutions, lines, degrees=None):
     """:class:`Certificates` of contacts found in floating point.
 
@@ -178,6 +201,10 @@ def certify(drive, angles, solutions, lines, degrees=None):
     they were given so.
     """
     sign = int(drive.design.mirror.sign)
+    if degrees is not None and not (
+        isinstance(degrees, Sequence) and len(degrees) == len(angles) and all(isinstance(d, Rational) for d in degrees)
+    ):
+        raise UsageError(f"degrees: must be exact; give {len(angles)} fractions, one an angle")
     if degrees is None:
         phi = exact.doubles(sign * np.asarray(angles))
     else:
@@ -202,6 +229,15 @@ def refined(drive, result, certificates):
         reference = _reference(drive, result.reference_error)
     wheel_angles = result.wheel_angles + (error - result.error)
     return replace(result, error=error, wheel_angles=wheel_angles, reference_error=float(reference))
+
+
+def checked_certificates(drive, result, certificates):
+    """The :class:`Certificates` of a TCA: ``certificates``, if they can be these, or made anew if they are None."""
+    if certificates is None:
+        return drive.certify(result.angles, result)
+    if not isinstance(certificates, Certificates) or len(certificates.records) != len(result.angles):
+        raise UsageError("certificates: no proofs of these contacts; give what certify(angles, result) returns")
+    return certificates
 
 
 def _reference(drive, error):

@@ -20,12 +20,13 @@ class Function:
 
     @classmethod
     def of(cls, drive, name):
-        """The function ``name`` of the drive; raises ``KeyError`` if it has none of that name."""
+        """The function ``name``; raises :class:`~meshwright.base.errors.UsageError` if the drive has none such."""
         description = drive.design.description
         for k, function in enumerate(description["functions"]):
             if function["name"] == name:
                 return cls(drive, function, drive.design.model.functions[k])
-        raise KeyError(f"the drive {description['name']} has no function {name!r}")
+        names = ", ".join(function["name"] for function in description["functions"])
+        raise UsageError(f"the drive {description['name']} has no function {name!r}; it has {names or 'none'}")
 
     @property
     def arguments(self):

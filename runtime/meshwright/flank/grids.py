@@ -5,13 +5,19 @@ says, from one end of the region to the other; across it each line runs from bor
 region hold no points.
 """
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.flank.lines import ROUNDING, lines
 from meshwright.flank.mesh import Triangulation, mesh
+
+#: Larger grids are taken for a mistake.
+MOST_POINTS = 4_000_000
 
 
 @dataclass(frozen=True)
@@ -40,9 +46,14 @@ def grid(drive, member, shape, name, inset=0.0):
 
     Raises :class:`~meshwright.base.errors.UsageError` if nothing of the surface lies within the limits.
     """
-    if np.shape(shape) != (2,) or not all(isinstance(n, int | np.integer) and n >= 2 for n in shape):
-        asked = "x".join(map(str, shape)) if np.shape(shape) == (2,) else shape
+    counts = tuple(shape) if isinstance(shape, Iterable) else ()
+    asked = "x".join(map(str, counts)) if len(counts) == 2 else shape
+    if len(counts) != 2 or not all(isinstance(n, int | np.integer) and n >= 2 for n in counts):
         raise UsageError(f"--grid {asked}: needs at least 2 points each way; for example --grid 21x41")
+    if (points := math.prod(map(int, counts))) > MOST_POINTS:
+        raise UsageError(f"--grid {asked}: {points} points; {MOST_POINTS} at most")
+    if not (isinstance(inset, Real) and 0.0 <= inset < 0.5):
+        raise UsageError(f"inset = {inset!r}: must be a share from 0 to below 0.5; 0.05 is usual")
     whole = drive.region(member, name)
     triangles = mesh(whole, tuple(n - 1 for n in shape))
     if not len(triangles.triangles):

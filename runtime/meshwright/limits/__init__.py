@@ -6,7 +6,7 @@ drive that offers them.
 
 from dataclasses import replace
 
-from meshwright.base.errors import DesignError
+from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact import functions
 from meshwright.limits import clearance, contacts, rack
 from meshwright.limits.branches import branch_points
@@ -30,7 +30,9 @@ def limits_of(drive, request=None, step=lambda text: None):
     which, ``blank_left_open`` why none do. Raises :class:`~meshwright.base.errors.UsageError` for sections or radii of
     a drive that has none.
     """
-    request = request or Request()
+    request = Request() if request is None else request
+    if not isinstance(request, Request):
+        raise UsageError(f"request = {request!r}: says nothing of limits; give a meshwright.limits.Request")
     drive, assumed, left_open = _bounded(drive)
     step("limits of contact")
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
