@@ -13,8 +13,8 @@ from meshwright.design import design
 CASES = [
     ({"design.normal_module_mm": 0.0}, ("normal_module_mm", "0", "greater than 0")),
     ({"design.normal_module_mm": -2.0}, ("normal_module_mm", "-2", "greater than 0")),
-    ({"design.normal_module_mm": 1e-300}, ("normal_module_mm", "1e-300", "not be less than 1e-09", "larger")),
-    ({"design.worm_lead_angle_deg": 1e-300}, ("worm_lead_angle_deg", "1e-300", "not be less than 1e-09", "larger")),
+    ({"design.normal_module_mm": 1e-300}, ("design.normal_module_mm = 1e-300", "too small", "larger")),
+    ({"design.worm_lead_angle_deg": 1e-300}, ("design.worm_lead_angle_deg = 1e-300", "too small", "larger")),
     ({"design.normal_module_mm": float("nan")}, ("normal_module_mm", "nan", "finite")),
     ({"design.normal_module_mm": float("inf")}, ("normal_module_mm", "inf", "finite")),
     ({"design.normal_module_mm": "2"}, ("normal_module_mm", "'2'", "number")),
@@ -58,6 +58,14 @@ def test_a_bad_design_is_refused_with_key_value_reason_and_remedy(changes, words
         Drive.from_tables(tables)
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["plain-za", "crossed-helical-17-23", "face-worm-conical-concave"])
+def test_a_size_too_small_to_compute_with_is_named_not_what_follows_from_it(name):
+    drive = Drive.load(name)
+    key = next(k for k in ("normal_module_mm", "axial_module_mm") if drive.design.tables["design"].get(k))
+    with pytest.raises(DesignError, match=f"design.{key} = 1e-300: too small to compute with.*larger"):
+        drive.with_(design={key: 1e-300})
 
 
 def test_missing_keys_are_named():

@@ -477,8 +477,19 @@ def _by_place(description, parameters):
     return {f"{p['table']}.{p['key']}": _shown(p, float(number)) for p, number in numbers}
 
 
+#: Magnitude below which products and quotients of a number leave the range of doubles.
+SMALLEST = 1e-100
+
+
 def _guard_error(guard, checked, completed=None):
-    """The error of a guard: with the values that the design gives its keys; if none, with those that follow."""
+    """The error of a guard: with the values that the design gives its keys; if none, with those that follow. A number
+    too small to compute with is named first: every size that follows from it may be what a guard finds.
+    """
+    for table, entries in checked.items():
+        for key, value in entries.items() if isinstance(entries, dict) else ():
+            if isinstance(value, float) and 0.0 < abs(value) < SMALLEST:
+                reason = f"too small to compute with: {guard['message']}"
+                return DesignError(f"{table}.{key}", value, reason, "choose a larger value")
     given = {_full(key, checked): _given(checked, _full(key, checked)) for key in guard["keys"]}
     shown = {key: value for key, value in given.items() if value is not None}
     if not shown and completed:

@@ -19,9 +19,6 @@ HANDS = ("right", "left")
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
 LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
-#: The same of numbers above zero: below it, what is divided by them is beyond all sizes, or no number.
-SMALLEST = 1e-9
-
 #: Longest name of a design, and what it must not hold.
 LONGEST_NAME = 200
 CONTROLS = r"\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069"
@@ -156,14 +153,12 @@ def _parameter(parameter: dict) -> Key:
 def bounds(parameter: dict) -> dict[str, float]:
     """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``.
 
-    Where the description leaves an end open, it is that of :data:`LARGEST`, and above zero that of :data:`SMALLEST`.
+    Where the description leaves an end open, it is that of :data:`LARGEST`.
     """
     largest = LARGEST.get(parameter["key_unit"], 1e6)
     found = {"le": largest} | ({"ge": -largest} if parameter["lower"] is None else {})
     if parameter["lower"] is not None:
         found["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]
-        if found.get("gt") == 0.0 and not parameter["integer"]:
-            found["ge"] = SMALLEST
     if parameter["upper"] is not None:
         found["lt"] = parameter["upper"] / parameter["factor"]
         del found["le"]
