@@ -59,6 +59,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     memset(found, 0, sizeof *found);
     memset(&best, 0, sizeof best);
     memset(&known, 0, sizeof known);
+    known.pinion.p[0] = NAN;
     memset(&h, 0, sizeof h);
     h.sense = sense;
     best.floor = best.highest = -HUGE_VAL;
