@@ -59,6 +59,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     memset(found, 0, sizeof *found);
     memset(&best, 0, sizeof best);
     memset(&known, 0, sizeof known);
+    known.pinion.p[0] = NAN;
     memset(&h, 0, sizeof h);
     h.sense = sense;
     best.floor = best.highest = -HUGE_VAL;
@@ -75,7 +76,8 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     if (found->status < 0) return found->status;
     pinion += 12 * (steps - 1);
     place *at = (place *)(void *)work;
-    unsigned char *marks = (unsigned char *)(void *)(at + mesh->vertices);
+    middle *middles = (middle *)(void *)(at + mesh->vertices);
+    unsigned char *marks = (unsigned char *)(void *)(middles + MIDDLES);
     flood(&h, &known, at, marks);
     for (size_t v = 0; v < mesh->vertices; v++)
         if (at[v].good && at[v].inner >= 0.0) {
@@ -101,10 +103,11 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
         below[top] = 1;
         refine(&h, &at[top], &best);
     }
+    no_middles(middles);
     for (size_t t = 0; t < mesh->triangles; t++) {
         place T[3];
         for (int a = 0; a < 3; a++) T[a] = at[mesh->corner[3 * t + (size_t)a]];
-        if (T[0].good || T[1].good || T[2].good) look(&h, T, &best);
+        if (T[0].good || T[1].good || T[2].good) look(&h, T, middles, &best);
     }
     if (best.found) name_limits(&h, &best);
     const double left = fmax(best.highest, best.floor);
@@ -129,5 +132,5 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
 
 size_t mw_first_contact_work(size_t vertices)
 {
-    return (vertices * (sizeof(place) + 1) + sizeof(double) - 1) / sizeof(double);
+    return (vertices * (sizeof(place) + 1) + MIDDLES * sizeof(middle) + sizeof(double) - 1) / sizeof(double);
 }

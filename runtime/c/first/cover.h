@@ -2,6 +2,7 @@
 #ifndef MWI_FIRST_COVER_H
 #define MWI_FIRST_COVER_H
 
+#include <stdint.h>
 #include "climb.h"
 #include "walk.h"
 
@@ -10,7 +11,8 @@ enum {
     DEEPEST = 46,                /* how often a triangle is halved, and how often where a part of it never meets */
     DEEPEST_EDGE = 20,
     WALKED = 4,                  /* up to so many halvings places between are walked to; then they are near enough */
-    BUDGET = 20000               /* places that are looked at between the vertices */
+    BUDGET = 20000,              /* places that are looked at between the vertices */
+    MIDDLES_BITS = 10, MIDDLES = 1 << MIDDLES_BITS /* edges of which the middle is kept */
 };
 
 /* No extreme that stands out by more is missed, mm along the normal. */
@@ -104,15 +106,50 @@ static double bound_at_end(const search *h, const place *T)
     return highest;
 }
 
+/* The middle of an edge between places a and b: the triangle beyond the edge asks for it, too. */
+typedef struct middle {
+    double a[MAX_K], b[MAX_K], shortest;
+    place at;
+} middle;
+
+static void no_middles(middle *known)
+{
+    for (int i = 0; i < MIDDLES; i++) known[i].shortest = NAN;
+}
+
+/* Where among the middles that of an edge is kept, the same from either end. */
+static size_t slot_of(const search *h, const place *a, const place *b)
+{
+    uint64_t bits[2];
+    for (int i = 0; i < 2; i++) {
+        const double sum = a->q[h->free_[1][i]] + b->q[h->free_[1][i]];
+        memcpy(bits + i, &sum, sizeof sum);
+    }
+    return (size_t)(((bits[0] ^ (bits[1] << 21 | bits[1] >> 43)) * 0x9e3779b97f4a7c15u) >> (64 - MIDDLES_BITS));
+}
+
+static const place *middle_of(const search *h, const place *a, const place *b, double shortest, middle *known)
+{
+    middle *m = known + slot_of(h, a, b);
+    const size_t size = (size_t)h->nw * sizeof *a->q;
+    const int same = memcmp(m->a, a->q, size) == 0 && memcmp(m->b, b->q, size) == 0;
+    if (m->shortest == shortest && (same || (memcmp(m->a, b->q, size) == 0 && memcmp(m->b, a->q, size) == 0))) return &m->at;
+    memcpy(m->a, a->q, size);
+    memcpy(m->b, b->q, size);
+    m->shortest = shortest;
+    halfway(h, a, b, shortest, &m->at);
+    return &m->at;
+}
+
 /* Look at a triangle and at its parts, until none can hold an extreme that stands out by more than the resolution. */
-static void look(const search *h, const place *corners, best_ *best)
+static void look(const search *h, const place *corners, middle *known, best_ *best)
 {
     place stack[DEEPEST + 2][3];
     int depth[DEEPEST + 2], n = 1;
     memcpy(stack[0], corners, sizeof stack[0]);
     depth[0] = 0;
     while (n > 0) {
-        place T[3], middle;
+        place T[3];
         int edge = 0;
         memcpy(T, stack[--n], sizeof T);
         const int deep = depth[n], whole = T[0].good && T[1].good && T[2].good;
@@ -124,17 +161,17 @@ static void look(const search *h, const place *corners, best_ *best)
             best->highest = fmax(best->highest, high);
             continue;
         }
-        halfway(h, &T[edge], &T[(edge + 1) % 3], deep < WALKED ? 0.25 : 1.0, &middle);
-        if (middle.good && middle.inner >= 0.0 && worst(h, &middle) >= 0.0 && middle.value > best->floor + 1e-13) {
-            refine(h, &middle, best);
+        const place *half = middle_of(h, &T[edge], &T[(edge + 1) % 3], deep < WALKED ? 0.25 : 1.0, known);
+        if (half->good && half->inner >= 0.0 && worst(h, half) >= 0.0 && half->value > best->floor + 1e-13) {
+            refine(h, half, best);
             best->budget -= CLIMB_COST; /* where climbs end nowhere, each place would begin another one */
         }
         memcpy(stack[n], T, sizeof T);
         depth[n] = deep + 1;
-        stack[n++][(edge + 1) % 3] = middle;
+        stack[n++][(edge + 1) % 3] = *half;
         memcpy(stack[n], T, sizeof T);
         depth[n] = deep + 1;
-        stack[n++][edge] = middle;
+        stack[n++][edge] = *half;
     }
 }
 

@@ -56,14 +56,15 @@ static int expand(const search *h, const place *P, model_ *q)
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
     const int of_pinion = h->nw, of_angle = h->nw + h->nk, n = 3 + wheel->conditions + pinion->conditions;
     bent p, w;
-    double J[(2 * MAX_K - 1) * MOST] = {0.0}, z[2][MOST], zz[3][MOST], rate[3], x[3], turned[2][3], inwards[3];
+    double J[(2 * MAX_K - 1) * MOST] = {0.0}, z[2][MOST], zz[3][MOST], rate[3], x[3], swept[2][3], inwards[3];
     int follows[MOST];
     to_second_order(h, 0, P->p, &p);
     to_second_order(h, 1, P->q, &w);
-    carried(h, w.o, P->delta, x, rate);
+    const turned by = turned_by(h, P->delta);
+    carried(h, w.o, &by, x, rate);
     for (int j = 0; j < h->nw; j++) {
         double tangent[3];
-        carried(h, w.o + 6 + 3 * j, P->delta, tangent, NULL);
+        carried(h, w.o + 6 + 3 * j, &by, tangent, NULL);
         for (int i = 0; i < 3; i++) J[i * MOST + j] = -tangent[i];
         if (wheel->conditions) J[3 * MOST + j] = w.o[conditions_at(wheel) + 1 + j];
     }
@@ -88,19 +89,19 @@ static int expand(const search *h, const place *P, model_ *q)
         double along_wheel[3] = {0.0};
         for (int j = 0; j < h->nw; j++)
             for (int i = 0; i < 3; i++) along_wheel[i] += w.o[6 + 3 * j + i] * z[a][j];
-        carried(h, along_wheel, P->delta, x, turned[a]);
+        carried(h, along_wheel, &by, x, swept[a]);
     }
     const double flat[3] = {-w.o[0], -w.o[1], 0.0}; /* second derivative by the angle of a point turning about z */
-    carried(h, flat, P->delta, inwards, NULL);
+    carried(h, flat, &by, inwards, NULL);
     for (int c = 0; c < 3; c++) {
         const double *za = z[A[c]], *zb = z[B[c]];
         double bends[3];
         for (int i = 0; i < 3; i++) bends[i] = bent_by(&w, i, za, zb);
-        carried(h, bends, P->delta, x, NULL);
+        carried(h, bends, &by, x, NULL);
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++) M[i * n + j] = J[i * MOST + follows[j]];
         for (int i = 0; i < 3; i++)
-            r[i] = x[i] + turned[A[c]][i] * zb[of_angle] + turned[B[c]][i] * za[of_angle]
+            r[i] = x[i] + swept[A[c]][i] * zb[of_angle] + swept[B[c]][i] * za[of_angle]
                    + inwards[i] * za[of_angle] * zb[of_angle] - bent_by(&p, i, za + of_pinion, zb + of_pinion);
         if (wheel->conditions) r[3] = -bent_by(&w, 3 + w.limits, za, zb);
         if (pinion->conditions) r[n - 1] = -bent_by(&p, 3 + p.limits, za + of_pinion, zb + of_pinion);

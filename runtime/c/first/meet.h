@@ -32,14 +32,23 @@ typedef struct search {
     int bound[2], free_[2][2];   /* parameters of each flank: that its condition gives, or -1; the others */
 } search;
 
+/* What Newton's method asks of the pinion's flank at parameters p: tangents, its condition with slopes. */
+typedef struct linear {
+    double p[MAX_K], tangents[3 * MAX_K], condition[1 + MAX_K];
+} linear;
+
 /* One point of the wheel's flank and where it meets the pinion's. value: sense times the wheel angle. */
 typedef struct place {
     double q[MAX_K], p[MAX_K];   /* parameters of wheel and pinion */
     double delta, value, slope[2], lever, inner;
     double limits[MAX_LIMITS];   /* of the wheel's flank, then of the pinion's */
     double point[3], normal[3];  /* pinion's frame */
+    linear pinion;               /* where point and normal are */
     int good;
 } place;
+
+/* A turn of the wheel. */
+typedef struct turned { double cosine, sine; } turned;
 
 static double dot(const double *a, const double *b)
 {
@@ -130,22 +139,28 @@ static int on_flank(const search *h, int member, double *q, double *o)
     return 1;
 }
 
-/* A vector of the wheel's frame, turned by delta, in the pinion's frame; its derivative by delta if rate is given. */
-static void carried(const search *h, const double *r, double delta, double *x, double *rate)
+static turned turned_by(const search *h, double delta)
 {
     const double angle = h->turn * delta;
-    double c = NAN, s = NAN;
-    if (fabs(angle) < MWI_CIRCULAR_FAR) mwi_sine(angle, &s, &c);
-    const double turned[3] = {c * r[0] - s * r[1], s * r[0] + c * r[1], r[2]};
-    const double moved[3] = {-h->turn * turned[1], h->turn * turned[0], 0.0};
+    turned by = {NAN, NAN};
+    if (fabs(angle) < MWI_CIRCULAR_FAR) mwi_sine(angle, &by.sine, &by.cosine);
+    return by;
+}
+
+/* A vector of the wheel's frame, turned, in the pinion's frame; its derivative by the wheel's angle if rate is given. */
+static void carried(const search *h, const double *r, const turned *by, double *x, double *rate)
+{
+    const double c = by->cosine, s = by->sine;
+    const double at[3] = {c * r[0] - s * r[1], s * r[0] + c * r[1], r[2]};
+    const double moved[3] = {-h->turn * at[1], h->turn * at[0], 0.0};
     for (int i = 0; i < 3; i++) {
-        x[i] = dot(h->A + 3 * i, turned);
+        x[i] = dot(h->A + 3 * i, at);
         if (rate) rate[i] = dot(h->A + 3 * i, moved);
     }
 }
 
 /* Slopes of the wheel angle by the wheel's free parameters, in natural sizes, at a place with these outputs. */
-static void slopes_at(const search *h, const double *ow, const double *op, place *P)
+static void slopes_at(const search *h, const double *ow, const double *op, const turned *by, place *P)
 {
     const double *condition = ow + conditions_at(&h->m->bodies[1]) + 1;
     for (int a = 0; a < 2; a++) {
@@ -155,19 +170,45 @@ static void slopes_at(const search *h, const double *ow, const double *op, place
             tangent[i] = ow[6 + 3 * number + i];
             if (bound >= 0) tangent[i] -= condition[number] / condition[bound] * ow[6 + 3 * bound + i];
         }
-        carried(h, tangent, P->delta, along, NULL);
+        carried(h, tangent, by, along, NULL);
         P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[number];
     }
 }
 
 /* Whether Newton's method of such a first step, now `at` unknowns that were `from`, may have left its sheet or come to the
  * next tooth. */
-static int strayed(const double *size, int n, const double *at, const double *from, double turned, double first)
+static int strayed(const double *size, int n, const double *at, const double *from, double angle, double first)
 {
-    double moved = fabs(turned);
+    double moved = fabs(angle);
     if (moved > LARGEST_TURN) return 1;
     for (int j = 0; j < n; j++) moved = fmax(moved, fabs(at[j] - from[j]) / size[j]);
     return moved > fmin(FARTHEST, JUMP * first + JUMP_LEAST);
+}
+
+/* The pinion's flank at the parameters of a place: as it was found where they are still those of its point. */
+static void pinion_at(const search *h, const place *P, double *o)
+{
+    const mw_body *body = &h->m->bodies[0];
+    const size_t k = (size_t)h->nk;
+    if (memcmp(P->p, P->pinion.p, k * sizeof *P->p) != 0) {
+        body->flank(h->s, P->p, o);
+        return;
+    }
+    memcpy(o, P->point, sizeof P->point);
+    memcpy(o + 3, P->normal, sizeof P->normal);
+    memcpy(o + 6, P->pinion.tangents, 3 * k * sizeof *o);
+    if (body->conditions) memcpy(o + conditions_at(body), P->pinion.condition, (1 + k) * sizeof *o);
+}
+
+static void keep_pinion(const search *h, const double *o, place *P)
+{
+    const mw_body *body = &h->m->bodies[0];
+    const size_t k = (size_t)h->nk;
+    memcpy(P->point, o, sizeof P->point);
+    memcpy(P->normal, o + 3, sizeof P->normal);
+    memcpy(P->pinion.p, P->p, sizeof P->p);
+    memcpy(P->pinion.tangents, o + 6, 3 * k * sizeof *o);
+    if (body->conditions) memcpy(P->pinion.condition, o + conditions_at(body), (1 + k) * sizeof *o);
 }
 
 /* Where the given member's point, at P->q or P->p, meets the other one's flank, from the other parameters and P->delta on;
@@ -189,11 +230,13 @@ static int meet(const search *h, place *P)
     for (int k = 0; k < NEWTON_STEPS && !done; k++) {
         const mw_body *body = &h->m->bodies[sought];
         double *o = sought ? ow : op;
-        body->flank(h->s, unknown, o);
-        carried(h, ow, P->delta, x, rate);
+        const turned by = turned_by(h, P->delta);
+        if (k == 0 && !sought) pinion_at(h, P, o);
+        else body->flank(h->s, unknown, o);
+        carried(h, ow, &by, x, rate);
         for (int j = 0; j < parameters; j++) {
             double tangent[3];
-            if (sought) carried(h, o + 6 + 3 * j, P->delta, tangent, NULL);
+            if (sought) carried(h, o + 6 + 3 * j, &by, tangent, NULL);
             for (int i = 0; i < 3; i++) M[i * n + j] = sought ? -tangent[i] : o[6 + 3 * j + i];
         }
         for (int i = 0; i < 3; i++) {
@@ -220,13 +263,13 @@ static int meet(const search *h, place *P)
     }
     if (!done) return 0;
     h->m->bodies[sought].flank(h->s, unknown, sought ? ow : op);
-    carried(h, ow, P->delta, x, rate);
+    const turned by = turned_by(h, P->delta);
+    carried(h, ow, &by, x, rate);
     P->lever = dot(op + 3, rate);
     if (!(P->lever * h->sense > 0.0)) return 0;
-    slopes_at(h, ow, op, P);
+    slopes_at(h, ow, op, &by, P);
     P->value = h->sense * P->delta;
-    memcpy(P->point, op, sizeof P->point);
-    memcpy(P->normal, op + 3, sizeof P->normal);
+    keep_pinion(h, op, P);
     double inner = HUGE_VAL;
     for (int i = 0; i <= wheel->margins; i++) {
         const double v = ow[6 + 3 * h->nw + i];

@@ -75,7 +75,7 @@ def deepest(drive, angle, start):
         x = x if between is None or equations.margin(between) < depths[k] else between
     observed = equations.observe(x)
     chosen = np.full(len(observed), np.nan)
-    chosen[list(equations.margins)] = observed[list(equations.margins)]
+    chosen[equations.margins] = observed[equations.margins]
     return chosen
 
 
@@ -116,7 +116,7 @@ class _Equations:
     drive: DriveModel
     state: np.ndarray
     scale: np.ndarray
-    margins: tuple[int, ...]
+    margins: np.ndarray
 
     @classmethod
     def of(cls, drive, angle):
@@ -124,7 +124,7 @@ class _Equations:
         drive.model.scale(pointer(state), pointer(scale))
         bodies = drive.design.description["bodies"]
         margins = [b["margin"] + i for b in bodies for i in range(len(b["margins"]))] + [b["regular"] for b in bodies]
-        return cls(drive, state, scale, tuple(margins))
+        return cls(drive, state, scale, np.array(margins))
 
     def evaluate(self, x):
         """Residual (nx,) and Jacobian (nx, nx) by unknowns in natural sizes."""
@@ -140,8 +140,7 @@ class _Equations:
 
     def margin(self, x):
         """The smallest limit of both flanks; limits that the design leaves open do not count."""
-        values = self.observe(x)[list(self.margins)]
-        return float(np.min(np.where(np.isnan(values), np.inf, values)))
+        return float(np.fmin.reduce(self.observe(x)[self.margins], initial=np.inf))
 
     def direction(self, x):
         """Unit null direction of the Jacobian, in natural sizes."""
@@ -152,7 +151,7 @@ class _Equations:
         before = 0.0
         for _ in range(CORRECTIONS):
             residual, jacobian = self.evaluate(x)
-            if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(jacobian))):
+            if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
                 return None
             step = np.linalg.lstsq(jacobian, residual, rcond=RANK)[0]
             x, size = x - step * self.scale, float(np.abs(step).max())
