@@ -12,7 +12,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.roots import narrowed
 from meshwright.flank.mesh import mesh
-from meshwright.flank.sections import Sections, lengthwise, solved
+from meshwright.flank.sections import lengthwise, lengthwise_slopes, solved
 
 #: Cells of the mesh that shows where a region is, at least.
 CELLS = 24
@@ -196,7 +196,7 @@ def lines(region, triangles=None, count=GUIDES):
     if triangles is None or len(triangles.triangles) < CELLS * CELLS:
         triangles = mesh(region, (CELLS, CELLS))
     known = triangles.parameters
-    reached, _ = lengthwise(region.flank, region.flank(known))
+    reached = lengthwise(region.flank, region.flank(known))
     along = np.linspace(reached.min(), reached.max(), count)
     found = _sampled(region, known, reached, along)
     inside = np.isfinite(found.lower[:, 0])
@@ -410,7 +410,7 @@ def _both_ends(region, across, q, profile, along, within):
 
 def tangents(region, found):
     """Change (N, 2, 3) of flank points by the profile's parameter and by the coordinate along the tooth."""
-    _, slopes = lengthwise(region.flank, found)
+    slopes = lengthwise_slopes(region.flank, found)
     size, k = slopes.shape
     matrix = np.zeros((size, k, k))
     matrix[:, 0, region.profile], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
@@ -420,7 +420,7 @@ def tangents(region, found):
 
 def solve(region, profile, along, start):
     """Parameters (N, k) at profile parameters and lengthwise coordinates (N,), from nearby ones; NaN for none."""
-    k, sections = start.shape[1], Sections.of(region.flank)
+    k, sections = start.shape[1], region.flank.sections
     factors = np.zeros((2, k + 4))
     factors[0, region.profile] = 1.0
     if sections:
