@@ -178,7 +178,7 @@ class Lines:
         every = np.arange(len(q))
         ends = short(before, every), short(after, every)
         there = np.where(ends[0] < 0.0, before[:, of], after[:, of])  # they lie before what should hold them
-        exact = LAST_PLACES * np.spacing(np.abs(after[:, of]))
+        exact = LAST_PLACES * np.spacing(np.maximum(np.abs(before[:, of]), np.abs(after[:, of])))
         q[:, of], _ = narrowed(at, before[:, of], there, ends, exact)
         return self.onto(q)
 
@@ -386,7 +386,7 @@ def _both_ends(region, across, q, profile, along, within):
     floor = np.minimum(inside, 0.0) - NOISE
     outside = least(q[beyond, columns]) - floor
     inside = inside - floor
-    left = np.flatnonzero(inner != outer)
+    left, moved = np.flatnonzero(inner != outer), np.zeros(len(inner))  # which end the last step moved: 1 the inner one
     for step in range(BISECTIONS):
         if not len(left):
             break
@@ -400,8 +400,10 @@ def _both_ends(region, across, q, profile, along, within):
         good = value >= 0.0
         inner[left] = np.where(good, a + share * (b - a), a)
         outer[left] = np.where(good, b, a + share * (b - a))
-        inside[left] = np.where(good, value, 0.5 * fa)
-        outside[left] = np.where(good, 0.5 * fb, value)
+        # an end that stays where it is a second time counts half
+        inside[left] = np.where(good, value, np.where(moved[left] < 0.0, 0.5 * fa, fa))
+        outside[left] = np.where(good, np.where(moved[left] > 0.0, 0.5 * fb, fb), value)
+        moved[left] = np.where(good, 1.0, -1.0)
         best[left] = np.where(good[:, None], trial, best[left])
         near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
         left = left[~near]

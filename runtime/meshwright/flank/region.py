@@ -427,7 +427,8 @@ def _rays(chart, limits, start, ways):
     """
     rays = _Rays.of(chart, limits, start, ways)
     ended = np.flatnonzero(np.isfinite(rays.outer))
-    ends, exact = rays.divided(ended), LAST_PLACES * np.spacing(np.abs(rays.outer[ended]))
+    ends, sizes = rays.divided(ended), np.maximum(*np.abs([rays.inner[ended], rays.outer[ended]]))
+    exact = LAST_PLACES * np.spacing(sizes)
     rays.inner[ended], rays.outer[ended] = narrowed(
         lambda at, which: rays.least(at, ended[which]), rays.inner[ended], rays.outer[ended], ends, exact
     )
