@@ -8,7 +8,7 @@ import pytest
 from meshwright.base.errors import UsageError
 from meshwright.drive import Drive
 from meshwright.flank.lines import solve, tangents
-from meshwright.flank.sections import Sections, lengthwise
+from meshwright.flank.sections import lengthwise
 
 #: Planes, cylinders and cones across teeth, and a parameter along them.
 DESIGNS = (
@@ -34,10 +34,10 @@ def places_near(region, size):
 
 def test_places_are_on_their_lines_and_on_the_flank(region):
     wanted = places_near(region, 1e-2)
-    along, _ = lengthwise(region.flank, region.flank(wanted))
+    along = lengthwise(region.flank, region.flank(wanted))
     found = solve(region, wanted[:, region.profile], along, np.tile(region.seed, (9, 1)))
     at = region.flank(found)
-    reached, _ = lengthwise(region.flank, at)
+    reached = lengthwise(region.flank, at)
     np.testing.assert_allclose(found[:, region.profile], wanted[:, region.profile], rtol=1e-13)
     np.testing.assert_allclose(reached, along, rtol=0, atol=1e-9)
     assert np.abs(at.conditions[:, :, 0]).max(initial=0.0) < 1e-8
@@ -47,7 +47,7 @@ def test_places_are_on_their_lines_and_on_the_flank(region):
 def test_tangents_are_those_of_neighbouring_lines(region):
     here, step = region.seed[None], 1e-5
     found = region.flank(here)
-    along, _ = lengthwise(region.flank, found)
+    along = lengthwise(region.flank, found)
     ways = tangents(region, found)[0]
     for way, by in zip(ways, ((step, 0.0), (0.0, step)), strict=True):
         ends = [
@@ -59,7 +59,7 @@ def test_tangents_are_those_of_neighbouring_lines(region):
 
 @pytest.mark.parametrize("along", [np.nan, np.inf, 1e300, -1e9])
 def test_where_there_is_no_place_there_is_no_number(region, along):
-    if Sections.of(region.flank) is None and np.isfinite(along):
+    if region.flank.sections is None and np.isfinite(along):
         pytest.skip("the last parameter runs along the tooth: every value of it has a place")
     found = solve(region, region.seed[None, region.profile], np.array([along]), region.seed[None])
     assert np.isnan(found).all()

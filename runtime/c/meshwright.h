@@ -119,6 +119,11 @@ int mw_places(const mw_coordinates *by, const double *s, const double *at, size_
 size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0, double step, size_t count, double *phi,
                     double *x, double *slope, double *determinant);
 
+/* Follow the line of contact at the angle that s is set up for: from x[nx], corrected straight onto the line, count steps of
+ * so many natural sizes: x[(count+1)*nx]. border[2*nx], unit vectors in natural sizes: the direction of the line and the left null vector
+ * of the Jacobian near x; at the end those at the last point. Returns the number of points, fewer where the line is lost. */
+size_t mw_line(const mw_model *m, const double *s, double *border, double step, size_t count, double *x);
+
 /* The singular point of the equations next to phi and x[nx], to round-off. crossing = 0: a fold, where the branch turns
  * back (dR/dx singular); else a point where another branch crosses, a pitchfork or transcritical point (dR/d(x, phi)
  * singular). Newton's method on the extended system of Moore, "The numerical treatment of non-trivial bifurcation points",

@@ -403,7 +403,14 @@ static void arc(reader *r, fuzzed *f)
     if (good > n + 1) fail("more points than asked for");
     note_numbers(r, phi, good);
     note_numbers(r, determinant, good);
-    calls++;
+    double *border = numbers(2 * nx);
+    for (size_t i = 0; i < 2 * nx; i++) border[i] = number(r, i % nx ? 0.1 : 1.0);
+    memcpy(x, from, nx * sizeof *x);
+    f->m->set_phi(f->s, begin);
+    const size_t along = mw_line(f->m, f->s, border, step, n, x);
+    if (along > n + 1) fail("more points of a line than asked for");
+    note_numbers(r, x, along * nx);
+    calls += 2;
 }
 
 static void branch(reader *r, fuzzed *f)
@@ -526,6 +533,7 @@ static void foreign(reader *r, fuzzed *f)
     refused += mw_from_nodes(wrong, f->s, &phi, x, 1, &(int){0}, &phi, 1, x, &info) == 0;
     refused += mw_observe(wrong, f->s, &phi, x, 1, o) == MW_BAD_INPUT;
     refused += mw_arclength(wrong, f->s, phi, x, 0.1, 1, o, x, o, o) == 0;
+    refused += mw_line(wrong, f->s, o, 0.1, 1, x) == 0;
     refused += mw_trace(wrong, f->p, &phi, 1, f->s, f->work, x, &info) == 0 && info.status == MW_BAD_INPUT;
     refused += mw_analyse(wrong, f->p, &phi, 1, f->s, f->work, x, &info, o, &contact) == 0 && info.status == MW_BAD_INPUT;
     info.status = MW_CONVERGED;
@@ -534,7 +542,7 @@ static void foreign(reader *r, fuzzed *f)
     info.status = MW_CONVERGED;
     mw_contact_points(wrong, f->p, 1, &phi, 1, x, &info.status, f->s, o, contact.point, &contact.flags);
     refused += info.status == MW_BAD_INPUT;
-    if (refused != 17) fail("a foreign table is not refused");
+    if (refused != 18) fail("a foreign table is not refused");
     calls += 17;
     without_proofs(r, f, &other);
     other = *f->m;

@@ -76,7 +76,7 @@ def narrowed(function, inner, outer, values, tolerance, small=0.0):
 
 
 def _next_shares(a, b, c, fa, fb, fc):
-    """:func:`_next_share` of many."""
+    """:func:`_next_share` of many; halfway from where a function is zero, which may be so for a while."""
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-    return np.where((phi * phi < xi) & ((1.0 - phi) ** 2 < 1.0 - xi), share, 0.5)
+    return np.where((phi * phi < xi) & ((1.0 - phi) ** 2 < 1.0 - xi) & (fa != 0.0), share, 0.5)

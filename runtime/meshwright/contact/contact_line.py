@@ -1,31 +1,26 @@
 """Line contact: the curve along which two flanks touch at one input angle, clipped at the edges of the flanks.
 
 Every point of the line solves the equations of contact, so their Jacobian has a null direction: the line's own. The
-line is followed along it with a least-squares correction.
+line is followed along it in C.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.library import pointer
+from meshwright.base.library import library, pointer
 from meshwright.base.roots import bracketed
 from meshwright.contact.model import DriveModel
 
-#: Step along the line in natural sizes of the unknowns, and how many at most to either side.
+#: Step along the line in natural sizes of the unknowns, how many are made at once, and how often to either side.
 STEP = 0.125
-MAX_STEPS = 240
+AT_ONCE, STRETCHES = 12, 20
 
 #: The line is left where it has gone away from the flanks for more than this many steps.
 LEAVING = 6
-CORRECTIONS = 12
-CORRECTED, FALLING = 1e-12, 1e-2
 
 #: An end of the line is known to this share of a step.
 EDGE = 1e-12
-
-#: Singular values below this share of the largest belong to the direction of the line.
-RANK = 1e-8
 SECTIONS = 40
 GOLDEN = 0.6180339887498949
 
@@ -52,7 +47,7 @@ def contact_line(drive, angle, start):
     equations = _Equations.of(drive, angle)
     solved = bool(np.isfinite(start).all())
     solutions = _longest_inside(equations, *_whole(equations, start)) if solved else np.empty((0, drive.model.nx))
-    observed = np.array([equations.observe(x) for x in solutions]).reshape(-1, drive.model.no)
+    observed = equations.observe(solutions)
     bodies = drive.design.description["bodies"]
     return ContactLine(
         angle=float(angle),
@@ -71,19 +66,22 @@ def deepest(drive, angle, start):
     k = int(np.argmax(depths))
     x = line[k]
     if 0 < k < len(line) - 1:
-        between = _summit(equations, line[k - 1], line[k + 1])
+        between = _summit(equations, x, line[k - 1], line[k + 1])
         x = x if between is None or equations.margin(between) < depths[k] else between
-    observed = equations.observe(x)
+    observed = equations.observe(x)[0]
     chosen = np.full(len(observed), np.nan)
-    chosen[equations.margins] = observed[equations.margins]
+    chosen[list(equations.limits)] = observed[list(equations.limits)]
     return chosen
 
 
-def _summit(equations, before, after):
-    """The deepest point between two points of the line, by golden section; None if the line is lost between them."""
+def _summit(equations, near, before, after):
+    """The deepest point between two points of the line about a third one, by golden section; None if the line is lost
+    between them.
+    """
+    border = equations.border(near)
 
     def at(share):
-        return equations.corrected(before + share * (after - before))
+        return equations.corrected(before + share * (after - before), border)
 
     def depth(share):
         x = at(share)
@@ -104,9 +102,9 @@ def _summit(equations, before, after):
 
 def _whole(equations, start):
     """The line as far as the surfaces go, or somewhat past the flanks: (P, nx), and the smallest limits there (P,)."""
-    direction, margin = equations.direction(start), equations.margin(start)
-    (before, below), (after, above) = (_followed(equations, start, s * direction, margin) for s in (-1.0, 1.0))
-    return np.array([*before[::-1], start, *after]), np.array([*below[::-1], margin, *above])
+    border, margin = equations.border(start), equations.margin(start)
+    (before, below), (after, above) = (_followed(equations, start, border, s * STEP, margin) for s in (-1.0, 1.0))
+    return np.concatenate([before[::-1], start[None], after]), np.concatenate([below[::-1], [margin], above])
 
 
 @dataclass(frozen=True)
@@ -114,70 +112,81 @@ class _Equations:
     """The drive's equations at one angle, unknowns in natural sizes."""
 
     drive: DriveModel
+    angle: float
     state: np.ndarray
     scale: np.ndarray
-    margins: np.ndarray
+    limits: tuple[int, ...]
 
     @classmethod
     def of(cls, drive, angle):
         scale, state = np.empty(drive.model.nx), drive.state(angle)
         drive.model.scale(pointer(state), pointer(scale))
         bodies = drive.design.description["bodies"]
-        margins = [b["margin"] + i for b in bodies for i in range(len(b["margins"]))] + [b["regular"] for b in bodies]
-        return cls(drive, state, scale, np.array(margins))
-
-    def evaluate(self, x):
-        """Residual (nx,) and Jacobian (nx, nx) by unknowns in natural sizes."""
-        n = len(x)
-        residual, jacobian = np.empty(n), np.empty((n, n))
-        self.drive.model.eval(pointer(self.state), pointer(x), pointer(residual), pointer(jacobian))
-        return residual, jacobian * self.scale
+        limits = [b["margin"] + i for b in bodies for i in range(len(b["margins"]))] + [b["regular"] for b in bodies]
+        return cls(drive, float(angle), state, scale, tuple(limits))
 
     def observe(self, x):
-        o = np.empty(self.drive.model.no)
-        self.drive.model.observe(pointer(self.state), pointer(np.ascontiguousarray(x)), pointer(o))
-        return o
+        """Observations (N, no) at unknowns (N, nx)."""
+        x = np.ascontiguousarray(np.atleast_2d(x))
+        angles, observed = np.full(len(x), self.angle), np.empty((len(x), self.drive.model.no))
+        library().mw_observe(
+            self.drive.model, pointer(self.state), pointer(angles), pointer(x), len(x), pointer(observed)
+        )
+        return observed
+
+    def margins(self, x):
+        """The smallest limits of both flanks (N,); limits that the design leaves open do not count."""
+        values = self.observe(x)[:, self.limits]
+        return np.where(np.isnan(values), np.inf, values).min(axis=1)
 
     def margin(self, x):
-        """The smallest limit of both flanks; limits that the design leaves open do not count."""
-        return float(np.fmin.reduce(self.observe(x)[self.margins], initial=np.inf))
+        """The same of one."""
+        return float(self.margins(x)[0])
 
-    def direction(self, x):
-        """Unit null direction of the Jacobian, in natural sizes."""
-        return np.linalg.svd(self.evaluate(x)[1])[2][-1]
+    def border(self, x):
+        """Unit null vectors of the Jacobian, right and left, in natural sizes: (2, nx)."""
+        residual, jacobian = np.empty(len(x)), np.empty((len(x), len(x)))
+        self.drive.model.eval(pointer(self.state), pointer(x), pointer(residual), pointer(jacobian))
+        left, _, right = np.linalg.svd(jacobian * self.scale)
+        return np.stack([right[-1], left[:, -1]])
 
-    def corrected(self, x):
-        """The nearest solution; None if there is none near."""
-        before = 0.0
-        for _ in range(CORRECTIONS):
-            residual, jacobian = self.evaluate(x)
-            if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
-                return None
-            step = np.linalg.lstsq(jacobian, residual, rcond=RANK)[0]
-            x, size = x - step * self.scale, float(np.abs(step).max())
-            # by quadratic convergence the next step would be shorter by the square of what this one is shorter by
-            if size < CORRECTED or (size < FALLING * before and size * (size / before) ** 2 < CORRECTED):
-                return x
-            before = size
-        return None
+    def followed(self, x, border, step, count):
+        """Solutions (M, nx) on the line: the one at ``x`` and ``count`` more, fewer where the line is lost; the
+        ``border`` becomes that at the last one.
+        """
+        points = np.empty((count + 1, len(x)))
+        points[0] = x
+        found = library().mw_line(self.drive.model, pointer(self.state), pointer(border), step, count, pointer(points))
+        return points[:found]
+
+    def corrected(self, x, border):
+        """The solution straight beside ``x``; None if there is none near."""
+        found = self.followed(x, border.copy(), 0.0, 0)
+        return found[0] if len(found) else None
 
 
-def _followed(equations, start, along, margin):
-    """Solutions [(nx,)] from ``start`` on, without it, to one side, and the smallest limits there."""
-    x, found, margins, falling = start, [], [], 0
-    for _ in range(MAX_STEPS):
-        x = equations.corrected(x + STEP * along * equations.scale)
-        before, margin = margin, np.nan if x is None else equations.margin(x)
-        if not np.isfinite(margin):
-            break
-        found.append(x)
-        margins.append(margin)
-        falling = falling + 1 if margin < min(before, 0.0) else 0
+def _followed(equations, start, border, step, margin):
+    """Solutions (M, nx) from ``start`` on, without it, to one side, and the smallest limits there (M,)."""
+    line, margins, border = start[None], np.array([margin]), border.copy()
+    for _ in range(STRETCHES):
+        points = equations.followed(line[-1], border, step, AT_ONCE)[1:]
+        line, margins = np.concatenate([line, points]), np.concatenate([margins, equations.margins(points)])
+        end = _left(margins)
+        if end < len(line) or len(points) < AT_ONCE:
+            return line[1:end], margins[1:end]
+    return line[1:], margins[1:]
+
+
+def _left(margins):
+    """How many points of a line come before there is no flank any more, or it has gone too far away from it."""
+    falling = 0
+    for k in range(1, len(margins)):
+        if not np.isfinite(margins[k]):
+            return k
+        falling = falling + 1 if margins[k] < min(margins[k - 1], 0.0) else 0
         if falling > LEAVING:
-            break
-        after = equations.direction(x)
-        along = after if after @ along > 0.0 else -after
-    return found, margins
+            return k + 1
+    return len(margins)
 
 
 def _longest_inside(equations, line, margins):
@@ -196,10 +205,10 @@ def _longest_inside(equations, line, margins):
 
 def _edge(equations, inner, outer):
     """Where the line between two of its points leaves a flank; of what is known of it there, the last on the flank."""
-    inside = [inner]
+    inside, border = [inner], equations.border(inner)
 
     def margin(share):
-        x = equations.corrected(inner + share * (outer - inner))
+        x = equations.corrected(inner + share * (outer - inner), border)
         value = -1.0 if x is None else equations.margin(x)
         if value >= 0.0:
             inside.append(x)

@@ -179,11 +179,11 @@ def _sides(drives: tuple[Drive, Drive], member: str) -> tuple[list[RegionSide], 
     """Both sides of the teeth of a gear, the flank in hand first, and the sections at their ends."""
     drive = drives[0]
     fillet = any((r["name"], r["region"]) == (member, "fillet") for r in drive.design.description["regions"])
-    sides, sections = [], Sections.of(drive.flank(member))
+    sides, sections = [], drive.flank(member).sections
     for one in drives:
         names = ("flank", "fillet") if fillet else ("flank",)
         regions = [region(one, member, name, one.uses) for name in names]
-        if Sections.of(regions[0].flank) is None:
+        if regions[0].flank.sections is None:
             sections = sections or _of_blank(regions[0], member)
             regions = [of.in_sections(sections) for of in regions]
         sides.append(RegionSide.of(*regions))

@@ -117,7 +117,7 @@ class _Curves:
         region, back = self.known.lines(self.region).region, self.motion.T
         near = self._near(*np.array(start)[:, None])[0]
         found = region.flank(pierced(region.flank, feet @ back, plane @ back, near))
-        return found.parameters[:, region.profile], lengthwise(region.flank, found)[0], found.points @ self.motion
+        return found.parameters[:, region.profile], lengthwise(region.flank, found), found.points @ self.motion
 
     def _at(self, profile: Floats, section: Floats) -> FlankPoints:
         region = self.known.lines(self.region).region

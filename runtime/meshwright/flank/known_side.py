@@ -15,7 +15,7 @@ import numpy as np
 
 from meshwright.flank.lines import ROUNDING, Lines, ended_by
 from meshwright.flank.region import Region
-from meshwright.flank.sections import lengthwise, solved
+from meshwright.flank.sections import lengthwise, lengthwise_slopes, solved
 from meshwright.flank.sides import Bools, Floats, Ints, RegionSide
 
 #: Sections in which a side is known, equally far apart.
@@ -277,7 +277,7 @@ def _onto(region: Region, limits: Ints, values: Floats, start: Floats) -> tuple[
         return q, np.ones(0, dtype=bool)
     for _ in range(NEWTON_STEPS):
         found = region.flank(q)
-        reached, along = lengthwise(region.flank, found)
+        reached, along = lengthwise(region.flank, found), lengthwise_slopes(region.flank, found)
         off = region.limits.values(found)[rows, limits]
         residual = np.concatenate([np.stack([off, reached - values], axis=1), found.conditions[:, :, 0]], axis=1)
         slopes = np.stack([region.limits.slopes(found)[rows, limits], along], axis=1)
@@ -286,6 +286,6 @@ def _onto(region: Region, limits: Ints, values: Floats, start: Floats) -> tuple[
         if not (np.abs(step / region.chart.sizes) > STILL).any():
             break
     found = region.flank(q)
-    reached, _ = lengthwise(region.flank, found)
+    reached = lengthwise(region.flank, found)
     held = (region.limits.values(found).min(axis=1) >= -ROUNDING) & (np.abs(reached - values) < ROUNDING)
     return q, held & np.isfinite(q).all(axis=1)

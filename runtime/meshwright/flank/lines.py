@@ -12,7 +12,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.roots import narrowed
 from meshwright.flank.mesh import mesh
-from meshwright.flank.sections import Sections, lengthwise, solved
+from meshwright.flank.sections import lengthwise, lengthwise_slopes, solved
 
 #: Cells of the mesh that shows where a region is, at least.
 CELLS = 24
@@ -178,7 +178,7 @@ class Lines:
         every = np.arange(len(q))
         ends = short(before, every), short(after, every)
         there = np.where(ends[0] < 0.0, before[:, of], after[:, of])  # they lie before what should hold them
-        exact = LAST_PLACES * np.spacing(np.abs(after[:, of]))
+        exact = LAST_PLACES * np.spacing(np.maximum(np.abs(before[:, of]), np.abs(after[:, of])))
         q[:, of], _ = narrowed(at, before[:, of], there, ends, exact)
         return self.onto(q)
 
@@ -196,7 +196,7 @@ def lines(region, triangles=None, count=GUIDES):
     if triangles is None or len(triangles.triangles) < CELLS * CELLS:
         triangles = mesh(region, (CELLS, CELLS))
     known = triangles.parameters
-    reached, _ = lengthwise(region.flank, region.flank(known))
+    reached = lengthwise(region.flank, region.flank(known))
     along = np.linspace(reached.min(), reached.max(), count)
     found = _sampled(region, known, reached, along)
     inside = np.isfinite(found.lower[:, 0])
@@ -386,7 +386,7 @@ def _both_ends(region, across, q, profile, along, within):
     floor = np.minimum(inside, 0.0) - NOISE
     outside = least(q[beyond, columns]) - floor
     inside = inside - floor
-    left = np.flatnonzero(inner != outer)
+    left, moved = np.flatnonzero(inner != outer), np.zeros(len(inner))  # which end the last step moved: 1 the inner one
     for step in range(BISECTIONS):
         if not len(left):
             break
@@ -400,8 +400,10 @@ def _both_ends(region, across, q, profile, along, within):
         good = value >= 0.0
         inner[left] = np.where(good, a + share * (b - a), a)
         outer[left] = np.where(good, b, a + share * (b - a))
-        inside[left] = np.where(good, value, 0.5 * fa)
-        outside[left] = np.where(good, 0.5 * fb, value)
+        # an end that stays where it is a second time counts half
+        inside[left] = np.where(good, value, np.where(moved[left] < 0.0, 0.5 * fa, fa))
+        outside[left] = np.where(good, np.where(moved[left] > 0.0, 0.5 * fb, fb), value)
+        moved[left] = np.where(good, 1.0, -1.0)
         best[left] = np.where(good[:, None], trial, best[left])
         near = (good & (value < 2.0 * NOISE)) | (np.abs(outer[left] - inner[left]) <= 1e-15 * np.abs(outer[left]))
         left = left[~near]
@@ -410,7 +412,7 @@ def _both_ends(region, across, q, profile, along, within):
 
 def tangents(region, found):
     """Change (N, 2, 3) of flank points by the profile's parameter and by the coordinate along the tooth."""
-    _, slopes = lengthwise(region.flank, found)
+    slopes = lengthwise_slopes(region.flank, found)
     size, k = slopes.shape
     matrix = np.zeros((size, k, k))
     matrix[:, 0, region.profile], matrix[:, 1], matrix[:, 2:] = 1.0, slopes, found.conditions[:, :, 1:]
@@ -420,7 +422,7 @@ def tangents(region, found):
 
 def solve(region, profile, along, start):
     """Parameters (N, k) at profile parameters and lengthwise coordinates (N,), from nearby ones; NaN for none."""
-    k, sections = start.shape[1], Sections.of(region.flank)
+    k, sections = start.shape[1], region.flank.sections
     factors = np.zeros((2, k + 4))
     factors[0, region.profile] = 1.0
     if sections:

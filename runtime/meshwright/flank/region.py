@@ -19,8 +19,8 @@ from meshwright.base.library import pointer
 from meshwright.base.roots import narrowed
 from meshwright.flank.lines import SINGULAR, lines
 from meshwright.flank.mesh import mesh
-from meshwright.flank.sections import Sections, lengthwise, solved
-from meshwright.flank.surface import Flank
+from meshwright.flank.sections import lengthwise, lengthwise_slopes, solved
+from meshwright.flank.surface import Flank, FlankPoints
 
 #: Name of the limit where nothing in the design bounds the surface, and how far beyond what contact uses it then goes
 #: unless more is asked for, in natural sizes of the parameters.
@@ -140,22 +140,31 @@ class Chart:
 
 
 @dataclass(frozen=True)
-class Limits:
-    """Everything that bounds a surface: the names of its own limits, and added ones, ``extra``: (name, function of
-    flank points to values (N,) and slopes by the parameters (N, k)).
+class Limit:
+    """A limit by its name: functions of flank points to its ``values`` (N,), negative outside, and to their ``slopes``
+    (N, k) by the parameters.
     """
 
+    name: str
+    values: Callable[[FlankPoints], np.ndarray]
+    slopes: Callable[[FlankPoints], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Everything that bounds a surface: its own limits, and ``added`` ones."""
+
     flank: Flank
-    extra: tuple = ()
+    added: tuple[Limit, ...] = ()
 
     @cached_property
     def names(self):
         """The limits' names, in the order of the columns of :meth:`values`."""
-        return ("undercut", *(m["event"] for m in self.flank.body["margins"]), *(name for name, _ in self.extra))
+        return ("undercut", *(m["event"] for m in self.flank.body["margins"]), *(limit.name for limit in self.added))
 
     def values(self, found):
         """The limit functions (N, L) of flank points: +inf where a limit is left open, -inf where there is no point."""
-        columns = [found.regular, *found.margins.values(), *(function(found)[0] for _, function in self.extra)]
+        columns = [found.regular, *found.margins.values(), *(limit.values(found) for limit in self.added)]
         values = np.stack(columns, axis=1)
         values[np.isnan(values)] = np.inf
         values[~(np.isfinite(found.points).all(axis=1) & np.isfinite(found.normals).all(axis=1))] = -np.inf
@@ -163,16 +172,16 @@ class Limits:
 
     def slopes(self, found):
         """Slopes of the limit functions by the parameters (N, L, k) at flank points; not a number where one is open."""
-        added = [function(found)[1][:, None] for _, function in self.extra]
+        added = [limit.slopes(found)[:, None] for limit in self.added]
         return np.concatenate([self.flank.limit_slopes(found.parameters), *added], axis=1)
 
     def least(self, found):
         """The smallest limit function (N,)."""
         return self.values(found).min(axis=1)
 
-    def with_(self, name, function):
-        """These and another one."""
-        return replace(self, extra=(*self.extra, (name, function)))
+    def with_(self, *more):
+        """These and other ones."""
+        return replace(self, added=(*self.added, *more))
 
 
 @dataclass(frozen=True)
@@ -222,7 +231,7 @@ class Region:
     def profile(self):
         """Number of the parameter that runs across the tooth: the first one, if lines across the tooth change it."""
         found = self.flank(self.seed)
-        _, slopes = lengthwise(self.flank, found)
+        slopes = lengthwise_slopes(self.flank, found)
         equations = np.concatenate([slopes[:, None], found.conditions[:, :, 1:]], axis=1)[0] * self.chart.sizes
         way = np.abs(np.linalg.svd(equations)[2][-1])
         return 0 if way[0] > UNCHANGED * way.max() else int(np.argmax(way))
@@ -232,16 +241,16 @@ class Region:
         """The :class:`~meshwright.flank.lines.Lines` across the region."""
         return lines(self)
 
-    def within(self, name, function):
-        """What is left of the region inside another limit, a function as of :class:`Limits`."""
-        limits = self.limits.with_(name, function)
+    def within(self, limit):
+        """What is left of the region inside another limit, a :class:`Limit`."""
+        limits = self.limits.with_(limit)
         seed, values = self.seed, limits.values(self.flank(self.seed))[0]
         if values.min() < 0.0:
             lattice = self.lattice((CELLS, CELLS))
             nodes = lattice.q[lattice.inside]
             least = limits.least(self.flank(nodes))
             if not least.max(initial=-1.0) >= 0.0:
-                return replace(self, limits=limits, seed=None, conflict=(name,))
+                return replace(self, limits=limits, seed=None, conflict=(limit.name,))
             seed = nodes[np.argmax(least)]
         return _boxed(self.chart, limits, _deeper(self.chart, limits, seed))
 
@@ -313,10 +322,10 @@ def _limits(drive, flank, uses):
         found = flank(places)
         if np.isfinite(found.margins.get("face", np.full(1, np.nan))).any():
             return limits
-        visited, _ = lengthwise(flank, found)
+        visited = lengthwise(flank, found)
         visited = visited[np.isfinite(visited)]
-        if sections := Sections.of(flank):
-            visited = np.concatenate([visited, sections.at(uses.edges(flank.body["name"]))])
+        if flank.sections:
+            visited = np.concatenate([visited, flank.sections.at(uses.edges(flank.body["name"]))])
         if not len(visited):
             return limits
         beyond = uses.beyond * _lengthwise_size(flank, found, sizes)
@@ -327,15 +336,16 @@ def _limits(drive, flank, uses):
             raise UsageError(f"{whole.why_empty}; change [blank] or [design]")
         along = whole.lines.along
         low, high, name = along[0], along[-1], "face"
-    return limits.with_(name, lambda at: _beyond(flank, at, 1.0, low)).with_(
-        name, lambda at: _beyond(flank, at, -1.0, high)
+    return limits.with_(_lengthwise_end(name, flank, 1.0, low), _lengthwise_end(name, flank, -1.0, high))
+
+
+def _lengthwise_end(name, flank, sign, end):
+    """The :class:`Limit` of how far points are from an end of the tooth."""
+    return Limit(
+        name,
+        lambda found: sign * (lengthwise(flank, found) - end),
+        lambda found: sign * lengthwise_slopes(flank, found),
     )
-
-
-def _beyond(flank, found, sign, end):
-    """How far beyond an end of the tooth points are, positive inside, and the slopes of that."""
-    along, slopes = lengthwise(flank, found)
-    return sign * (along - end), sign * slopes
 
 
 def _lengthwise_size(flank, found, sizes):
@@ -417,7 +427,8 @@ def _rays(chart, limits, start, ways):
     """
     rays = _Rays.of(chart, limits, start, ways)
     ended = np.flatnonzero(np.isfinite(rays.outer))
-    ends, exact = rays.divided(ended), LAST_PLACES * np.spacing(np.abs(rays.outer[ended]))
+    ends, sizes = rays.divided(ended), np.maximum(*np.abs([rays.inner[ended], rays.outer[ended]]))
+    exact = LAST_PLACES * np.spacing(sizes)
     rays.inner[ended], rays.outer[ended] = narrowed(
         lambda at, which: rays.least(at, ended[which]), rays.inner[ended], rays.outer[ended], ends, exact
     )
@@ -464,9 +475,10 @@ class _Rays:
     def least(self, at, which):
         """The least limit (M,) at coordinates (M,) of the rays ``which`` (M,), which keep what they meet."""
         trials, values = self._at(at, which)
-        inside = values.min(axis=1) >= 0.0
+        least = values.min(axis=1)
+        inside = least >= 0.0
         self.q[which[inside]], self.limit[which[~inside]] = trials[inside], np.argmin(values[~inside], axis=1)
-        return values.min(axis=1)
+        return least
 
     def divided(self, which):
         """Narrow some rays to the first of the places between at which they are outside; the least limit inside, and
@@ -502,15 +514,19 @@ def _closed(chart, limits, start, places, beyond):
         if closed if axis == 0 else along:
             continue
         end = max((sign * used[:, number]).max(), sign * start[number]) + beyond * chart.sizes[number]
-        limits = limits.with_(OPEN, lambda at, sign=sign, end=end, i=number: _parameter(at, i, sign, end))
+        limits = limits.with_(_parameter_end(number, sign, end))
     return limits
 
 
-def _parameter(found, number, sign, end):
-    """How far a parameter is from an end, positive inside, and the slopes of that."""
-    slopes = np.zeros(found.parameters.shape)
-    slopes[:, number] = -sign
-    return end - sign * found.parameters[:, number], slopes
+def _parameter_end(number, sign, end):
+    """The :class:`Limit` of how far a parameter, times a sign, is from an end."""
+
+    def slopes(found):
+        by_parameters = np.zeros(found.parameters.shape)
+        by_parameters[:, number] = -sign
+        return by_parameters
+
+    return Limit(OPEN, lambda found: end - sign * found.parameters[:, number], slopes)
 
 
 def _ends(chart, limits, start, sign):

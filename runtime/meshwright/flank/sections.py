@@ -26,15 +26,14 @@ class Sections:
     angle: float
 
     @classmethod
-    def of(cls, flank):
-        """Those that a drive declares for a flank or another region, or None where a parameter runs along the tooth."""
-        word = flank.body["lengthwise"]
+    def of(cls, word, design):
+        """Those that a drive names for a surface of a design, or None where a parameter runs along the tooth."""
         if isinstance(word, cls) or not word:
             return word or None
         if word in ANGLES:
             return cls(ANGLES[word])
         table, key = table_and_key(word)
-        return cls(flank.drive.design.value(key, table))
+        return cls(design.value(key, table))
 
     @classmethod
     def of_faces(cls, points, edges):
@@ -107,20 +106,23 @@ class Sections:
 
 
 def lengthwise(flank, found):
-    """The coordinate along the tooth (N,) at flank points and its slopes by the parameters (N, k)."""
-    sections = Sections.of(flank)
-    if sections:
-        return sections.at(found.points), sections.slopes(found.points, found.tangents)
+    """The coordinate along the tooth (N,) at flank points."""
+    return flank.sections.at(found.points) if flank.sections else found.parameters[:, -1]
+
+
+def lengthwise_slopes(flank, found):
+    """Its slopes (N, k) by the parameters."""
+    if flank.sections:
+        return flank.sections.slopes(found.points, found.tangents)
     slopes = np.zeros(found.parameters.shape)
     slopes[:, -1] = 1.0
-    return found.parameters[:, -1], slopes
+    return slopes
 
 
 def lengthwise_bending(flank, found, second):
     """Second derivatives (N, k, k) of the coordinate along the tooth, from those of the points (N, 3, k, k)."""
-    sections = Sections.of(flank)
-    if sections:
-        return sections.second_slopes(found.points, found.tangents, second)
+    if flank.sections:
+        return flank.sections.second_slopes(found.points, found.tangents, second)
     return np.zeros((len(second), *second.shape[2:]))
 
 

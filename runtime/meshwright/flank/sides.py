@@ -77,7 +77,7 @@ class RegionSide:
         for one in (flank, fillet):
             if one is not None and one.empty:
                 raise UsageError(f"{one.why_empty}; change [blank] or [design]")
-        sections = Sections.of(flank.flank)
+        sections = flank.flank.sections
         found = flank.lines
         tip = _tip_is_upper(found)
         if fillet is None:

@@ -8,6 +8,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.model import DriveModel
+from meshwright.flank.sections import Sections
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ class Flank:
         compiled.scale(pointer(self.state), pointer(scale))
         known = dict(zip(of["parameters"], scale[of["unknowns"]], strict=True))
         return np.array([known.get(name, 1.0) for name in self.parameters])
+
+    @cached_property
+    def sections(self):
+        """The :class:`~meshwright.flank.sections.Sections` across the teeth; None where a parameter runs along them."""
+        return Sections.of(self.body["lengthwise"], self.drive.design)
 
     @property
     def parameters(self):

@@ -6,6 +6,7 @@ found by Newton's method. What lies below it on the flank, or above it on the fi
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,9 +16,9 @@ from numpy.polynomial import chebyshev
 from meshwright.base.errors import UsageError
 from meshwright.flank.lines import CELLS, SINGULAR, changes
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import Region, region
-from meshwright.flank.sections import Sections, lengthwise
-from meshwright.flank.sides import PLACES_ALONG, Floats, RegionSide
+from meshwright.flank.region import Limit, Region, region
+from meshwright.flank.sections import Sections, lengthwise, lengthwise_slopes
+from meshwright.flank.sides import PLACES_ALONG, Bools, Floats, RegionSide
 
 #: Name of the limit.
 JUNCTION = "junction"
@@ -49,17 +50,26 @@ class Piece:
             found = cls(first, last, np.asarray(chebyshev.chebfit(_cosines(count), heights, count), dtype=float))
             between = _nodes(first, last, 2 * count)[1::2]
             exact = _heights(side, between)
-            if np.abs(found(between)[0] - exact).max() <= EXACT or 2 * count > MOST:
+            if np.abs(found(between) - exact).max() <= EXACT or 2 * count > MOST:
                 return found
             heights = np.insert(heights, np.arange(1, count + 1), exact)
             count *= 2
 
-    def __call__(self, along: Floats) -> tuple[Floats, Floats]:
-        """Heights (N,) in mm in sections (N,), and their slopes."""
-        half = 0.5 * (self.last - self.first)
-        at = (along - 0.5 * (self.first + self.last)) / half
-        slopes = chebyshev.chebval(at, chebyshev.chebder(self.series)) / half
-        return np.asarray(chebyshev.chebval(at, self.series), dtype=float), np.asarray(slopes, dtype=float)
+    def __call__(self, along: Floats) -> Floats:
+        """Heights (N,) in mm in sections (N,)."""
+        return np.asarray(chebyshev.chebval(self._place(along), self.series), dtype=float)
+
+    def slopes(self, along: Floats) -> Floats:
+        """Their slopes (N,)."""
+        slopes = chebyshev.chebval(self._place(along), chebyshev.chebder(self.series)) / self._half
+        return np.asarray(slopes, dtype=float)
+
+    def _place(self, along: Floats) -> Floats:
+        return (along - 0.5 * (self.first + self.last)) / self._half
+
+    @property
+    def _half(self) -> float:
+        return 0.5 * (self.last - self.first)
 
 
 @dataclass(frozen=True)
@@ -95,25 +105,39 @@ class Crossing:
     def bounds(self, found: Region) -> Region:
         """The region of the flank or of the fillet with this limit."""
         sign = self.outward if found.flank.region == "flank" else -self.outward
-        return found.within(JUNCTION, lambda at: self._beyond(found.flank, at, sign))
+        limit = Limit(
+            JUNCTION,
+            lambda at: self._within(found.flank, at, sign),
+            lambda at: self._within_slopes(found.flank, at, sign),
+        )
+        return found.within(limit)
 
-    def _beyond(self, flank: Any, found: Any, sign: float) -> tuple[Floats, Floats]:
-        """How far points lie within the limit, mm, not a number in sections without one; and the slopes of that."""
-        along, along_slopes = lengthwise(flank, found)
-        value, slopes = np.full(len(along), np.nan), np.full(found.parameters.shape, np.nan)
-        height, height_slopes = self.sections.height(found.points), self._slopes(found)
+    def _within(self, flank: Any, found: Any, sign: float) -> Floats:
+        """How far (N,) points lie within the limit, mm, not a number in sections without one."""
+        along, values = lengthwise(flank, found), np.full(len(found.points), np.nan)
+        height = self.sections.height(found.points)
+        for piece, here in self._shares(along):
+            values[here] = sign * (height[here] - piece(along[here]))
+        return values
+
+    def _within_slopes(self, flank: Any, found: Any, sign: float) -> Floats:
+        """The slopes (N, k) of that by the parameters."""
+        along, slopes = lengthwise(flank, found), np.full(found.parameters.shape, np.nan)
+        height_slopes, along_slopes = self._height_slopes(found), lengthwise_slopes(flank, found)
+        for piece, here in self._shares(along):
+            slopes[here] = sign * (height_slopes[here] - piece.slopes(along[here])[:, None] * along_slopes[here])
+        return slopes
+
+    def _shares(self, along: Floats) -> Iterator[tuple[Piece, Bools]]:
+        """Each piece, and which of the sections (N,) are its own."""
         room = ROOM * (self.reach[1] - self.reach[0])
         for piece in self.pieces:
             # lines at the very faces lie beyond them by rounding
             low = piece.first - (room if piece.first == self.reach[0] else 0.0)
             high = piece.last + (room if piece.last == self.reach[1] else 0.0)
-            here = (along >= low) & (along <= high)
-            limit, slope = piece(along[here])
-            value[here] = sign * (height[here] - limit)
-            slopes[here] = sign * (height_slopes[here] - slope[:, None] * along_slopes[here])
-        return value, slopes
+            yield piece, (along >= low) & (along <= high)
 
-    def _slopes(self, found: Any) -> Floats:
+    def _height_slopes(self, found: Any) -> Floats:
         """Slopes (N, k) of the height by the parameters."""
         sine, cosine = self.sections.sides
         radius = np.hypot(found.points[:, 0], found.points[:, 1])[:, None]
@@ -130,7 +154,7 @@ def crossing(drive: Any, member: str) -> Crossing | None:
 def undercut_side(drive: Any, member: str) -> RegionSide | None:
     """The side of a tooth whose flank ends at its singular line and may be cut off by its fillet; None as above."""
     regions = {(r["name"], r["region"]) for r in drive.design.description["regions"]}
-    if Sections.of(drive.flank(member)) is None or (member, "fillet") not in regions:
+    if drive.flank(member).sections is None or (member, "fillet") not in regions:
         return None
     flank = region(drive, member, "flank", drive.uses)
     if flank.empty or not _ends_at_singular_line(flank):

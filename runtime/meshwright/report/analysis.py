@@ -290,8 +290,8 @@ def _patches(drive, tca, matrices):
 
 
 def _line_patches(drive, lines):
-    """Both flanks around the lines of contact; none where there are no lines."""
-    touching = [line for line in lines if len(line.points)]
+    """Both flanks around the lines of contact; none where there are no lines but points."""
+    touching = [line for line in lines if len(line.points) > 1]
     if not touching:
         return {}
     size = max(np.linalg.norm(np.ptp(line.points, axis=0)) for line in touching)

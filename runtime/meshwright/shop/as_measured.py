@@ -15,7 +15,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
 from meshwright.drive import Drive
-from meshwright.flank.sections import lengthwise, lengthwise_bending
+from meshwright.flank.sections import lengthwise, lengthwise_bending, lengthwise_slopes
 from meshwright.pattern.gap import smallest_margin
 from meshwright.shop.located import located
 from meshwright.shop.spline import Knots
@@ -89,7 +89,7 @@ class Field:
     @classmethod
     def _over(cls, flank, nodes, values):
         found = flank(nodes.reshape(-1, nodes.shape[2]))
-        reached, normals = lengthwise(flank, found)[0].reshape(values.shape), found.normals.reshape(*values.shape, 3)
+        reached, normals = lengthwise(flank, found).reshape(values.shape), found.normals.reshape(*values.shape, 3)
         profile, along = nodes[:, :, 0], reached.mean(axis=0)
         ends = profile[[0, -1]]
         shares = (profile - ends[0]) / (ends[1] - ends[0])
@@ -115,7 +115,7 @@ class Field:
         """First (P, 3, k) and second (P, 3, k, k) derivatives of the displacement by the flank's parameters, from the
         second ones (P, 3, k, k) of the flank's points.
         """
-        _, y_slopes = lengthwise(self.flank, found)
+        y_slopes = lengthwise_slopes(self.flank, found)
         y_bent = lengthwise_bending(self.flank, found, second)
         share, y, _ = self._place(found)
         along = self.along.weights(y)
@@ -145,7 +145,7 @@ class Field:
         """The share of the profile (P,) and that within reach of the spline; the coordinate along the tooth (P,)
         within its reach, and as it is.
         """
-        reached, _ = lengthwise(self.flank, found)
+        reached = lengthwise(self.flank, found)
         room, step = np.diff(self.along.places), np.diff(self.across.places)
         y = np.clip(reached, self.along.places[0] - room[0], self.along.places[-1] + room[-1])
         along = self.along.weights(y)[0]
