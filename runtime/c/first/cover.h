@@ -132,8 +132,10 @@ static const place *middle_of(const search *h, const place *a, const place *b, d
 {
     middle *m = known + slot_of(h, a, b);
     const size_t size = (size_t)h->nw * sizeof *a->q;
-    const int same = memcmp(m->a, a->q, size) == 0 && memcmp(m->b, b->q, size) == 0;
-    if (m->shortest == shortest && (same || (memcmp(m->a, b->q, size) == 0 && memcmp(m->b, a->q, size) == 0))) return &m->at;
+    if (m->shortest == shortest) {
+        const int same = memcmp(m->a, a->q, size) == 0 && memcmp(m->b, b->q, size) == 0;
+        if (same || (memcmp(m->a, b->q, size) == 0 && memcmp(m->b, a->q, size) == 0)) return &m->at;
+    }
     memcpy(m->a, a->q, size);
     memcpy(m->b, b->q, size);
     m->shortest = shortest;
