@@ -120,8 +120,9 @@ size_t mw_arclength(const mw_model *m, double *s, double phi0, const double *x0,
                     double *x, double *slope, double *determinant);
 
 /* Follow the line of contact at the angle that s is set up for: from x[nx], corrected straight onto the line, count steps of
- * so many natural sizes: x[(count+1)*nx]. border[2*nx], unit vectors in natural sizes: the direction of the line and the left null vector
- * of the Jacobian near x; at the end those at the last point. Returns the number of points, fewer where the line is lost. */
+ * so many natural sizes: x[(count+1)*nx]. border[2*nx], unit vectors in natural sizes: the direction of the line and the left
+ * null vector of the Jacobian near x; at the end those at the last point. Returns the number of points, fewer where the line
+ * is lost. */
 size_t mw_line(const mw_model *m, const double *s, double *border, double step, size_t count, double *x);
 
 /* The singular point of the equations next to phi and x[nx], to round-off. crossing = 0: a fold, where the branch turns

@@ -19,7 +19,7 @@ from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.drive import Drive
 from meshwright.flank import exports
-from meshwright.flank.grids import MOST_POINTS
+from meshwright.flank.grids import checked_size
 from meshwright.flank.step import step
 from meshwright.limits.sections import section
 
@@ -162,10 +162,7 @@ def _shape(text):
     match = re.fullmatch(r"(\d+)x(\d+)", text)
     if not match:
         raise UsageError(f"--grid {text}: not NxM; for example --grid 21x41")
-    across, along = int(match[1]), int(match[2])
-    if across * along > MOST_POINTS:
-        raise UsageError(f"--grid {text}: {across * along} points; {MOST_POINTS} at most")
-    return across, along
+    return checked_size((int(match[1]), int(match[2])))
 
 
 def _write_step(options, drive, shape):

@@ -38,6 +38,13 @@ class Grid:
     mesh: Triangulation | None = None
 
 
+def checked_size(shape):
+    """The shape of a grid; raises :class:`~meshwright.base.errors.UsageError` for more points than anyone means."""
+    if (points := math.prod(map(int, shape))) > MOST_POINTS:
+        raise UsageError(f"--grid {'x'.join(map(str, shape))}: {points} points; {MOST_POINTS} at most")
+    return shape
+
+
 def grid(drive, member, shape, name, inset=0.0):
     """The :class:`Grid` of the region ``name`` of a member.
 
@@ -50,8 +57,7 @@ def grid(drive, member, shape, name, inset=0.0):
     asked = "x".join(map(str, counts)) if len(counts) == 2 else shape
     if len(counts) != 2 or not all(isinstance(n, int | np.integer) and n >= 2 for n in counts):
         raise UsageError(f"--grid {asked}: needs at least 2 points each way; for example --grid 21x41")
-    if (points := math.prod(map(int, counts))) > MOST_POINTS:
-        raise UsageError(f"--grid {asked}: {points} points; {MOST_POINTS} at most")
+    checked_size(counts)
     if not (isinstance(inset, Real) and 0.0 <= inset < 0.5):
         raise UsageError(f"inset = {inset!r}: must be a share from 0 to below 0.5; 0.05 is usual")
     whole = drive.region(member, name)
