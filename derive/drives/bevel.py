@@ -281,8 +281,8 @@ def _cone(m, point):
     """(along the pitch cone, below the face cone) of a point of the body."""
     x, y, z = point
     rho, delta, tip = v.radius(x, y), m.pitch_angle.symbol, m.face_angle.symbol
-    along = (z + m.pitch_apex.symbol) * sp.cos(delta) + rho * sp.sin(delta)
-    return along, (z + m.face_apex.symbol) * sp.sin(tip) - rho * sp.cos(tip)
+    along = (z + m.pitch_apex.symbol) * sp.cos(delta) + v.times(rho, sp.sin(delta))
+    return along, (z + m.face_apex.symbol) * sp.sin(tip) - v.times(rho, sp.cos(tip))
 
 
 def _margins(tooth, point):

@@ -14,6 +14,7 @@ from typing import ClassVar, TypeAlias, TypeVar
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.differentiate import partial
 from derive.language.origin import joined
 from derive.language.replace import replaced
 from derive.language.vectors import Number
@@ -39,7 +40,7 @@ class Rotation:
     rests_on: ClassVar[tuple[str, ...]] = ("conventions/rotations", "conventions/sums", "derivation/rotation")
 
     def direction(self, a: v.Vector) -> v.Vector:
-        return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
+        return _turned(self.axis, v.cosine(self.angle), v.sine(self.angle), a)
 
     point = direction
 
@@ -48,14 +49,14 @@ class Rotation:
 
     def turn(self, variable: sp.Symbol) -> v.Vector:
         """Angular velocity over ``variable``, which is the same in either frame."""
-        return v.scale(sp.diff(self.angle, variable), v.AXES[self.axis])
+        return v.scale(partial(self.angle, variable), v.AXES[self.axis])
 
     def inverse(self) -> Rotation:
         return Rotation(self.axis, -self.angle)
 
     def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
         """∂/∂variable of a body-fixed point, as components in the moving frame."""
-        return v.scale(sp.diff(self.angle, variable), v.cross(v.AXES[self.axis], point))
+        return v.scale(partial(self.angle, variable), v.cross(v.AXES[self.axis], point))
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class Translation:
         return Translation(v.scale(-1, self.offset))
 
     def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
-        return tuple(sp.diff(c, variable) for c in self.offset)
+        return tuple(partial(c, variable) for c in self.offset)
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ class Swing:
     rests_on: ClassVar[tuple[str, ...]] = ("derivation/swing", "derivation/rotation")
 
     def direction(self, a: v.Vector) -> v.Vector:
-        return _turned(self.axis, sp.cos(self.angle), sp.sin(self.angle), a)
+        return _turned(self.axis, v.cosine(self.angle), v.sine(self.angle), a)
 
     def point(self, a: v.Vector) -> v.Vector:
         first, second = _OTHERS[self.axis]
@@ -130,13 +131,13 @@ class Swing:
 
     def turn(self, variable: sp.Symbol) -> v.Vector:
         """As :meth:`Rotation.turn`."""
-        return v.scale(sp.diff(self.angle, variable), v.AXES[self.axis])
+        return v.scale(partial(self.angle, variable), v.AXES[self.axis])
 
     def inverse(self) -> Swing:
         return replace(self, angle=-self.angle)
 
     def local_velocity(self, variable: sp.Symbol, point: v.Vector) -> v.Vector:
-        rate = sp.diff(self.angle, variable)
+        rate = partial(self.angle, variable)
         return v.scale(rate, v.cross(v.AXES[self.axis], v.sub(point, self.centre)))
 
 
@@ -350,7 +351,7 @@ class Motion:
                 moved = v.add(moved, back.direction(factor.local_velocity(variable, v.ORIGIN)))
             elif isinstance(factor, Rotation | Swing):
                 centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN
-                rate = back.direction(v.scale(sp.diff(factor.angle, variable), v.AXES[factor.axis]))
+                rate = back.direction(v.scale(partial(factor.angle, variable), v.AXES[factor.axis]))
                 moved = v.sub(moved, v.cross(rate, back.point(centre)))
                 turning = v.add(turning, rate)
         moved = v.add(moved, v.cross(turning, inner._through(v.ORIGIN)))
@@ -367,7 +368,7 @@ class Motion:
         factor, outer = self.factors[moving[0] if moving else 0], Motion(self.factors[: moving[0] if moving else 0])
         if len(moving) != 1 or not isinstance(factor, Rotation | Swing):
             raise ValueError(f"{variable} does not turn the body about one axis")
-        rate = sp.diff(factor.angle, variable)
+        rate = partial(factor.angle, variable)
         if rate not in (1, -1):
             raise ValueError(f"the body does not turn by {variable} but by {rate} times it")
         centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN

@@ -20,6 +20,7 @@ class Definitions:
     def __init__(self) -> None:
         self._symbols: list[Quantity] = []
         self._values: dict[sp.Symbol, sp.Expr] = {}
+        self._read: dict[sp.Symbol, set[sp.Symbol]] = {}
         self._derivatives: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = {}
         self._origins: dict[sp.Symbol, Origin | None] = {}
         self._equations: dict[sp.Expr, tuple[sp.Expr, sp.Expr]] = {}
@@ -113,9 +114,15 @@ class Definitions:
         seen: set[sp.Symbol] = set()
         while named := {s for s in open_ if s in self._values}:
             seen |= named
-            inner = {q for s in named for q in self._values[s].free_symbols}
+            inner = {q for s in named for q in self._symbols_of(s)}
             open_ = (open_ - named) | (inner - seen)
         return open_
+
+    def _symbols_of(self, symbol: sp.Symbol) -> set[sp.Symbol]:
+        """The symbols in what a name stands for."""
+        if symbol not in self._read:
+            self._read[symbol] = self._values[symbol].free_symbols
+        return self._read[symbol]
 
     def depends(self, expression: Number, variable: sp.Symbol) -> bool:
         """Whether the expression contains the variable, directly or through definitions."""

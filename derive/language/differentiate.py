@@ -5,20 +5,23 @@ The rules are SymPy's own, taken without the questions (is it zero, is it finite
 
 import sympy as sp
 
+from derive.language.vectors import Number
 
-def partial(expression: sp.Expr, variable: sp.Expr) -> sp.Expr:
+
+def partial(expression: Number, variable: sp.Expr) -> sp.Expr:
     """∂expression/∂variable of sums, products, powers and functions that know their own derivative (``fdiff``)."""
-    return _partial(expression, variable, {})
+    return _partial(sp.sympify(expression), variable, {})
 
 
 def _partial(expression: sp.Expr, variable: sp.Expr, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    if variable not in expression.free_symbols:
-        return sp.S.Zero
     if expression == variable:
         return sp.S.One
+    if not expression.args:
+        return sp.S.Zero
     if expression not in known:
         inner = [_partial(argument, variable, known) for argument in expression.args]
-        known[expression] = _chain_rule(expression, inner)
+        moved = any(d is not sp.S.Zero for d in inner)
+        known[expression] = _chain_rule(expression, inner) if moved else sp.S.Zero
     return known[expression]
 
 

@@ -36,7 +36,7 @@ def sub(a: Vector, b: Vector) -> Vector:
 
 
 def scale(factor: Number, a: Vector) -> Vector:
-    return tuple(_times(factor, p) for p in a)
+    return tuple(times(factor, p) for p in a)
 
 
 def combined(factors: Vector, vectors: Iterable[Vector]) -> Vector:
@@ -50,16 +50,22 @@ def signed(sign: Number, a: Vector) -> Vector:
 
 
 def dot(a: Vector, b: Vector) -> sp.Expr:
-    return sp.Add(*(_times(p, q) for p, q in zip(a, b, strict=True)))
+    return sp.Add(*(times(p, q) for p, q in zip(a, b, strict=True)))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    return tuple(_times(a[i], b[j]) - _times(a[j], b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
+    return tuple(times(a[i], b[j]) - times(a[j], b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
-def _times(p: Number, q: sp.Expr) -> sp.Expr:
-    """p q, without asking whether a factor of zero is finite."""
-    return sp.S.Zero if p == 0 or q == 0 else p * q
+def times(p: Number, q: sp.Expr) -> sp.Expr:
+    """p q, without asking whether a factor of zero is finite, or the terms of a sum under a root."""
+    if p == 0 or q == 0:
+        return sp.S.Zero
+    return p * q if sp.S.One in (p, q) or not (_of_sum(p) or _of_sum(q)) else sp.Mul(p, q, evaluate=False)
+
+
+def _of_sum(a: Number) -> bool:
+    return isinstance(a, sp.Pow) and isinstance(a.base, sp.Add)
 
 
 def unit(a: Vector) -> Vector:
@@ -84,6 +90,26 @@ def root(a: Number) -> sp.Expr:
 def _power(a: sp.Expr, exponent: Number) -> sp.Expr:
     """A power, of a sum without asking whether its terms are finite."""
     return sp.Pow(a, exponent, evaluate=not isinstance(a, sp.Add))
+
+
+def sine(angle: Number) -> sp.Expr:
+    """sin angle, of a sum or product without asking whether it is real."""
+    angle = sp.sympify(angle)
+    if not _composed(angle):
+        return sp.sin(angle)
+    return -sp.sin(-angle, evaluate=False) if angle.could_extract_minus_sign() else sp.sin(angle, evaluate=False)
+
+
+def cosine(angle: Number) -> sp.Expr:
+    """cos angle, of a sum or product without asking whether it is real."""
+    angle = sp.sympify(angle)
+    if not _composed(angle):
+        return sp.cos(angle)
+    return sp.cos(-angle if angle.could_extract_minus_sign() else angle, evaluate=False)
+
+
+def _composed(angle: sp.Expr) -> bool:
+    return isinstance(angle, sp.Add | sp.Mul) and not angle.has(sp.pi)
 
 
 def arc(y: Number, x: Number) -> sp.Expr:

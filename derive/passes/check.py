@@ -94,11 +94,11 @@ def _residue(tape: Tape, i: int) -> int:
     """The residue of a node: of an input random, of a constant its own, of all else by the tape's operations."""
     values = _TAPES.setdefault(tape, {})
     if i not in values:
-        for k in [*tape.needed([i], values), i]:
+        at_hand = all(a in values for a in tape.arguments[i])
+        for k in [i] if at_hand else tape.needed([i], values):
             node = tape.nodes[k]
-            if k not in values:
-                args = (values[a] if a in values else _residue(tape, a) for a in node.args)
-                values[k] = _APPLY[node.op](*args) % _prime() if node.args else _leaf(tape, k)
+            args = (values[a] if a in values else _residue(tape, a) for a in node.args)
+            values[k] = _APPLY[node.op](*args) % _prime() if node.args else _leaf(tape, k)
     return values[i]
 
 

@@ -5,14 +5,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-import mpmath
 import sympy as sp
 
 from derive.language.drive import Drive, Margin
 from derive.language.symbols import Table
 from derive.language.validate import Joint
 from derive.passes.plan import Flank, Schedule
-from derive.passes.sample import DIGITS, Completion, Values, in_double, near, solution, solve
+from derive.passes.sample import Completion, Values, in_double, near, solution, solve
 
 Row: TypeAlias = list[float]
 
@@ -102,35 +101,34 @@ def _samples(plan: Schedule) -> Iterator[tuple[str, Mapping[sp.Symbol, float]]]:
     complete = Completion(drive, plan.systems)
     which = next(p for p in drive.parameters if p.table is Table.FLANK)
     for word, number in which.choices:
+        own = float(plan.sample[which.symbol]) == number
         try:
-            with mpmath.workdps(DIGITS):
-                own = float(plan.sample[which.symbol]) == number
-                design = dict(plan.sample) if own else complete({**drive.sample, which.key: number})
-                _fill(drive, design)
-                yield word, in_double(design if own else _contact(plan, design))
-        except ArithmeticError:  # the other flank may need a design of its own
+            design = in_double(plan.sample) if own else complete({**drive.sample, which.key: number}, math)
+            _fill(drive, design)
+            yield word, design if own else _contact(plan, design)
+        except (ArithmeticError, ValueError):  # the other flank may need a design of its own
             continue
 
 
 def _contact(plan: Schedule, design: Values) -> Values:
     try:
-        return solve(plan, design, plan.drive.sample_angle)
+        return solve(plan, design, plan.drive.sample_angle, math)
     except ArithmeticError:
-        return near(plan, design, plan.drive.sample_angle)
+        return near(plan, design, plan.drive.sample_angle, math)
 
 
-def _excess(value: mpmath.mpf) -> mpmath.mpf:
-    return max(value, mpmath.mpf(0))
+def _excess(value: float) -> float:
+    return max(value, 0.0)
 
 
 def _fill(drive: Drive, design: Values) -> None:
     """Fill in the sizes of blank and tools that a design leaves open."""
     for rule in drive.proportions:
-        if mpmath.isnan(design[rule.target]):
+        if math.isnan(design[rule.target]):
             value = sp.sympify(drive.definitions.resolve(rule.value))
             known = sorted(value.free_symbols, key=str)
-            number = sp.lambdify(known, value, [{"excess": _excess}, "mpmath"])
-            design[rule.target] = mpmath.mpf(number(*(design[q] for q in known)))
+            number = sp.lambdify(known, value, [{"excess": _excess}, "math"])
+            design[rule.target] = float(number(*(design[q] for q in known)))
 
 
 def _joint(

@@ -70,29 +70,30 @@ def latency_order(
     """
     graph = _Graph(program, outputs)
     copies = [_Copy(graph, lag) for lag in lags]
+    nodes, cost, pop, push = graph.nodes, graph.cost, heapq.heappop, heapq.heappush
     first = [n for n, args in enumerate(graph.args) if not args]
-    coming = [(0.0, k, graph.nodes[n], n) for k in range(len(lags)) for n in first]
+    coming = [(0.0, k, nodes[n], n) for k in range(len(lags)) for n in first]
     heapq.heapify(coming)
     ready: list[tuple[int, int, int]] = []
     result: list[tuple[int, int]] = []
     time = 0.0
     while coming or ready:
         while coming and (coming[0][0] <= time + _AHEAD or not ready):
-            at, k, _, n = heapq.heappop(coming)
+            at, k, _, n = pop(coming)
             time = max(time, at - _AHEAD)
             copies[k].ready[n] = True
-            heapq.heappush(ready, (copies[k].lateness[n], n, k))
-        _, n, k = heapq.heappop(ready)
+            push(ready, (copies[k].lateness[n], n, k))
+        _, n, k = pop(ready)
         copy = copies[k]
         if not copy.ready[n]:  # it was more urgent, and came sooner
             continue
-        result.append((k, graph.nodes[n]))
+        result.append((k, nodes[n]))
         released, hastened = copy.start(n, time)
         for u in hastened:
-            heapq.heappush(ready, (copy.lateness[u], u, k))
+            push(ready, (copy.lateness[u], u, k))
         for u in released:
-            heapq.heappush(coming, (copy.possible[u], k, graph.nodes[u], u))
-        time += graph.cost[n] / _WIDTH
+            push(coming, (copy.possible[u], k, nodes[u], u))
+        time += cost[n] / _WIDTH
     return result
 
 
@@ -145,9 +146,12 @@ class _Copy:
         self.possible = [0.0] * count
         self.ready = [False] * count
         self.lateness = [
-            lag - graph.height[n] + _REGISTER * (graph.results[n] - [uses[a] for a in graph.args[n]].count(1))
-            for n in range(count)
+            lag - height + _REGISTER * results for height, results in zip(graph.height, graph.results, strict=True)
         ]
+        for users, left in zip(graph.users, uses, strict=True):
+            if left == 1:
+                for u in users:
+                    self.lateness[u] -= _REGISTER
 
     def start(self, n: int, time: float) -> tuple[list[int], list[int]]:
         """Start operation n; returns those that may come now, and those ready that have become more urgent."""

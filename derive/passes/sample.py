@@ -15,8 +15,13 @@ from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Schedule
 from derive.program.tape import Lowering, Stage, Tape
 
-#: Inputs and their numbers, of many digits; a matrix, of these or of floats.
-Values: TypeAlias = dict[sp.Symbol, mpmath.mpf]
+#: Inputs and their numbers, of many digits or floats.
+Values: TypeAlias = dict[sp.Symbol, Any]
+
+#: :mod:`math` or :mod:`mpmath`, whose functions take and give those numbers.
+Arithmetic: TypeAlias = Any
+
+#: What a matrix consists of.
 Real = TypeVar("Real", float, mpmath.mpf)
 
 #: Digits of the arithmetic: enough that the result is exact to double precision.
@@ -29,8 +34,8 @@ BESIDE = 1.0 / 64.0
 #: Steps in which the path of a design system is followed.
 PATH_STEPS = 16
 
-#: Newton's last change on the way: what is left of the error is its square.
-ON_PATH = 1e-4
+#: Newton's last change on the way, and where doubles have found a solution: what is left of the error is its square.
+ON_PATH, FOUND = 1e-4, 1e-8
 
 
 class NoSample(DescriptionError, ArithmeticError):
@@ -47,25 +52,26 @@ class Completion:
         self._rules = [(rule.target, lower.tape, lower(rule.value)) for rule in drive.rules]
         self._systems = [lower_system(s, drive.parameters) for s in drive.systems] if systems is None else systems
 
-    def __call__(self, design: Mapping[str, float | int | str]) -> Values:
+    def __call__(self, design: Mapping[str, float | int | str], arithmetic: Arithmetic = mpmath) -> Values:
         """Parameter values by symbol for a ``design`` (key → number), complete; parameters left open are NaN."""
-        values: Values = {p.symbol: mpmath.nan for p in self._parameters}
+        number = real(arithmetic)
+        values: Values = {p.symbol: number(math.nan) for p in self._parameters}
         for p in self._parameters:
             key = p.key if p.table == Table.FLANK else p.place
             if key in design:
-                values[p.symbol] = _number(p.factor) * mpmath.mpf(design[key])
+                values[p.symbol] = number(p.factor.evalf(DIGITS)) * number(design[key])
             elif p.default is not None:
-                values[p.symbol] = _number(p.default)
-        self._apply_rules(values)
+                values[p.symbol] = number(p.default.evalf(DIGITS))
+        self._apply_rules(values, arithmetic)
         for system in self._systems:
-            _complete(system, values)
-            self._apply_rules(values)
+            _complete(system, values, arithmetic)
+            self._apply_rules(values, arithmetic)
         return values
 
-    def _apply_rules(self, values: Values) -> None:
+    def _apply_rules(self, values: Values, arithmetic: Arithmetic) -> None:
         for target, tape, node in self._rules:
-            if mpmath.isnan(values[target]):
-                values[target] = tape.evaluate([node], values, mpmath)[0]
+            if arithmetic.isnan(values[target]):
+                values[target] = tape.evaluate([node], values, arithmetic)[0]
 
 
 def sample_parameters(drive: Drive, systems: Sequence[SystemTape] | None = None) -> Values:
@@ -73,29 +79,21 @@ def sample_parameters(drive: Drive, systems: Sequence[SystemTape] | None = None)
     return Completion(drive, systems)(drive.sample)
 
 
-def _complete(plan: SystemTape, values: Values) -> None:
-    """Fill in what a design system gives, following its path in equal steps and double precision, exactly only at its
-    end.
-    """
+def _complete(plan: SystemTape, values: Values, arithmetic: Arithmetic) -> None:
+    """Fill in what a design system gives, following its path in equal steps and exactly only at its end."""
     unknowns = plan.unknowns
-    inputs = dict(values)
-    inputs.update(zip(unknowns, plan.tape.evaluate(plan.guess, inputs, mpmath), strict=True))
-    on_path = _iteration(plan.tape, plan.residual, plan.jacobian, unknowns, math)
-    near = dict[sp.Symbol, Any](in_double(inputs))
+    equations = Equations(plan.tape, plan.residual, plan.jacobian, unknowns)
+    near: Values = in_double(values)
+    near.update(zip(unknowns, plan.tape.evaluate(plan.guess, near, math), strict=True))
     for step in range(PATH_STEPS):
         near[PATH] = step / PATH_STEPS
-        on_path(near, ON_PATH)
-    for symbol in unknowns:
-        inputs[symbol] = mpmath.mpf(near[symbol])
-    inputs[PATH] = mpmath.mpf(1)
-    _iteration(plan.tape, plan.residual, plan.jacobian, unknowns)(inputs)
-    for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, mpmath), strict=True):
-        if mpmath.isnan(values[target]):
+        equations.newton(near, math, ON_PATH)
+    number = real(arithmetic)
+    inputs = values | {PATH: number(1)} | {symbol: number(near[symbol]) for symbol in unknowns}
+    equations.solve(inputs, arithmetic)
+    for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, arithmetic), strict=True):
+        if arithmetic.isnan(values[target]):
             values[target] = value
-
-
-def _number(expression: sp.Expr) -> mpmath.mpf:
-    return mpmath.mpf(expression.evalf(DIGITS))
 
 
 def sample_contact(plan: Schedule) -> Values:
@@ -110,6 +108,11 @@ def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
     with mpmath.workdps(DIGITS):
         numbers = iter(plan.tape.evaluate(nodes, plan.sample, mpmath))
     return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
+
+
+def real(arithmetic: Arithmetic) -> type[Any]:
+    """The real numbers of an arithmetic."""
+    return getattr(arithmetic, "mpf", float)
 
 
 def in_double(inputs: Values) -> dict[sp.Symbol, float]:
@@ -131,54 +134,70 @@ def beside(plan: Schedule) -> list[float]:
     return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
 
-def solve(plan: Schedule, parameters: Values, angle: float) -> Values:
-    """Start system, then contact, by full Newton steps in the current mpmath precision."""
-    inputs = near(plan, parameters, angle)
-    _iteration(plan.tape, plan.residual, plan.jacobian, plan.unknowns)(inputs)
+def solve(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
+    """Inputs (symbol → number) at a contact: start system, then contact, by full Newton steps."""
+    inputs = near(plan, parameters, angle, arithmetic)
+    Equations(plan.tape, plan.residual, plan.jacobian, plan.unknowns).solve(inputs, arithmetic)
     return inputs
 
 
-def near(plan: Schedule, parameters: Values, angle: float) -> Values:
+def near(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
     """Inputs (symbol → number) close to a contact: the solution of the start system."""
     drive = plan.drive
     inputs = dict(parameters)
-    inputs[drive.instant] = mpmath.mpf(angle)
+    inputs[drive.instant] = real(arithmetic)(angle)
     start = [u.symbol for u in drive.start.unknowns]
-    inputs.update(zip(start, plan.tape.evaluate(plan.start_guess, inputs, mpmath), strict=True))
-    _iteration(plan.tape, plan.start_residual, plan.start_jacobian, start)(inputs)
-    solution = plan.tape.evaluate(plan.start_solution, inputs, mpmath)
+    inputs.update(zip(start, plan.tape.evaluate(plan.start_guess, inputs, arithmetic), strict=True))
+    Equations(plan.tape, plan.start_residual, plan.start_jacobian, start).solve(inputs, arithmetic)
+    solution = plan.tape.evaluate(plan.start_solution, inputs, arithmetic)
     inputs.update(zip(plan.unknowns, solution, strict=True))
     return inputs
 
 
-def _iteration(
-    tape: Tape,
-    residual: Sequence[int],
-    jacobian: Sequence[Sequence[int]],
-    unknowns: Sequence[sp.Symbol],
-    arithmetic: Any = mpmath,  # noqa: ANN401  a module or alike
-) -> Callable[..., None]:
-    """Function that changes the unknowns among its inputs (symbol → number) until the residual vanishes, or until a
-    change is below the tolerance given.
-    """
-    n = len(unknowns)
-    evaluate = tape.evaluator([*residual, *(e for row in jacobian for e in row)], arithmetic)
-    exact = mpmath.mpf(10) ** (-mpmath.mp.dps // 2 - 5)
+class Equations:
+    """Equations on a tape, with their slopes by the unknowns, for Newton's method in any arithmetic."""
 
-    def iterate(inputs: Values, tolerance: float | None = None) -> None:
+    def __init__(
+        self, tape: Tape, residual: Sequence[int], jacobian: Sequence[Sequence[int]], unknowns: Sequence[sp.Symbol]
+    ) -> None:
+        self._tape, self._nodes = tape, [*residual, *(e for row in jacobian for e in row)]
+        self._unknowns = unknowns
+        self._evaluators: dict[Arithmetic, Callable[[Values], list[Any]]] = {}
+
+    def solve(self, inputs: Values, arithmetic: Arithmetic) -> None:
+        """Change the unknowns among ``inputs`` (symbol → number) to a solution: by doubles, whose last two steps are
+        done again where the arithmetic has more digits.
+        """
+        try:
+            near: Values = in_double(inputs)
+        except TypeError as error:  # a complex number
+            raise self._unreal() from error
+        self.newton(near, math, FOUND)
+        number = real(arithmetic)
+        inputs.update((symbol, number(near[symbol])) for symbol in self._unknowns)
+        if number is not float:
+            self.newton(inputs, arithmetic, 10.0 ** (-mpmath.mp.dps // 2 - 5))
+
+    def newton(self, inputs: Values, arithmetic: Arithmetic, tolerance: float) -> None:
+        """Change the unknowns among ``inputs`` until a change is below the tolerance."""
+        unknowns, n, number = self._unknowns, len(self._unknowns), real(arithmetic)
+        if arithmetic not in self._evaluators:
+            self._evaluators[arithmetic] = self._tape.evaluator(self._nodes, arithmetic)
+        evaluate = self._evaluators[arithmetic]
         for _ in range(60):
             try:
                 numbers = evaluate(inputs)
             except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
-                raise NoSample(f"the sample of {unknowns} leaves the real numbers; choose another") from error
-            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)], mpmath.mpf)
+                raise self._unreal() from error
+            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)], number)
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
-            if max(map(abs, change), default=0) < (tolerance or exact):
+            if max(map(abs, change), default=0) < tolerance:
                 return
         raise NoSample(f"the sample of {unknowns} does not converge; choose another sample design")
 
-    return iterate
+    def _unreal(self) -> NoSample:
+        return NoSample(f"the sample of {self._unknowns} leaves the real numbers; choose another")
 
 
 def solution(rows: list[list[Real]], number: type[Real]) -> list[Real]:

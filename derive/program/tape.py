@@ -62,7 +62,7 @@ class Tape:
         self.origins: dict[int, Origin] = {}
         self._within: Origin | None = None
         self.stages: list[Stage] = []
-        self._index: dict[Node, int] = {}
+        self._index: dict[tuple[str, tuple[int, ...], object], int] = {}
         self._constants: dict[Exact, int] = {}
         self._exact: dict[int, Exact] = {}
         self._enclosures: dict[int, Enclosure] = {}
@@ -82,13 +82,14 @@ class Tape:
     def _new(self, op: str, args: tuple[int, ...] = (), value: object = None, stage: Stage | None = None) -> int:
         if op in _COMMUTATIVE and args[0] > args[1]:
             args = args[1], args[0]
-        node = Node(op, args, value)
-        i = self._index.get(node)
+        key = (op, args, value)
+        i = self._index.get(key)
         if i is None:
-            i = self._index[node] = len(self.nodes)
-            self.nodes.append(node)
-            self.arguments.append(node.args)
-            self.stages.append(max([self.stages[a] for a in args], default=stage or Stage.CONSTANT))
+            i = self._index[key] = len(self.nodes)
+            self.nodes.append(Node(*key))
+            self.arguments.append(args)
+            stages = self.stages
+            stages.append(max(stages[args[0]], stages[args[-1]]) if args else stage or Stage.CONSTANT)
             if op in PARTIAL:
                 self.origins[i] = self._within or PARTIAL[op]
         return i
@@ -134,12 +135,11 @@ class Tape:
 
     def find(self, op: str, *args: int) -> int | None:
         """The node of this operation, or None if the tape does not have it."""
-        return self._index.get(Node(op, args))
+        return self._index.get((op, args, None))
 
     def _negated(self, i: int) -> int | None:
         """The argument if the node is a negation."""
-        node = self.nodes[i]
-        return node.args[0] if node.op == "neg" else None
+        return self.arguments[i][0] if self.nodes[i].op == "neg" else None
 
     def neg(self, a: int) -> int:
         if self.const_value(a) is not None:
@@ -149,7 +149,7 @@ class Tape:
         return self._new("neg", (a,))
 
     def add(self, a: int, b: int) -> int:
-        p, q = self.const_value(a), self.const_value(b)
+        p, q = self._exact.get(a), self._exact.get(b)
         if p is not None and q is not None:
             return self._folded(operator.add, a, b)
         if p == 0:
@@ -163,7 +163,7 @@ class Tape:
         return self._new("add", (a, b))
 
     def sub(self, a: int, b: int) -> int:
-        p, q = self.const_value(a), self.const_value(b)
+        p, q = self._exact.get(a), self._exact.get(b)
         if p is not None and q is not None:
             return self._folded(operator.sub, a, b)
         if a == b:
@@ -181,7 +181,7 @@ class Tape:
         return self._new("sub", (a, b))
 
     def mul(self, a: int, b: int) -> int:
-        p, q = self.const_value(a), self.const_value(b)
+        p, q = self._exact.get(a), self._exact.get(b)
         if p is not None and q is not None:
             return self._folded(operator.mul, a, b)
         if p is not None:
@@ -208,11 +208,11 @@ class Tape:
         node = self.nodes[i]
         if node.op != "mul":
             return None
-        early, late = sorted(node.args, key=lambda k: self.stages[k])
+        early, late = sorted(node.args, key=self.stages.__getitem__)
         return (early, late) if self.stages[early] < self.stages[late] else None
 
     def div(self, a: int, b: int) -> int:
-        p, q = self.const_value(a), self.const_value(b)
+        p, q = self._exact.get(a), self._exact.get(b)
         if p is not None and q is not None and isinstance(p, Fraction) and isinstance(q, Fraction):
             return self.constant(p / q)
         if p == 0:
@@ -437,14 +437,15 @@ class Tape:
         symbols = {i: self.nodes[i].value for i in leaves if self.nodes[i].op == "input"}
         make = getattr(arithmetic, "mpf", float)
         constants = {i: _number(self._exact[i], make) for i in leaves if i in self._exact}
-        steps = [(i, _operation(self.nodes[i].op, arithmetic), *self._pair(i)) for i in order]
+        apply = {op: getattr(arithmetic, op, None) or _ALGEBRA[op] for op in {self.nodes[i].op for i in order}}
+        steps = [(i, apply[self.nodes[i].op], *self._pair(i)) for i in order]
 
         def run(inputs: Mapping[sp.Symbol, Any]) -> list[Any]:
             values = dict(constants)
             for i, symbol in symbols.items():
                 values[i] = inputs[symbol]
-            for i, apply, a, b in steps:
-                values[i] = apply(values[a]) if b is None else apply(values[a], values[b])
+            for i, operation, a, b in steps:
+                values[i] = operation(values[a]) if b is None else operation(values[a], values[b])
             return [values[i] for i in outputs]
 
         return run
@@ -470,10 +471,6 @@ _ALGEBRA: dict[str, Callable[..., Any]] = {
     "neg": operator.neg,
     "sign": _sign,
 }
-
-
-def _operation(op: str, arithmetic: Any) -> Callable[..., Any]:  # noqa: ANN401  a module or alike
-    return getattr(arithmetic, op, None) or _ALGEBRA[op]
 
 
 class Lowering:

@@ -3,6 +3,7 @@
 import sympy as sp
 
 from derive.language.chain import Motion
+from derive.language.differentiate import partial
 from derive.language.envelope import explicit
 from derive.language.symbols import Quantity
 from derive.language.tool import tool
@@ -15,7 +16,7 @@ def grinding_disc(body, definitions):
     alpha, r, s = body.pressure_angle, body.pitch_radius, body.flank
     u = Quantity(f"u_{body.name}", "mm", "distance along the wheel's edge from its pitch point to the rim", body.name)
     edge = (r - u * sp.cos(alpha), sp.Integer(0), s * (body.groove_width / 2 - u * sp.sin(alpha)))
-    tangent = tuple(sp.diff(c, u) for c in edge)
+    tangent = tuple(partial(c, u) for c in edge)
     wheel = grinding_wheel(body, definitions, edge, tangent, Motion(), u, outward=-s)
     flank = ground_flank(wheel, body, lambda surface: explicit(surface)[0])
     return ground_tool(body, flank.on("helicoids/zk-normal", "zk-zn/eq-4"))

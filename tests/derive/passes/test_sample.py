@@ -1,9 +1,12 @@
-"""The sample's Newton iteration: quadratic convergence in 40 digits, and directions that no equation sees stay put."""
+"""The sample's Newton iteration: all of 40 digits after doubles, and directions that no equation sees stay put."""
+
+import math
 
 import mpmath
 import pytest
+import sympy as sp
 
-from derive.passes.sample import _iteration, in_double, observation, solution, solve
+from derive.passes.sample import Equations, in_double, observation, solution, solve
 from tests.derive.small import lowered, p, plan, x
 
 
@@ -11,14 +14,29 @@ def test_a_root_is_found_to_all_digits():
     tape, lower, (residual,) = lowered(x**2 - p)
     with mpmath.workdps(40):
         inputs = {p: mpmath.mpf(2), x: mpmath.mpf(1)}
-        _iteration(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])(inputs)
+        Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve(inputs, mpmath)
         assert abs(inputs[x] - mpmath.sqrt(2)) < mpmath.mpf(10) ** -38
 
 
 def test_without_a_root_it_says_which_sample_does_not_converge():
     tape, lower, (residual,) = lowered(x**2 + 1)
     with pytest.raises(ArithmeticError, match=r"sample of \[x\] does not converge"):
-        _iteration(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])({x: mpmath.mpf("0.7")})
+        Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve({x: mpmath.mpf("0.7")}, mpmath)
+
+
+def test_what_needs_a_root_of_a_negative_number_is_said_to_leave_the_real_numbers():
+    tape, lower, (residual,) = lowered(sp.sqrt(x) + 1)
+    equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])
+    for start in (mpmath.mpf(1), mpmath.sqrt(mpmath.mpf(-1))):
+        with pytest.raises(ArithmeticError, match=r"sample of \[x\] leaves the real numbers"):
+            equations.solve({x: start}, mpmath)
+
+
+def test_doubles_are_enough_where_they_are_asked_for():
+    tape, lower, (residual,) = lowered(x**2 - p)
+    inputs = {p: 2.0, x: 1.0}
+    Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve(inputs, math)
+    assert inputs[x] == pytest.approx(math.sqrt(2.0), abs=1e-15)
 
 
 def test_a_direction_that_the_equations_do_not_see_stays_put():
