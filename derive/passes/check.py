@@ -1,7 +1,8 @@
 """Translation validation: every pass computes the same values before and after, modulo a random prime at random inputs.
 
 Field operations are those of the residues; roots, sines, cosines and arcs are random functions with the symmetries that
-passes use (odd, even). A wrong pass is let through with a probability of about its degree over 2^60.
+passes use (odd, even). A wrong pass is let through with a probability of about its degree over 2^60. Of a new order, it
+is enough that the same operations come after their arguments.
 """
 
 import operator
@@ -144,6 +145,19 @@ def same(name: str, before: Routine, after: Routine) -> Routine:
     """``after``, which must compute what ``before`` does; raises :class:`PassError` with the pass's name."""
     if before.outputs != after.outputs or residues(before) != residues(after):
         raise PassError(f"{name}: {before.name or 'a routine'} computes other values after it than before")
+    return after
+
+
+def reordered(name: str, before: Routine, after: Routine) -> Routine:
+    """``after``, which must have the operations of ``before``, each after its arguments, and so computes the same."""
+    coming = dict(after.steps)
+    if len(coming) != len(after.steps) or coming != dict(before.steps) or before.outputs != after.outputs:
+        raise PassError(f"{name}: {before.name or 'a routine'} has other operations after it than before")
+    for i, (_, args, _) in after.steps:
+        for a in args:
+            if a in coming:
+                raise PassError(f"{name}: {before.name or 'a routine'} reads node {a} before it is computed")
+        del coming[i]
     return after
 
 

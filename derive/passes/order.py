@@ -55,7 +55,7 @@ def _reordered(routine: Routine, nodes: Iterable[int]) -> Routine:
             turned.setdefault(step.args, []).append((i, step))
     alone = ([(i, program[i])] if program[i].op not in ("sin", "cos") else turned[program[i].args] for i in nodes)
     steps = tuple(step for steps in alone for step in steps)
-    return check.same("order", routine, replace(routine, steps=steps))
+    return check.reordered("order", routine, replace(routine, steps=steps))
 
 
 def latency_order(
@@ -88,7 +88,7 @@ def latency_order(
         if not copy.ready[n]:  # it was more urgent, and came sooner
             continue
         result.append((k, nodes[n]))
-        released, hastened = copy.start(n, time)
+        hastened, released = copy.start(n, time)
         for u in hastened:
             push(ready, (copy.lateness[u], u, k))
         for u in released:
@@ -150,26 +150,29 @@ class _Copy:
         ]
         for users, left in zip(graph.users, uses, strict=True):
             if left == 1:
-                for u in users:
-                    self.lateness[u] -= _REGISTER
+                self._hasten(users)
 
-    def start(self, n: int, time: float) -> tuple[list[int], list[int]]:
-        """Start operation n; returns those that may come now, and those ready that have become more urgent."""
+    def start(self, n: int, time: float) -> tuple[Iterable[int], Iterable[int]]:
+        """Start operation n; returns those ready that have become more urgent, and those that may come now."""
         graph, uses, waits, possible = self._graph, self._uses, self._waits, self.possible
         finished = max(time, possible[n]) + graph.latency[n]
         self.ready[n] = False
-        released, hastened = list[int](), list[int]()
+        hastened: Iterable[int] = ()
         for a in graph.args[n]:
             uses[a] -= 1
             if uses[a] == 1:
-                for u in graph.users[a]:
-                    self.lateness[u] -= _REGISTER
-                    if self.ready[u]:
-                        hastened.append(u)
+                hastened = [*hastened, *self._hasten(graph.users[a])]
+        released: list[int] = []
         for u in graph.users[n]:
             waits[u] -= 1
             if possible[u] < finished:
                 possible[u] = finished
             if not waits[u]:
                 released.append(u)
-        return released, hastened
+        return hastened, released
+
+    def _hasten(self, users: Iterable[int]) -> list[int]:
+        """One of these is the last to use a value, and more urgent; returns those of them that are ready."""
+        for u in users:
+            self.lateness[u] -= _REGISTER
+        return [u for u in users if self.ready[u]]

@@ -50,6 +50,17 @@ def test_an_operation_before_its_arguments_is_caught(step):
         check.same("reverse", step, replace(step, steps=(last, *before)))
 
 
+def test_another_order_has_the_same_operations_each_after_its_arguments(step):
+    ordered = order(step)
+    assert ordered.steps != step.steps and check.reordered("order", step, ordered) is ordered
+    last, before = step.steps[-1], step.steps[:-1]
+    with pytest.raises(check.PassError, match=r"step reads node \d+ before it is computed"):
+        check.reordered("order", step, replace(step, steps=(last, *before)))
+    for lost in (before, (*before, before[0]), (*before, (last[0], last[1]._replace(op="sign")))):
+        with pytest.raises(check.PassError, match="step has other operations"):
+            check.reordered("order", step, replace(step, steps=lost))
+
+
 def test_a_product_subtracted_from_the_wrong_side_is_caught(step):
     fused = fuse(step)
     at = next(k for k, (_, operation) in enumerate(fused.steps) if operation.op == "fms")
