@@ -358,7 +358,7 @@ class _MeanPoint:
 
     def _of_gear(self):
         tooth, m = self.gear, GEAR
-        point, normal = tooth.flank.body_point(), tooth.flank.body_normal()
+        point, normal = tooth.flank.body_point, tooth.flank.body_normal
         along, below_tip = _cone(m, point)
         height = (tooth.arc - tooth.blade.straight_junction) * sp.cos(m.blade_angle.symbol)
         return DesignSystem(
@@ -401,7 +401,7 @@ class _MeanPoint:
         """The pinion's point on that circle of its axis, and the angle at which it lies there."""
         tooth, m = self.pinion, PINION
         a, b, height = self._met()
-        x, y, z = tooth.flank.body_point()
+        x, y, z = tooth.flank.body_point
         return DesignSystem(
             name="pinion_mean_point",
             unknowns=_unknowns(tooth),

@@ -88,11 +88,11 @@ def _generation(rack, wheel, t, psi, recovered):
         "contact of hob and blank, fixed frame of cutting; first_type is zero at limit points of the first type",
         (t, psi),
         (
-            Result("point", placed.body_point(), "mm", "gen"),
-            Result("normal", v.unit(placed.body_normal()), "", "gen"),
+            Result("point", placed.body_point, "mm", "gen"),
+            Result("normal", v.unit(placed.body_normal), "", "gen"),
             *(Result(str(symbol), (symbol,), symbol.unit, symbol.frame) for symbol in recovered),
-            Result("point_wheel", wheel.body_point(), "mm", "wheel"),
-            Result("first_type", (rp.first_type(rack, placed.body_point(), (t, psi)),)),
+            Result("point_wheel", wheel.body_point, "mm", "wheel"),
+            Result("first_type", (rp.first_type(rack, placed.body_point, (t, psi)),)),
         ),
         joined(wheel.rests_on, (MESHING,)),
     )

@@ -82,7 +82,7 @@ class HobCut:
         def put(vector):
             return tuple(replaced(c, place) for c in vector)
 
-        return put(self.surface.body_point()), put(self.surface.body_normal())
+        return put(self.surface.body_point), put(self.surface.body_normal)
 
     @property
     def meshing(self):
@@ -111,7 +111,7 @@ def _pitch_cones():
 
 def _pitch_point(reference):
     """The pitch point by either rule: u = θ = 0, or where the pitch cones touch."""
-    x, y, z = reference.surface.body_point()
+    x, y, z = reference.surface.body_point
     radius, height = _pitch_cones()
     cones = k.pitch_rule.symbol
     return DesignSystem(
@@ -131,7 +131,7 @@ def _pitch_point(reference):
 
 def _middle_line_point(reference, name, at, end, keys):
     """The point that the middle of the hob's profile cuts at the radius ``end``, followed from the section x = L."""
-    x, y, _ = reference.surface.body_point()
+    x, y, _ = reference.surface.body_point
     (x_0, y_0, _), _ = reference.at(0, 0, 0)
     wanted = (1 - PATH) * v.radius(x_0, y_0) + PATH * end
     return DesignSystem(
@@ -335,7 +335,7 @@ def _limit_functions(cutter, gear, worm, reference):
     far = 4 * R_g / sp.Abs(sp.sin(alpha_g))  # the tool's cone ends in its apex, on the axis
     u_g, _ = gear.parameters
     u_w, theta_w, _ = worm.parameters
-    on_gear = [replaced(c, dict(zip(gear.parameters, (u_w, theta_w), strict=True))) for c in gear.body_point()]
+    on_gear = [replaced(c, dict(zip(gear.parameters, (u_w, theta_w), strict=True))) for c in gear.body_point]
     return (
         _undercut_range("wheel", -far, 0, far, along_first=sp.Integer(0), along_last=sp.Integer(0)),
         _undercut_place("wheel", gear.parameters, u_g),
@@ -344,7 +344,7 @@ def _limit_functions(cutter, gear, worm, reference):
         _undercut_place("pinion", worm.parameters, u_w, on_gear),
         _undercut_range("reference_wheel", -k.addendum.symbol / slant, 0, k.blade_depth.symbol / slant),
         _undercut_place(
-            "reference_wheel", reference.surface.parameters, reference.u, reference.surface.body_point()
+            "reference_wheel", reference.surface.parameters, reference.u, reference.surface.body_point
         ),
         Function(
             "tool_clearance",

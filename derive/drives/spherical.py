@@ -299,7 +299,7 @@ def _root_radius(tooth):
 
 def _limit_radius(tooth, definitions):
     """Distance from the gear axis of the flank point that the root end of the edge cuts at mid face."""
-    x, y, _ = tooth.surface.body_point()
+    x, y, _ = tooth.surface.body_point
     at_root = {tooth.tool.along: sp.Integer(0), tooth.tool.sweep: sp.Integer(0)}
     return v.radius(*(replaced(definitions.resolve(c), at_root) for c in (x, y)))
 

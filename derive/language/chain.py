@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar, TypeAlias, TypeVar
 
 import sympy as sp
@@ -258,8 +259,8 @@ class Motion:
         """Parent coordinates of a point given in body coordinates."""
         if not self.is_long:
             return self._through(a)
-        outer, inner = self._parts()
-        return outer._through(v.add(inner._through(v.ORIGIN), v.combined(a, inner._axes())))
+        outer, inner = self._parts
+        return outer._through(v.add(inner._through(v.ORIGIN), v.combined(a, inner._axes)))
 
     def _through(self, a: v.Vector) -> v.Vector:
         """The same, carried from factor to factor."""
@@ -271,14 +272,15 @@ class Motion:
         """Parent components of a free vector given in body components."""
         if not self.is_long:
             return self._turned(a)
-        outer, inner = self._parts()
-        return outer._turned(v.combined(a, inner._axes()))
+        outer, inner = self._parts
+        return outer._turned(v.combined(a, inner._axes))
 
-    @property
+    @cached_property
     def is_long(self) -> bool:
         """Whether vectors are written by the turned axes of the body, not turned one by one: see :data:`LONG`."""
         return sum(isinstance(f, Rotation) for f in self.factors) >= LONG
 
+    @cached_property
     def _parts(self) -> tuple[Motion, Motion]:
         """The factors further out, and those from the body on that turn its axes: see :data:`INNER`."""
         rotations = [k for k, f in enumerate(self.factors) if isinstance(f, Rotation)]
@@ -290,6 +292,7 @@ class Motion:
             a = factor.direction(a)
         return a
 
+    @cached_property
     def _axes(self) -> list[v.Vector]:
         """The axes of the body in the parent frame: the columns of the rotation."""
         return [self._turned(axis) for axis in (v.I, v.J, v.K)]
@@ -355,7 +358,7 @@ class Motion:
                 moved = v.sub(moved, v.cross(rate, back.point(centre)))
                 turning = v.add(turning, rate)
         moved = v.add(moved, v.cross(turning, inner._through(v.ORIGIN)))
-        spin, shift = (tuple(v.dot(a, axis) for axis in inner._axes()) for a in (turning, moved))
+        spin, shift = (tuple(v.dot(a, axis) for axis in inner._axes) for a in (turning, moved))
         return v.add(shift, v.cross(spin, point))
 
     def axis(self, variable: sp.Symbol) -> tuple[v.Vector, v.Vector]:

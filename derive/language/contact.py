@@ -16,9 +16,9 @@ def contact(first: Surface, second: Surface) -> v.Vector:
     that no constant rotation has to be applied to the many derivatives of a generated surface.
     """
     first, second = common_frame(first, second)
-    normal = second.body_normal()
-    position = v.sub(first.body_point(), second.body_point())
-    tangency = tuple(v.dot(normal, tangent) for tangent in first.body_tangents())
+    normal = second.body_normal
+    position = v.sub(first.body_point, second.body_point)
+    tangency = tuple(v.dot(normal, tangent) for tangent in first.body_tangents)
     return (*position, *tangency, *first.conditions, *second.conditions)
 
 

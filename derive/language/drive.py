@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import TypeAlias
 
 import sympy as sp
@@ -87,7 +88,7 @@ class Body:
     recovered: tuple[Quantity, ...] = ()
     lengthwise: str = ""
 
-    @property
+    @cached_property
     def placed(self) -> Surface:
         return self.surface.placed(self.motion)
 

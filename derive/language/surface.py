@@ -5,6 +5,7 @@ with the motion into the body frame. Nothing is multiplied out.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self, TypeAlias
 
 import sympy as sp
@@ -106,13 +107,19 @@ class Surface:
         """The same surface, made by these further steps."""
         return replace(self, made=(*self.made, *steps))
 
+    @cached_property
     def body_point(self) -> v.Vector:
+        """The point in the body frame."""
         return self.motion.point(self.point)
 
+    @cached_property
     def body_normal(self) -> v.Vector:
+        """The normal in the body frame."""
         return self.motion.direction(self.normal)
 
+    @cached_property
     def body_tangents(self) -> tuple[v.Vector, ...]:
+        """The tangents in the body frame."""
         return tuple(self.motion.direction(t) for t in self.tangents)
 
 

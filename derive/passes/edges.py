@@ -89,7 +89,7 @@ def _members(plan: Schedule, margin: Callable[[Body, Margin], int]) -> tuple[_Me
         surface = placed[body.name]
         parameters = tuple(lower(p) for p in body.surface.parameters)
         slopes = tuple([tape.derivative(lower(c), p) for p in parameters] for c in body.surface.conditions)
-        point, normal = (tuple(map(lower, vector)) for vector in (surface.body_point(), surface.body_normal()))
+        point, normal = (tuple(map(lower, vector)) for vector in (surface.body_point, surface.body_normal))
         return _Member(body, tuple(margin(body, m) for m in body.margins), parameters, point, normal, slopes)
 
     return member(pinion), member(wheel)

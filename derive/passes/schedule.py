@@ -126,11 +126,11 @@ def _observe(plan: Schedule) -> None:
     put = plan.observed.append
     for body in drive.bodies:
         placed = body.placed
-        normal, _ = geometry.unit(plan.tape, _vector(plan, placed.body_normal()))
-        put(Output(f"point_{body.name}_f", tuple(_vector(plan, placed.body_point())), "mm", "f"))
+        normal, _ = geometry.unit(plan.tape, _vector(plan, placed.body_normal))
+        put(Output(f"point_{body.name}_f", tuple(_vector(plan, placed.body_point)), "mm", "f"))
         put(Output(f"normal_{body.name}_f", tuple(normal), "", "f"))
     for body in drive.bodies:
-        local = tuple(_vector(plan, body.surface.body_point()))
+        local = tuple(_vector(plan, body.surface.body_point))
         if body.point:
             plan.lower.stand(body.point, local)
         put(Output(f"point_{body.name}", local, "mm", body.name))
@@ -147,7 +147,7 @@ def _observe_body(plan: Schedule, body: Body) -> None:
     """Derivatives of the point by the surface parameters, fixed frame; of its conditions; its margins."""
     tape = plan.tape
     parameters = [plan.lower(p) for p in body.surface.parameters]
-    point = _vector(plan, body.placed.body_point())
+    point = _vector(plan, body.placed.body_point)
     at = _count(plan.observed)
     put = plan.observed.append
     for symbol, parameter in zip(body.surface.parameters, parameters, strict=True):
@@ -180,8 +180,8 @@ def _observe_contact(plan: Schedule) -> None:
     """
     drive, tape = plan.drive, plan.tape
     pinion, _ = drive.bodies
-    normal, _ = geometry.unit(tape, _vector(plan, pinion.placed.body_normal()))
-    points = [_vector(plan, body.placed.body_point()) for body in drive.bodies]
+    normal, _ = geometry.unit(tape, _vector(plan, pinion.placed.body_normal))
+    points = [_vector(plan, body.placed.body_point) for body in drive.bodies]
     first = plan.lower(pinion.surface.parameters[0])
     basis = geometry.tangent_basis(tape, normal, [tape.derivative(i, first) for i in points[0]])
     forms = [_second_form(plan, body.placed, basis) for body in drive.bodies]
@@ -206,7 +206,7 @@ def _observe_contact(plan: Schedule) -> None:
 
 def _second_form(plan: Schedule, surface: Surface, basis: geometry.Basis) -> geometry.Form:
     parameters = [plan.lower(p) for p in surface.parameters]
-    point, normal = _vector(plan, surface.body_point()), _vector(plan, surface.body_normal())
+    point, normal = _vector(plan, surface.body_point), _vector(plan, surface.body_normal)
     return geometry.second_form(plan.tape, parameters, point, normal, _slopes(plan, surface), basis)
 
 
@@ -261,9 +261,9 @@ def _surface(
     plan: Schedule, surface: Surface, frame: str, regular: int, limits: Iterable[Output]
 ) -> tuple[tuple[Quantity, ...], tuple[Output, ...], tuple[Output, ...]]:
     """Parameters of a surface, what is known at them, and its curvature there, body frame."""
-    normal, _ = geometry.unit(plan.tape, _vector(plan, surface.body_normal()))
+    normal, _ = geometry.unit(plan.tape, _vector(plan, surface.body_normal))
     parameters = [plan.lower(p) for p in surface.parameters]
-    point = _vector(plan, surface.body_point())
+    point = _vector(plan, surface.body_point)
     outputs = [
         Output("point", tuple(point), "mm", frame),
         Output("normal", tuple(normal), "", frame),

@@ -18,8 +18,8 @@ def singular_function(lower: Lowering, surface: Surface) -> int:
     """
     tape = lower.tape
     parameters = [lower(p) for p in surface.parameters]
-    point = [lower(c) for c in surface.body_point()]
-    normal = [lower(c) for c in surface.body_normal()]
+    point = [lower(c) for c in surface.body_point]
+    normal = [lower(c) for c in surface.body_normal]
     tangents = [[tape.derivative(i, p) for i in point] for p in parameters]
     slopes = [[tape.derivative(lower(condition), p) for p in parameters] for condition in surface.conditions]
     if not slopes:

@@ -32,8 +32,8 @@ def file_text() -> str:
     wheel = envelope(hob.flank, cylindrical_worm.cutting(phi), phi)
     t, psi, *_ = wheel.parameters
     plain = _Plain(definitions, keep={"r_t_hob"})
-    locus = tuple(map(plain, wheel.body_point()))
-    normal = tuple(map(plain, hob.flank.placed(cylindrical_worm.cutting(phi)).body_normal()))
+    locus = tuple(map(plain, wheel.body_point))
+    normal = tuple(map(plain, hob.flank.placed(cylindrical_worm.cutting(phi)).body_normal))
     meshing = plain(wheel.conditions[-1])
     variables = {"t": plain(t), "psi": plain(psi), "phi": plain(phi)}
     symbols = sorted(set().union(*(e.free_symbols for e in (*locus, meshing))) - set(variables.values()), key=str)
