@@ -34,6 +34,8 @@ def _chain_rule(expression: sp.Expr, inner: list[sp.Expr]) -> sp.Expr:
     if isinstance(expression, sp.Pow) and inner[1] == 0:
         base, exponent = expression.args
         return exponent * base ** (exponent - 1) * inner[0]
+    if isinstance(expression, sp.sign):  # constant on either side
+        return sp.S.Zero
     return sp.Add(*(expression.fdiff(k) * d for k, d in enumerate(inner, 1) if d != 0))
 
 

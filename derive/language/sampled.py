@@ -1,4 +1,4 @@
-"""Expressions evaluated at places where nothing vanishes by chance: a guard against slips, not a proof.
+"""Expressions in numbers: at given places, or where nothing vanishes by chance, a guard against slips, not a proof.
 
 The record proves what a derivation claims; here a claim that is false is noticed where it is made.
 """
@@ -9,13 +9,31 @@ from typing import Any
 import mpmath
 import sympy as sp
 
+from derive.language.choice import excess, unit_step
+from derive.language.definitions import Definitions
 from derive.language.vectors import Number
 
 DIGITS, NEGLIGIBLE, PLACES = 60, mpmath.mpf(10) ** -40, 3
 
+
+def _unit_step(a: mpmath.mpf) -> mpmath.mpf:
+    return mpmath.mpf(a >= 0)
+
+
+def _excess(a: mpmath.mpf) -> mpmath.mpf:
+    return max(a, mpmath.mpf(0))
+
+
 _FUNCTIONS: Mapping[Any, Callable[..., mpmath.mpf]] = {
     sp.sin: mpmath.sin, sp.cos: mpmath.cos, sp.tan: mpmath.tan, sp.atan2: mpmath.atan2, sp.Abs: mpmath.mpf.__abs__,
+    sp.atan: mpmath.atan, sp.asin: mpmath.asin, sp.acos: mpmath.acos, sp.sign: mpmath.sign,
+    unit_step: _unit_step, excess: _excess,
 }  # fmt: skip
+
+
+def value_of(expression: Number, values: Mapping[Any, Any], definitions: Definitions) -> mpmath.mpf:
+    """Value of the expression where its symbols have values (symbol → number) or are defined (symbol → expression)."""
+    return _value(sp.sympify(expression), {q: mpmath.mpf(number) for q, number in values.items()}, definitions)
 
 
 def sampled(expressions: Iterable[Number]) -> Iterator[list[mpmath.mpf]]:
@@ -27,7 +45,7 @@ def sampled(expressions: Iterable[Number]) -> Iterator[list[mpmath.mpf]]:
             values: dict[sp.Expr, mpmath.mpf] = {
                 q: mpmath.mpf(3 * k + n + 2) / (7 + 2 * n) for n, q in enumerate(symbols)
             }
-            yield [_value(e, values) for e in wanted]
+            yield [_value(e, values, Definitions()) for e in wanted]
 
 
 def vanishes(expression: sp.Expr) -> bool:
@@ -35,10 +53,12 @@ def vanishes(expression: sp.Expr) -> bool:
     return all(abs(value) < NEGLIGIBLE for (value,) in sampled([expression]))
 
 
-def _value(e: sp.Expr, known: dict[sp.Expr, mpmath.mpf]) -> mpmath.mpf:
+def _value(e: sp.Expr, known: dict[sp.Expr, mpmath.mpf], definitions: Definitions) -> mpmath.mpf:
     if e not in known:
-        arguments = [_value(a, known) for a in e.args]
-        if isinstance(e, sp.Add):
+        arguments = [_value(a, known, definitions) for a in e.args]
+        if isinstance(e, sp.Symbol):
+            known[e] = _value(definitions[e], known, definitions)
+        elif isinstance(e, sp.Add):
             known[e] = mpmath.fsum(arguments)
         elif isinstance(e, sp.Mul):
             known[e] = mpmath.fprod(arguments)

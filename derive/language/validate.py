@@ -15,11 +15,12 @@ from typing import Any, TypeAlias
 import mpmath
 import sympy as sp
 
+from derive.language.differentiate import partial
 from derive.language.drive import PATH, Body, Drive, Margin, Role
 from derive.language.functions import SOLID, SOLID_UNITS
 from derive.language.outline import OPTIONS, Outline
 from derive.language.replace import replaced
-from derive.language.sampled import vanishes
+from derive.language.sampled import value_of, vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
@@ -384,7 +385,7 @@ def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
     Arguments as of :func:`validate_normals`.
     """
     pinion, wheel = (observed[f"lever_arm_{body.name}"][0] for body in drive.bodies)
-    ratio, found = float(_number(drive.definitions.resolve(drive.ratio), values)), float(pinion / wheel)
+    ratio, found = float(value_of(drive.ratio, values, drive.definitions)), float(pinion / wheel)
     if not abs(found - ratio) <= OFF_RATIO * abs(ratio):
         raise DescriptionError(
             f"{drive.name}: the ratio is {ratio:.6g}, but the flanks transmit {found:.6g} at the sample's "
@@ -463,7 +464,7 @@ def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:
     Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
     """
     found = [
-        _dot(_body_normal(drive, body, observed, values), _slope(body, m, observed, values)) < 0
+        _dot(_body_normal(drive, body, observed, values), _slope(drive, body, m, observed, values)) < 0
         for body in drive.bodies
         for m in body.margins
         if m.role is Role.TIP and {*body.point} & m.positive.free_symbols
@@ -471,20 +472,16 @@ def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:
     return not found or any(found)
 
 
-def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) -> list[sp.Expr]:
+def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) -> list[mpmath.mpf]:
     turned = body.motion.inverse().direction(tuple(map(sp.Float, observed[f"normal_{body.name}_f"])))
-    return [_number(drive.definitions.resolve(c), values) for c in turned]
+    return [value_of(c, values, drive.definitions) for c in turned]
 
 
-def _slope(body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[sp.Expr]:
+def _slope(drive: Drive, body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[mpmath.mpf]:
     """Gradient of a margin by the body coordinates."""
-    at: dict[sp.Symbol, Any] = {**values, **dict(zip(body.point, observed[f"point_{body.name}"], strict=True))}
-    at |= {q: 1 for q in margin.positive.free_symbols if not sp.sympify(at.get(q, 0)).is_finite}
-    return [_number(sp.diff(margin.positive, q), at) for q in body.point]
-
-
-def _number(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> sp.Expr:
-    return expression.evalf(subs={q: sp.Float(values[q]) for q in expression.free_symbols})
+    at = {q: value if mpmath.isfinite(value) else 1 for q, value in values.items()}
+    at |= dict(zip(body.point, observed[f"point_{body.name}"], strict=True))
+    return [value_of(partial(margin.positive, q), at, drive.definitions) for q in body.point]
 
 
 def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
