@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 
 from derive import beside, compiler, drives
-from derive.audit.checker import attempts, check_code, straight_line
 from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import replace_text
@@ -144,6 +143,8 @@ def checked(header):
     """What a drive's generated C was found to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`):
     words → "holds", or why not.
     """
+    from derive.audit.checker import attempts, check_code, straight_line  # not loaded where no drive is checked
+
     found = {}
     for words, check in check_code.checks_of(straight_line.read_header(header)):
         try:

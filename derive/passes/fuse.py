@@ -45,7 +45,8 @@ def fused_products(tape: Tape, order: Sequence[int], outputs: Iterable[int]) -> 
         for a in arguments[i]:
             if a in depth:
                 users[a].append(i)
-                deepest = max(deepest, depth[a])
+                if depth[a] > deepest:
+                    deepest = depth[a]
         depth[i] = deepest + 1
     kept = set(outputs)
     products = [i for i in order if nodes[i].op == "mul" and users[i] and i not in kept]
