@@ -318,7 +318,7 @@ def test_reported_errors_are_those_of_the_proofs(name, hand, capsys):
 @pytest.mark.parametrize("width", [1, 0])
 def test_points_in_any_order_are_shown_beside_some_that_are_none(width):
     """Points that share bounds may be anywhere; what is no solution, or no number, is never shown to be one."""
-    drive, rng = Drive.load("recess-action-full"), np.random.default_rng(5)
+    drive, rng = Drive.load("helical-crowned"), np.random.default_rng(5)
     angles = drive.design.reference_angle + rng.permutation(np.linspace(-0.5, 0.5, 600)) * drive.pitch()
     solutions = drive.trace(np.sort(angles))[0][np.argsort(np.argsort(angles))]
     narrow = certify(drive, angles, solutions, np.zeros(len(angles)))
