@@ -111,7 +111,7 @@ $(LINT): $(READY)
 test:
 	$(MAKE) --no-print-directory --jobs 3 check precompiled solver
 	$(MAKE) --no-print-directory build cmake
-	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto --dist loadgroup
+	$(PY) -m pytest -m 'not slow and not validate' --numprocesses auto
 
 # Certified contacts that other programs can be tested against: generated/benchmark, which is committed.
 benchmark: setup build
@@ -120,7 +120,7 @@ benchmark: setup build
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
 validate: setup build solver cmake cad sanitizers emulators coq site
-	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto --dist loadgroup
+	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto
 
 # An emulator of ARM64, where it can be had without asking.
 emulators:

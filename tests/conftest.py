@@ -1,5 +1,6 @@
 """Fixtures shared by all tests."""
 
+import gc
 import json
 import os
 from pathlib import Path
@@ -8,6 +9,8 @@ import pytest
 
 # as the command line does, which tests call in a process that has NumPy already: see meshwright.cli
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# what modules hold lives as long as the process: it is searched for garbage neither while they are imported nor later
+gc.disable()
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -15,13 +18,27 @@ ROOT = Path(__file__).resolve().parent.parent
 TOGETHER = ("report",)
 
 
-def pytest_collection_modifyitems(config, items):
-    """Where many processes run tests (``--dist loadgroup``), one runs those of a file, or of a folder of TOGETHER."""
-    if not config.pluginmanager.hasplugin("xdist"):
-        return
-    for item in items:
-        name, *_ = place = item.path.relative_to(ROOT / "tests").parts
-        item.add_marker(pytest.mark.xdist_group(name if name in TOGETHER else "/".join(place)))
+def pytest_collection_finish():
+    """Every module is imported; garbage is looked for less often than Python does by itself."""
+    gc.freeze()
+    gc.set_threshold(20_000)
+    gc.enable()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Of many processes that run tests, one runs those of a file, or of a folder of TOGETHER: shared work is done once.
+
+    Not by marks and ``--dist loadgroup``: pytest-xdist 3.8 writes groups where pytest 9.2 no longer reads them.
+    """
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            path = Path(super()._split_scope(nodeid))
+            return next((folder for folder in TOGETHER if folder in path.parts), str(path))
+
+    return Scheduling(config, log)
 
 
 @pytest.fixture(scope="session")

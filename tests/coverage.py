@@ -27,7 +27,7 @@ SEED, INPUTS = 0, 3200
 
 #: What runs under coverage.py: of the default tests those that use the runtime and neither derive nor compile.
 TESTS = (
-    "-m", "not slow and not validate", "--numprocesses", "auto", "--dist", "loadgroup", "--ignore=tests/prove",
+    "-m", "not slow and not validate", "--numprocesses", "auto", "--ignore=tests/prove",
     "--ignore=tests/derive", "--ignore=tests/audit", "--ignore=tests/benchmarks", "--ignore=tests/embedding",
     "--ignore=tests/outside",
 )  # fmt: skip

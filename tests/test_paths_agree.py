@@ -59,7 +59,7 @@ def _alone(drive, angle):
     return library().mw_solve(m, pointer(p), angle, pointer(s), pointer(work), pointer(x), info), x
 
 
-@pytest.mark.parametrize("name", VARIED)
+@pytest.mark.parametrize("name", quick(VARIED, *VARIED.keys() - {"bevel-face-hobbed"}))
 def test_every_path_of_evaluation_finds_the_same_contact(name):
     generator = np.random.default_rng(len(name))
     for _ in range(4):

@@ -1,4 +1,5 @@
 import json
+import shutil
 
 import pytest
 
@@ -10,9 +11,15 @@ def small_ledger():
     return forger.small_ledger()
 
 
+@pytest.fixture(scope="session")
+def written(small_ledger, tmp_path_factory):
+    return forger.written(small_ledger, tmp_path_factory.mktemp("record"))
+
+
 @pytest.fixture
-def record(small_ledger, tmp_path):
-    return forger.written(small_ledger, tmp_path)
+def record(written, tmp_path):
+    """A copy of its own of the record on disk."""
+    return shutil.copytree(written.parent, tmp_path, dirs_exist_ok=True) / written.name
 
 
 @pytest.fixture

@@ -116,7 +116,7 @@ class Forger:
             name = "certificates.jsonl" if item["object"] == "certificate" else "ledger.jsonl"
             lines[name] += canonical(item) + "\n"
         for name, text in lines.items():
-            replace_text(self.folder / name, text)
+            (self.folder / name).write_text(text, encoding="utf-8")
         reseal(self.folder)
 
 
@@ -136,4 +136,4 @@ def reseal(folder):
         pass
 
     Rooted.root = root
-    replace_text(folder / "artifacts.json", store.seal(Rooted, files))
+    (folder / "artifacts.json").write_text(store.seal(Rooted, files), encoding="utf-8")

@@ -21,9 +21,10 @@ from tests.quick import quick
 #: What a change that makes a scalar of a vector, or divides by zero, ends in: no equation any more.
 MALFORMED = (ValueError, TypeError, ZeroDivisionError, IndexError)
 CHAPTERS = (
-    recess_action, rack_and_pinion, conventions, derivation, helicoids, cylindrical_worm, spherical, cylindrical_gears,
-    face_worm,
+    recess_action, conventions, helicoids, cylindrical_worm, face_worm, derivation, rack_and_pinion, spherical,
+    cylindrical_gears,
 )  # fmt: skip
+QUICK = CHAPTERS[:5]
 
 
 def derived_equations(chapters):
@@ -38,7 +39,7 @@ def derived_equations(chapters):
                         yield statement
 
 
-@pytest.mark.parametrize(("chapters", "least"), quick([(CHAPTERS[1:2], 20), (CHAPTERS, 200)], (CHAPTERS[1:2], 20)))
+@pytest.mark.parametrize(("chapters", "least"), quick([(QUICK, 600), (CHAPTERS, 1400)], (QUICK, 600)))
 def test_every_mutation_is_refuted(capsys, chapters, least):
     outcomes, survivors = [], []
     for statement in derived_equations(chapters):

@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"
 
 
+@pytest.mark.validate  # `make audit` re-checks it too; a smaller record: test_check.py
 def test_committed_record_holds_with_the_standard_library_alone():
     result = subprocess.run(
         [sys.executable, "-I", "-S", GENERATED / "audit" / "check.py"], capture_output=True, text=True, cwd="/"

@@ -40,6 +40,13 @@ def compliance(concave):
     return {name: tooth_compliance(getattr(concave, name)) for name in ("pinion", "wheel")}
 
 
+@pytest.fixture(scope="module")
+def coarse(ccx, concave, compliance, tmp_path_factory):
+    """A coarse mesh in a folder of its own, and the solver's run of it."""
+    prepared, _ = prepared_at(concave, compliance, tmp_path_factory.mktemp("coarse"), COARSE)
+    return prepared, run_ccx(ccx, prepared.input_file, LIMIT)
+
+
 def prepared_at(gear, compliance, folder, density, angle=0.0, pairs=1):
     settings = Settings(pairs, LIMIT, density=density)
     return prepare(gear, compliance, angle, TORQUE, settings, folder), settings
@@ -70,10 +77,9 @@ def test_gate_refuses_a_run_cut_by_the_time_limit(ccx, concave, compliance, tmp_
     assert "time limit of 0.5 s" in document["message"]
 
 
-def test_gate_refuses_a_coarse_mesh(ccx, concave, compliance, tmp_path):
+def test_gate_refuses_a_coarse_mesh(coarse):
     """Sound equilibrium, but one element to the Hertz half width."""
-    prepared, settings = prepared_at(concave, compliance, tmp_path, COARSE)
-    document = analysis.solve(prepared, ccx, settings)
+    document, _ = judge(*coarse)
     assert document["gate"]["pair_moment_error"]["held"]
     refused(document, "elements_per_semi_minor")
 
@@ -124,10 +130,10 @@ def test_gate_refuses_a_recorded_run_with_wrong_pressures(concave, compliance, t
     assert document["gate"]["reaction_moment_error"]["held"] and document["gate"]["rotation_rad"]["held"]
 
 
-def test_gate_refuses_a_rotation_beyond_reason(ccx, concave, compliance, tmp_path):
+def test_gate_refuses_a_rotation_beyond_reason(coarse, tmp_path):
     """Return code 0 and a rotation of 1.5e8 rad, put by hand into the result of a run."""
-    prepared, settings = prepared_at(concave, compliance, tmp_path, COARSE)
-    run = run_ccx(ccx, prepared.input_file, LIMIT)
+    prepared, run = coarse
+    prepared = replace(prepared, folder=shutil.copytree(prepared.folder, tmp_path / "turned"))
     dat = prepared.input_file.with_suffix(".dat")
     sound = dat.read_text().splitlines()
     turned_row = next(k for k, line in enumerate(sound) if "displacements" in line and "ROTATION_PINION" in line) + 2

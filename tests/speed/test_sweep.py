@@ -97,7 +97,7 @@ def _tables(drive):
 
 
 def test_a_left_hand_drive_is_swept_as_it_is_analysed():
-    drive = Drive.load("plain-zk").with_(design={"hand": "left"})
+    drive = Drive.load("plain-zn").with_(design={"hand": "left"})
     variation = sweep.Variation("misalignment.vertical_deg", "uniform", -0.02, 0.02)
     angles = np.array(ANGLES) / 10
     rows = sweep.solve(sweep.Plan(_tables(drive), (variation,), tuple(angles), 4), 0)

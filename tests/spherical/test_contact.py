@@ -8,6 +8,7 @@ import pytest
 
 from meshwright.contact.results import ARCSEC
 from tests.independent.spherical import Gear, Pair, involute
+from tests.quick import quick
 
 #: Pairs that touch in a point: (forms, sphere radii).
 POINT_CONTACT = [
@@ -39,7 +40,7 @@ def _exact(forms, radii, s, misalignment):
 
 
 @pytest.mark.parametrize("flank", ["left", "right"])
-@pytest.mark.parametrize(("pinion", "wheel", "r1", "r2"), POINT_CONTACT)
+@pytest.mark.parametrize(("pinion", "wheel", "r1", "r2"), quick(POINT_CONTACT, *POINT_CONTACT[:-1]))
 def test_contact_agrees_with_fifty_digits(pair, pinion, wheel, r1, r2, flank):
     errors = {"center_distance_mm": 0.25, "horizontal_deg": 0.125, "vertical_deg": -0.5}
     drive = _pair(pair, (pinion, wheel), (r1, r2), flank=flank, misalignment=errors)
@@ -91,7 +92,7 @@ def test_semi_axes_at_the_pitch_point(pair):
     assert [major for major, _ in axes] == pytest.approx([1.332, 1.631, 2.307], abs=5e-4)
 
 
-@pytest.mark.parametrize(("pinion", "wheel", "r1", "r2"), POINT_CONTACT)
+@pytest.mark.parametrize(("pinion", "wheel", "r1", "r2"), quick(POINT_CONTACT, *POINT_CONTACT[:-1]))
 def test_relative_curvatures_at_the_pitch_point_in_closed_form(pair, pinion, wheel, r1, r2):
     result = _pair(pair, (pinion, wheel), (r1, r2)).tca([0.0])
     sense = {"convex": 1.0, "concave": -1.0}

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from meshwright import DesignError
+from tests.quick import quick
 
 
 def test_equal_spheres_touch_along_a_line(pair):
@@ -26,14 +27,14 @@ def test_misaligned_spur_gears_have_no_interior_contact(pair):
     assert result.status == ("no_contact",)
 
 
-@pytest.mark.parametrize(
-    ("forms", "radii"),
-    [
-        (("convex", "concave"), (144.0, 72.0)),
-        (("concave", "concave"), (72.0, 144.0)),
-        (("concave", "convex"), (72.0, 144.0)),
-    ],
-)
+#: The forms of a pair and the radii of their spheres.
+WAISTS = (
+    (("convex", "concave"), (144.0, 72.0)), (("concave", "concave"), (72.0, 144.0)),
+    (("concave", "convex"), (72.0, 144.0)),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("forms", "radii"), quick(WAISTS, WAISTS[0], WAISTS[2]))
 def test_a_waist_smaller_than_the_barrel_in_it_interferes(pair, forms, radii):
     result = pair(*forms, pinion_sphere_radius_mm=radii[0], wheel_sphere_radius_mm=radii[1]).tca([0.0])
     assert result.status == ("converged",)
