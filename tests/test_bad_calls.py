@@ -32,7 +32,8 @@ def test_angles_are_finite_numbers(drive, angles):
 def test_a_flank_has_as_many_parameters_as_it_has(drive, places):
     flank = drive.flank("wheel")
     slopes, second = flank.limit_slopes, flank.second_derivatives
-    for evaluate in (flank, flank.curvature, slopes, second, lambda q: flank.places(None, None, None, q)):
+    searches = (lambda q: flank.places(None, None, None, q)), (lambda q: flank.met(None, None, q, 1.0, 1.0))
+    for evaluate in (flank, flank.curvature, slopes, second, *searches):
         with pytest.raises(UsageError, match="flank of the wheel has t_hob, psi_fixed_hob; give an array"):
             evaluate(places)
 

@@ -37,6 +37,23 @@ def test_an_undercut_tooth_begins_on_its_fillet():
     assert np.linalg.norm(ends - flank.points[:5], axis=2).min(axis=0) == pytest.approx(np.zeros(5), abs=1e-7)
 
 
+@pytest.mark.parametrize("design", ["helical-crowned", "bevel-hypoid", "face-worm-conical-concave"])
+def test_a_ray_along_a_normal_meets_the_flank_where_it_began(design):
+    """From outside or inside the material; away from the flank it meets nothing that is nearer than it may be."""
+    drive = Drive.load(design)
+    q = np.repeat(drive.tca([0.0]).solutions[:, drive.design.description["bodies"][1]["unknowns"]], 2, axis=0)
+    flank = drive.flank("wheel")
+    found, away = flank(q), np.array([0.3, -0.2])
+    points, near = found.points + away[:, None] * found.normals, q * (1.0 + 1e-3)
+    distance, met = flank.met(points, -found.normals, near, 8.0, 1.0)
+    assert distance == pytest.approx(away, abs=1e-12)
+    assert met == pytest.approx(q, abs=1e-10)
+    assert np.isnan(flank.met(points, -found.normals, near, 8.0, 0.1)[0]).all()
+    across = np.cross(found.normals, [0.6, 0.0, 0.8])
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    assert not (np.abs(flank.met(points, across, near, 8.0, 1.0)[0]) < 0.19).any()
+
+
 def test_the_wheel_of_a_worm_drive_keeps_within_its_blank():
     drive = Drive.load("recess-action-full").with_(blank={"wheel_face_width_mm": 12.0})
     found = grid(drive, "wheel", (6, 7))

@@ -112,6 +112,13 @@ typedef struct mw_coordinates {
  * numbers that describe no such surface. */
 int mw_places(const mw_coordinates *by, const double *s, const double *at, size_t n, double *o, double *q);
 
+/* Where n rays, from[3*n] and unit vectors along[3*n] in the body frame, meet a surface: distance[n] along them, mm, and
+ * places q[n*parameters], by Newton's method from the places that q holds before and no distance; a distance is not a number
+ * where it finds none. No step is longer than `longest`, mm on the surface; a ray met no nearer than `farthest` is given up. s is set up;
+ * o[outputs] work. Returns as above. */
+int mw_rays(mw_surface surface, int parameters, int outputs, const double *s, const double *from, const double *along,
+            size_t n, double longest, double farthest, double *o, double *q, double *distance);
+
 /* Follow the branch of contact through (phi0, x0) in arclength: up to count steps of |step| natural sizes, shorter where
  * the branch bends, towards larger angles first if step > 0. At each point of phi[count+1], x[(count+1)*nx]: slope = d(phi)/d(arclength), which
  * changes sign at a fold, and the bordered determinant, which changes sign where another branch crosses.

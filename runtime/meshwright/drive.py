@@ -137,6 +137,16 @@ class Drive:
 
         return edge_window(self if self.backend == "c" else Drive(self.design))
 
+    @cached_property
+    def searched_flank(self):
+        """The wheel's flank about the contacts in the middle, None if there is none within its limits:
+        :class:`~meshwright.cycle.first_contact.SearchedFlank`.
+        """
+        from meshwright.cycle.first_contact import SearchedFlank, about_the_middle
+
+        _, unknowns = about_the_middle(self)
+        return SearchedFlank.of(self, unknowns[np.isfinite(unknowns).all(axis=1)])
+
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
         return Flank.of(self, member, region)

@@ -220,6 +220,17 @@ static double *changes(reader *r, int n)
 }
 
 /* The functions of the table themselves; each counts as a call of the interface. */
+/* Where rays meet a flank near q[3*count]: no number means nowhere. */
+static void rays(reader *r, fuzzed *f, mw_surface flank, int count, int outputs, const double *q)
+{
+    double *from = numbers(9), *along = numbers(9), *found = numbers((size_t)count * 3), *o = numbers((size_t)outputs + 1), *distance = numbers(3);
+    for (int i = 0; i < 9; i++) from[i] = number(r, 1.0), along[i] = number(r, i % 4 == 0);
+    memcpy(found, q, sizeof *q * (size_t)count * 3);
+    const int status = mw_rays(flank, count, outputs, f->s, from, along, 3, number(r, 8.0), number(r, 100.0), o, found, distance);
+    if (!outputs && status != MW_BAD_INPUT) fail("rays to a surface without outputs");
+    note_numbers(r, found, (size_t)count * 3);
+}
+
 /* Places near q[3*count] with given coordinates, one of them a parameter: no number means none, and each one found has it. */
 static void across(reader *r, fuzzed *f, mw_surface flank, int count, int outputs, const double *q)
 {
@@ -238,6 +249,7 @@ static void across(reader *r, fuzzed *f, mw_surface flank, int count, int output
         if (off > 1e-6 * (1.0 + fabs(at[2 * i]))) fail("a place beside its coordinate");
     }
     note_numbers(r, found, (size_t)count * 3);
+    rays(r, f, flank, count, by.outputs, q);
 }
 
 static void table(reader *r, fuzzed *f)

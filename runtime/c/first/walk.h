@@ -97,14 +97,14 @@ static void mark_beside(const mw_flank_mesh *mesh, size_t vertex, unsigned char 
 }
 
 /* Where every vertex of the mesh meets the pinion's flank: each piece of the mesh from its vertex nearest to a known
- * place, walked to from the nearest one by then, and from there along its edges. As long as none is found, vertices beside
- * one that cannot be walked to are left out. tried[vertices] is work. */
+ * place, walked to from the nearest one by then, and from there along its edges. Until another piece is found, vertices
+ * beside one that cannot be walked to are left out. tried[vertices] is work. */
 static void flood(const search *h, const place *known, place *at, unsigned char *tried)
 {
     const mw_flank_mesh *mesh = h->mesh;
     memset(tried, 0, mesh->vertices);
     for (size_t v = 0; v < mesh->vertices; v++) at[v].good = 0;
-    for (int reached = 0;;) {
+    for (;;) {
         size_t seed = mesh->vertices;
         double least = HUGE_VAL;
         for (size_t v = 0; v < mesh->vertices; v++)
@@ -117,11 +117,10 @@ static void flood(const search *h, const place *known, place *at, unsigned char 
         const place *near = nearest(h, known, at, seed);
         const double finest = sqrt(least / away(h, seed, near->q)) / (double)FINEST_WALK;
         if (!lead(h, near, seed, fmin(finest, 0.25), at)) {
-            if (!reached) mark_beside(mesh, seed, tried);
+            mark_beside(mesh, seed, tried);
             continue;
         }
-        for (size_t v = 0; v < mesh->vertices && !reached; v++) tried[v] = (unsigned char)(tried[v] & ~BESIDE);
-        reached = 1;
+        for (size_t v = 0; v < mesh->vertices; v++) tried[v] = (unsigned char)(tried[v] & ~BESIDE);
         for (int grown = 1; grown;) {
             grown = 0;
             for (size_t t = 0; t < 3 * mesh->triangles; t++) {

@@ -188,51 +188,26 @@ def _held(bodies, found):
 
 
 @dataclass(frozen=True)
-class _Search:
-    """The mesh over the wheel's flank and what the search starts from: ``solutions`` (N, nx) at angles ``solved_at``,
-    and ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
-    """
+class SearchedFlank:
+    """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it."""
 
-    drive: DriveModel
     table: object
     kept: tuple
-    work: np.ndarray
-    solutions: np.ndarray
-    solved_at: np.ndarray
-    lead: tuple
-    turn: float
-    sense: float
 
     @classmethod
-    def of(cls, drive, angles, solutions):
-        """The search, or None and why there is none; solutions (N, nx) of contacts at angles (N,), right hand."""
-        here = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
-        angles = np.concatenate([here, angles])
-        solutions = np.concatenate([drive.trace(here)[0], solutions])
-        known, errors = np.isfinite(solutions).all(axis=1), None
-        if not known.any():
-            errors = drive.design.given().get("misalignment", {})
-            aligned = drive.with_(misalignment=dict.fromkeys(errors, 0.0))
-            solutions[:ANGLES] = aligned.trace(here)[0]
-            known = np.isfinite(solutions).all(axis=1)
-        if not known.any():
-            return None, "the flanks do not touch, not even aligned: there is nothing to start from"
-        used = solutions[:ANGLES][known[:ANGLES]] if known[:ANGLES].any() else solutions[known]
-        solutions, angles = solutions[known], angles[known]
-        regular = _on_regular_flanks(drive, solutions)
-        if regular.any():
-            solutions, angles = solutions[regular], angles[regular]
-        uses = Uses.of(drive, used, beyond=BEYOND)
-        whole = region(drive, drive.design.description["bodies"][1]["name"], "flank", uses)
+    def of(cls, drive, unknowns):
+        """Of the flank that contacts (P, nx) use; None if no part of it lies within its limits."""
+        pinion, wheel = (body["name"] for body in drive.design.description["bodies"])
+        uses = Uses.of(drive, unknowns, beyond=BEYOND)
+        whole = region(drive, wheel, "flank", uses)
         triangles = mesh(whole, CELLS)
         if not len(triangles.triangles):
-            return None, "no part of the wheel's flank lies within its limits"
+            return None
         names = np.array(whole.limits.names)
         open_ = np.zeros(len(triangles.points), dtype=np.uint8)
         open_[triangles.border[names[triangles.limit] == OPEN].ravel()] = 1
-        middle = int(np.argmin(np.abs(angles)))
         bound = [i for i in range(len(whole.flank.parameters)) if i not in whole.chart.free]
-        _, sizes = uses.on(drive.flank(drive.design.description["bodies"][0]["name"]))
+        _, sizes = uses.on(drive.flank(pinion))
         kept = (
             np.ascontiguousarray(triangles.parameters), np.ascontiguousarray(triangles.triangles, dtype=np.int32),
             open_, np.ascontiguousarray(whole.chart.sizes), np.ascontiguousarray(sizes),
@@ -245,12 +220,60 @@ class _Search:
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
         table.bound = bound[0] if bound else -1
-        work = np.empty(library().mw_first_contact_work(table.vertices))
+        return cls(table, (kept, views))
+
+
+def about_the_middle(drive):
+    """Angles (N,), rad, and solutions (N, nx) there, right hand, that show where the flanks are."""
+    angles = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
+    return angles, drive.trace(angles)[0]
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The wheel's ``flank`` and what the search starts from: ``solutions`` (N, nx) at angles ``solved_at``, and
+    ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
+    """
+
+    drive: DriveModel
+    flank: SearchedFlank
+    work: np.ndarray
+    solutions: np.ndarray
+    solved_at: np.ndarray
+    lead: tuple
+    turn: float
+    sense: float
+
+    @classmethod
+    def of(cls, drive, angles, solutions):
+        """The search, or None and why there is none; solutions (N, nx) of contacts at angles (N,), right hand."""
+        here, about = about_the_middle(drive)
+        angles, solutions = np.concatenate([here, angles]), np.concatenate([about, solutions])
+        known, errors = np.isfinite(solutions).all(axis=1), None
+        if not known.any():
+            errors = drive.design.given().get("misalignment", {})
+            aligned = drive.with_(misalignment=dict.fromkeys(errors, 0.0))
+            solutions[:ANGLES] = aligned.trace(here)[0]
+            known = np.isfinite(solutions).all(axis=1)
+        if not known.any():
+            return None, "the flanks do not touch, not even aligned: there is nothing to start from"
+        known_about = known[:ANGLES]
+        used = solutions[:ANGLES][known_about] if known_about.any() else solutions[known]
+        solutions, angles = solutions[known], angles[known]
+        regular = _on_regular_flanks(drive, solutions)
+        if regular.any():
+            solutions, angles = solutions[regular], angles[regular]
+        shared = errors is None and known_about.any()
+        flank = drive.searched_flank if shared else SearchedFlank.of(drive, used)
+        if flank is None:
+            return None, "no part of the wheel's flank lies within its limits"
+        middle = int(np.argmin(np.abs(angles)))
         turn, sense = _senses(drive, angles[middle], solutions[middle])
         if errors is not None:
             solutions, angles = solutions[middle : middle + 1], angles[middle : middle + 1]
         lead = () if errors is None else _misaligned(drive, errors, angles)
-        return cls(drive, table, (kept, views), work, solutions, angles, lead, turn, sense), ""
+        work = np.empty(library().mw_first_contact_work(flank.table.vertices))
+        return cls(drive, flank, work, solutions, angles, lead, turn, sense), ""
 
     def at(self, angles, until=None):
         """``mw_first``, None or UNKNOWN at angles (N,) of the right-hand drive; beyond the turn of the wheel ``until``,
@@ -284,8 +307,8 @@ class _Search:
         start = np.append(start, x[self.drive.design.description["error"]])
         found = ffi.new("mw_first *")
         library().mw_first_contact(
-            compiled, pointer(state), self.table, pointer(pinion), pointer(wheel), len(pinion), self.turn, self.sense,
-            pointer(start), until, pointer(self.work), found,
+            compiled, pointer(state), self.flank.table, pointer(pinion), pointer(wheel), len(pinion), self.turn,
+            self.sense, pointer(start), until, pointer(self.work), found,
         )  # fmt: skip
         return found
 

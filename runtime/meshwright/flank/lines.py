@@ -11,11 +11,10 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.roots import narrowed
-from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import lengthwise, lengthwise_slopes, solved
 
-#: Cells of the mesh that shows where a region is, at least.
-CELLS = 24
+#: Triangles of the mesh that shows where a region is, at least.
+FEWEST = 24 * 24
 
 #: Samples of a line across the tooth on which its ends are looked for; halvings of the step that holds an end.
 SAMPLES, BISECTIONS = 65, 56
@@ -193,8 +192,8 @@ def lines(region, triangles=None, count=GUIDES):
 
     ``triangles`` is the region's mesh, if there is one; coarse ones are refined.
     """
-    if triangles is None or len(triangles.triangles) < CELLS * CELLS:
-        triangles = mesh(region, (CELLS, CELLS))
+    if triangles is None or len(triangles.triangles) < FEWEST:
+        triangles = region.triangles
     known = triangles.parameters
     reached = lengthwise(region.flank, region.flank(known))
     along = np.linspace(reached.min(), reached.max(), count)

@@ -237,6 +237,11 @@ class Region:
         return 0 if way[0] > UNCHANGED * way.max() else int(np.argmax(way))
 
     @cached_property
+    def triangles(self):
+        """The :class:`~meshwright.flank.mesh.Triangulation` that shows where the region is."""
+        return mesh(self, (CELLS, CELLS))
+
+    @cached_property
     def lines(self):
         """The :class:`~meshwright.flank.lines.Lines` across the region."""
         return lines(self)
@@ -307,7 +312,7 @@ def _beside(drive, flank, uses):
     parameters of one kind.
     """
     whole = region(drive, flank.body["name"], "flank", uses)
-    found = mesh(whole, (CELLS, CELLS))
+    found = whole.triangles
     places = found.parameters[np.unique(found.border)]
     return places if places.shape[1] == len(flank.parameters) else np.empty((0, len(flank.parameters)))
 

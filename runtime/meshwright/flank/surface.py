@@ -151,6 +151,20 @@ class Flank:
             raise UsageError(f"the {self.region} of the {self.body['name']} is no surface of two free parameters")
         return q
 
+    def met(self, points, along, start, longest, farthest):
+        """Where rays from ``points`` (N, 3) along unit vectors (N, 3), body frame, meet the surface: distances (N,) in
+        mm, and parameters (N, k), from nearby ones (N, k). A distance is NaN where Newton's method, with steps no
+        longer than ``longest``, finds none within ``farthest``, mm.
+        """
+        evaluate, state, k, outputs, _, _ = self._evaluated
+        q, o = self._rows(start).copy(), np.empty(outputs)
+        distance, points, along = np.empty(len(q)), np.ascontiguousarray(points), np.ascontiguousarray(along)
+        library().mw_rays(
+            evaluate, k, outputs, state, pointer(points), pointer(along), len(q), longest, farthest, pointer(o),
+            pointer(q), pointer(distance),
+        )  # fmt: skip
+        return distance, q
+
     def __call__(self, parameters):
         """:class:`FlankPoints` at ``parameters`` (N, k); right-hand drive, whatever the design's hand."""
         q = self._rows(parameters)

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from meshwright.base.errors import UsageError
-from meshwright.flank.lines import CELLS, SINGULAR, changes
-from meshwright.flank.mesh import mesh
+from meshwright.flank.lines import SINGULAR, changes
 from meshwright.flank.region import Limit, Region, region
 from meshwright.flank.sections import Sections, lengthwise, lengthwise_slopes
 from meshwright.flank.sides import PLACES_ALONG, Bools, Floats, RegionSide
@@ -168,8 +167,7 @@ def undercut_side(drive: Any, member: str) -> RegionSide | None:
 
 def _ends_at_singular_line(flank: Region) -> bool:
     """Whether the surface's own singular line is part of its border."""
-    found = mesh(flank, (CELLS, CELLS))
-    return any(flank.limits.names[k] in SINGULAR for k in np.unique(found.limit))
+    return any(flank.limits.names[k] in SINGULAR for k in np.unique(flank.triangles.limit))
 
 
 def _cosines(count: int) -> Floats:

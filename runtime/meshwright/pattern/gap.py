@@ -4,21 +4,11 @@ Both flanks are met by the line through a point of the tangent plane along the c
 the two is the separation. Vectorised over N points, each in the plane of its own contact.
 """
 
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.contact.placement import placements_at
-
-MAX_STEPS = 24
-
-#: Newton steps below this length are done, mm; smaller than the second they may also stagnate in round-off.
-STEP_DONE = 1e-11
-STEP_NOISE = 1e-8
-
-#: No point moves further at once, mm.
-STEP_LIMIT = 8.0
 
 
 @dataclass(frozen=True)
@@ -29,11 +19,19 @@ class Side:
     matrix: np.ndarray
 
     def at(self, parameters):
-        """Flank points with points, tangents in the fixed frame: (FlankPoints, points (N, 3), tangents (N, k, 3))."""
+        """Flank points, and where they are in the fixed frame (N, 3)."""
         found = self.flank(parameters)
-        turned, origin = np.swapaxes(self.matrix[:, :3, :3], 1, 2), self.matrix[:, :3, 3]
-        points = np.matmul(found.points[:, None], turned)[:, 0] + origin
-        return found, points, np.matmul(found.tangents, turned)
+        return found, np.matmul(self.matrix[:, :3, :3], found.points[:, :, None])[:, :, 0] + self.matrix[:, :3, 3]
+
+    def over(self, plane, places, start):
+        """Parameters (N, k) of the flank, from nearby ones (N, k), at ``places`` (N, 2): lengths along two unit vectors
+        ``plane`` (N, 2, 3), fixed frame, from its origin. NaN where Newton's method finds none.
+        """
+        n, k = start.shape
+        factors = np.zeros((n, 2, k + 4))
+        factors[:, :, k : k + 3] = np.matmul(plane, self.matrix[:, :3, :3])
+        values = places - np.matmul(plane, self.matrix[:, :3, 3, None])[:, :, 0]
+        return self.flank.places(factors, self.flank.sizes, values, start)
 
     def only(self, chosen):
         """The same for the chosen points."""
@@ -82,24 +80,11 @@ class Gap:
 
     def _over(self, k, places, start):
         """Parameters (N, k), height along the normal (N,) and smallest margin (N,) of one flank over places."""
-        side, q = self.sides[k], start.copy()
-        going, before = np.arange(len(q)), np.full(len(q), np.inf)
-        for _ in range(MAX_STEPS):
-            plane, at = self.axes[going, :2], q[going]
-            found, points, tangents = side.only(going).at(at)
-            misses = np.matmul(plane, (points - self.point[going])[:, :, None])[:, :, 0] - places[going]
-            step, size = _newton_step(found, misses, tangents, plane)
-            q[going] = at - step
-            done = (size < STEP_DONE) | ((size < STEP_NOISE) & (size > 0.5 * before[going]))
-            before[going] = size
-            going = going[~done]
-            if not len(going):
-                break
-        found, points, _ = side.at(q)
+        side, plane = self.sides[k], self.axes[:, :2]
+        q = side.over(plane, places + np.matmul(plane, self.point[:, :, None])[:, :, 0], start)
+        found, points = side.at(q)
         heights = np.einsum("ni,ni->n", points - self.point, self.axes[:, 2])
-        lost = ~np.isfinite(heights)
-        lost[going] = True
-        return q, np.where(lost, np.nan, heights), np.where(lost, -np.inf, smallest_margin(found))
+        return q, heights, np.where(np.isfinite(heights), smallest_margin(found), -np.inf)
 
 
 @dataclass(frozen=True)
@@ -118,27 +103,3 @@ def smallest_margin(found):
     """The smallest limit function of flank points, (N,); limits that the design leaves open do not count."""
     values = np.stack([found.regular, *found.margins.values()])
     return np.where(np.isnan(values), np.inf, values).min(axis=0)
-
-
-def _newton_step(found, misses, tangents, plane):
-    """Step of the parameters (N, k) that cancels the misses in the ``plane`` (N, 2, 3), (N, 2), and the flank's own
-    conditions, and its length, mm.
-    """
-    residual = np.concatenate([misses, found.conditions[:, :, 0]], axis=1)
-    slopes = np.matmul(plane, np.swapaxes(tangents, 1, 2))
-    matrix = np.concatenate([slopes, found.conditions[:, :, 1:]], axis=1)
-    step = _solved(matrix, residual)
-    length = np.linalg.norm(np.matmul(step[:, None], tangents)[:, 0], axis=1)
-    limit = np.minimum(1.0, STEP_LIMIT / np.maximum(length, 1e-300))
-    return step * limit[:, None], length
-
-
-def _solved(matrix, residual):
-    """Solutions (N, k) of N systems; NaN where one is singular or not finite."""
-    if np.isfinite(matrix).all():
-        with suppress(np.linalg.LinAlgError):
-            return np.linalg.solve(matrix, residual[:, :, None])[:, :, 0]
-    good = np.isfinite(matrix).all(axis=(1, 2)) & (np.abs(np.linalg.det(np.nan_to_num(matrix))) > 0.0)
-    step = np.full((len(residual), matrix.shape[2]), np.nan)
-    step[good] = np.linalg.solve(matrix[good], residual[good][:, :, None])[:, :, 0]
-    return step

@@ -14,7 +14,6 @@ from meshwright.base.errors import UsageError
 from meshwright.contact.placement import placed
 from meshwright.drive import Drive
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import solved
 from meshwright.report.projection import Projection
 
 #: Cells of the lattice over a flank; positions at which the mate is met first, over the contact of a pair and this
@@ -22,9 +21,8 @@ from meshwright.report.projection import Projection
 CELLS, POSITIONS, BEYOND = (18, 18), 41, 0.5
 NARROWER, NARROWED = 5.0, 3
 
-#: Newton steps to the mate, mm: longest; done, or followed by one below that, as quadratic convergence from at most the
-#: next number has it; how many; and how far a flank may be off, as a share of its size.
-LONGEST, DONE, QUADRATIC, STEPS, FARTHEST = 8.0, 1e-9, 1e-2, 16, 0.05
+#: Longest Newton step to the mate, mm; and how far a flank may be off, as a share of its size.
+LONGEST, FARTHEST = 8.0, 0.05
 
 #: A ray whose end strays so far, as a share of the flank's size, is given up.
 STRAYED = 0.5
@@ -227,36 +225,12 @@ class _Rays:
 
     def _followed(self, seen, along, q):
         """Distance (P,) to the mate along rays, its parameters and the margin there, by Newton's method."""
-        q, distance = q.copy(), np.zeros(len(q))
-        going = np.arange(len(q))
-        good, before = np.zeros(len(q), dtype=bool), np.full(len(q), np.inf)
         extent = np.ptp(self.points, axis=0).max()
-        for _ in range(STEPS):
-            found = self.mate(q[going])
-            residual = np.concatenate(
-                [found.points - seen[going] - distance[going, None] * along[going], found.conditions[:, :, 0]], axis=1
-            )
-            matrix = np.zeros((len(going), residual.shape[1], residual.shape[1]))
-            matrix[:, :3, :-1], matrix[:, :3, -1] = np.swapaxes(found.tangents, 1, 2), -along[going]
-            matrix[:, 3:, :-1] = found.conditions[:, :, 1:]
-            step = solved(matrix, residual)
-            length = np.linalg.norm(np.einsum("nk,nkj->nj", step[:, :-1], found.tangents), axis=1)
-            step *= np.minimum(1.0, LONGEST / np.maximum(length, 1e-300))[:, None]
-            q[going] -= step[:, :-1]
-            distance[going] -= step[:, -1]
-            size = np.maximum(length, np.abs(step[:, -1]))
-            ratio = size / before[going]
-            done = (size < DONE) | ((ratio < QUADRATIC) & (before[going] < QUADRATIC) & (size * ratio * ratio < DONE))
-            before[going] = size
-            good[going[done]] = True
-            near = np.abs(distance[going]) < STRAYED * extent
-            going = going[~done & near & np.isfinite(step).all(axis=1)]
-            if not going.size:
-                break
+        distance, q = self.mate.met(seen, along, q, LONGEST, STRAYED * extent)
         found = self.mate(q)
         with np.errstate(invalid="ignore"):
             facing = np.einsum("ni,ni->n", found.normals, along) < FACING
-            good &= facing & (found.regular > 0.0) & (np.abs(distance) < FARTHEST * extent)
+            good = facing & (found.regular > 0.0) & (np.abs(distance) < FARTHEST * extent)
         margin = np.min([np.where(np.isnan(m), np.inf, m) for m in (found.regular, *found.margins.values())], axis=0)
         return np.where(good, distance, np.nan), q, margin
 
