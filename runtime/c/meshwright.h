@@ -113,9 +113,9 @@ typedef struct mw_coordinates {
 int mw_places(const mw_coordinates *by, const double *s, const double *at, size_t n, double *o, double *q);
 
 /* Where n rays, from[3*n] and unit vectors along[3*n] in the body frame, meet a surface: distance[n] along them, mm, and
- * places q[n*parameters], by Newton's method from the places that q holds before and no distance; a distance is not a number
- * where it finds none. No step is longer than `longest`, mm on the surface; a ray met no nearer than `farthest` is given up. s is set up;
- * o[outputs] work. Returns as above. */
+ * places q[n*parameters], by Newton's method from the places that q holds before and no distance; a distance is not a
+ * number where it finds none. No step is longer than `longest`, mm on the surface; a ray met no nearer than `farthest`
+ * is given up. s is set up; o[outputs] work. Returns as above. */
 int mw_rays(mw_surface surface, int parameters, int outputs, const double *s, const double *from, const double *along,
             size_t n, double longest, double farthest, double *o, double *q, double *distance);
 
