@@ -32,10 +32,9 @@ class Picture:
     draw: Callable[..., Figure]
 
     def figure(self, analysis):
-        """The drawn figure."""
-        with style.drawing():
-            figure = self.draw(analysis)
-            arrange(figure)
+        """The drawn figure, with the settings of :func:`~meshwright.report.style.drawing`."""
+        figure = self.draw(analysis)
+        arrange(figure)
         return figure
 
 

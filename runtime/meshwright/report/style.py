@@ -5,8 +5,11 @@ import re
 from contextlib import contextmanager
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.figure import Figure
 
+from meshwright.report.layout import POINTS
 from meshwright.report.panel import Panel
 
 PINION, WHEEL, INK, SOFT, WARN = "#1f6f9f", "#b8651b", "#1c2733", "#8593a1", "#c0273d"
@@ -38,6 +41,7 @@ _SETTINGS = {
     "axes.formatter.limits": (-9, 9),
     "axes.formatter.useoffset": False,
     "svg.fonttype": "none",
+    "svg.hashsalt": "meshwright",
 }
 
 
@@ -49,8 +53,10 @@ def drawing():
 
 
 def figure(width=6.4, height=3.6):
-    """An empty figure, inches."""
-    return _Figure(figsize=(width, height))
+    """An empty figure, inches; one renderer measures all its texts."""
+    empty = _Figure(figsize=(width, height))
+    FigureCanvasAgg(empty)
+    return empty
 
 
 class _Figure(Figure):
@@ -65,9 +71,10 @@ def to_svg(drawn, name, label):
     the caller.
     """
     stream = io.StringIO()
-    nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-    with mpl.rc_context(_SETTINGS | {"svg.hashsalt": name}):
-        drawn.savefig(stream, format="svg", metadata=nothing)
+    drawn.dpi = POINTS
+    renderer = RendererSVG(*(POINTS * drawn.get_size_inches()), stream, image_dpi=POINTS)
+    drawn.draw(renderer)
+    renderer.finalize()
     text = stream.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
