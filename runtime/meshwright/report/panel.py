@@ -46,19 +46,16 @@ class _Together:
         shown = np.flatnonzero(self._inside(places))
         if not shown.size:
             return []
-        tick = self._get_tick(major)
-        tick.set_clip_path(self.axes.patch)
-        at = places[shown]
-        across = np.stack([at, at, np.full(at.shape, np.nan)], axis=1).ravel(), np.tile([0.0, 1.0, np.nan], at.size)
-        tick.gridline.set_data(*self._xy(*across))
+        tick, at = self._get_tick(major), places[shown]
+        tick.gridline.set_clip_path(self.axes.patch)
+        tick.gridline.set_data(*self._xy(np.repeat(at, 3), np.tile([0.0, 1.0, np.nan], at.size)))
         tick.tick1line.set_data(*self._xy(at, np.zeros(at.size)))
         tick.gridline.draw(renderer)
         tick.tick1line.draw(renderer)
-        if not tick.label1.get_visible():
-            return []
         boxes = []
-        for k in shown:
-            tick.label1.set(position=self._xy(places[k], 0.0), text=texts[k])
+        for k in shown if tick.label1.get_visible() else ():
+            tick.label1.set_position(self._xy(places[k], 0.0))
+            tick.label1.set_text(texts[k])
             tick.label1.draw(renderer)
             if self.offsetText.get_text():
                 boxes.append(tick.label1.get_window_extent(renderer))

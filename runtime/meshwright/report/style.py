@@ -3,11 +3,13 @@
 import io
 import re
 from contextlib import contextmanager
+from functools import cache
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.figure import Figure
+from matplotlib.textpath import text_to_path
 
 from meshwright.report.layout import POINTS
 from meshwright.report.panel import Panel
@@ -60,8 +62,12 @@ def figure(width=6.4, height=3.6):
 
 
 class _Figure(Figure):
+    """Panels of one ground with the figure."""
+
     def add_subplot(self, *place, **options):
-        return super().add_subplot(*place, axes_class=Panel, **options)
+        axes = super().add_subplot(*place, axes_class=Panel, **options)
+        axes.patch.set_visible(False)
+        return axes
 
 
 def to_svg(drawn, name, label):
@@ -72,7 +78,7 @@ def to_svg(drawn, name, label):
     """
     stream = io.StringIO()
     drawn.dpi = POINTS
-    renderer = RendererSVG(*(POINTS * drawn.get_size_inches()), stream, image_dpi=POINTS)
+    renderer = _Renderer(*(POINTS * drawn.get_size_inches()), stream, image_dpi=POINTS)
     drawn.draw(renderer)
     renderer.finalize()
     text = stream.getvalue()
@@ -82,3 +88,15 @@ def to_svg(drawn, name, label):
         text = text.replace(mark, mark + f"{name}-")
     attributes = rf'<svg role="img" data-figure="{name}" aria-label="{label}" \1'
     return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', attributes, text)
+
+
+class _Renderer(RendererSVG):
+    """Measures a text once for all figures: most numbers stand at several axes."""
+
+    def get_text_width_height_descent(self, s, prop, ismath):
+        return _measured(s, prop, ismath)
+
+
+@cache
+def _measured(text, font, is_math):
+    return text_to_path.get_text_width_height_descent(text, font, is_math)
