@@ -1,6 +1,7 @@
 """Whole flanks at true scale: contact pattern and ease-off between the limits of the flank, equal axes in mm."""
 
 import math
+from functools import cached_property
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -66,7 +67,7 @@ class Sheet:
         figure.supylabel(self.labels[1], fontsize=9.0) if rows > 1 else panels[0].set_ylabel(self.labels[1])
         return figure, panels
 
-    @property
+    @cached_property
     def triangles(self):
         """The flank for Matplotlib's contours."""
         return Triangulation(*self.places.T, self.whole.triangles)
