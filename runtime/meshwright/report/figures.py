@@ -173,8 +173,8 @@ def _drive_error(analysis):
 
 def _joined(angles, rows):
     """Curves (K, N) over the same angles as one curve that breaks between them."""
-    gaps = np.full((len(rows), 1), np.nan)
-    return np.tile(np.append(angles, np.nan), len(rows)), np.hstack([rows, gaps]).ravel()
+    ends = np.arange(1, len(rows)) * len(angles)
+    return broken(np.tile(angles, len(rows)), ends), broken(np.ravel(rows), ends)
 
 
 def _zoom(axes, values):
