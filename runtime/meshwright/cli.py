@@ -17,7 +17,7 @@ from meshwright.base.errors import DesignError, LibraryError, UsageError, plain
 
 #: Objects made before cycles among them are looked for. What a command makes it mostly keeps to its end: to look as
 #: often as Python does by itself, and once more at the end, takes a tenth of a report's time.
-OBJECTS = 50_000
+OBJECTS = 500_000
 
 
 class _Parser(argparse.ArgumentParser):

@@ -32,10 +32,9 @@ class Picture:
     draw: Callable[..., Figure]
 
     def figure(self, analysis):
-        """The drawn figure."""
-        with style.drawing():
-            figure = self.draw(analysis)
-            arrange(figure)
+        """The drawn figure, with the settings of :func:`~meshwright.report.style.drawing`."""
+        figure = self.draw(analysis)
+        arrange(figure)
         return figure
 
 
@@ -150,15 +149,10 @@ def _drive_error(analysis):
     whole, zoom = figure.subplots(2, 1, height_ratios=(3, 2))
     for axes, found in ((whole, running.envelopes), (zoom, running.pitch)):
         angles = np.degrees(found.angles)
-        for row, number in zip(found.pairs, found.numbers, strict=True):
-            followed = number == 0
-            axes.plot(
-                angles,
-                (row - zero) / ARCSEC,
-                color=style.PINION if followed else style.SOFT,
-                linewidth=1.6 if followed else 0.8,
-                label="this pair" if followed else None,
-            )
+        followed = np.array(found.numbers) == 0
+        relative = (found.pairs - zero) / ARCSEC
+        axes.plot(*_joined(angles, relative[~followed]), color=style.SOFT, linewidth=0.8)
+        axes.plot(*_joined(angles, relative[followed]), color=style.PINION, linewidth=1.6, label="this pair")
         transmitted = running.transmitted(found)
         axes.plot(angles, (transmitted - zero) / ARCSEC, color=style.WHEEL, linewidth=2.2, label="transmitted")
         axes.set_ylabel("relative error, arcsec")
@@ -175,6 +169,12 @@ def _drive_error(analysis):
     zoom.set(xlabel=PINION_ANGLE)
     zoom.set_title("over one pitch", fontsize=8.5, fontweight="normal")
     return figure
+
+
+def _joined(angles, rows):
+    """Curves (K, N) over the same angles as one curve that breaks between them."""
+    ends = np.arange(1, len(rows)) * len(angles)
+    return broken(np.tile(angles, len(rows)), ends), broken(np.ravel(rows), ends)
 
 
 def _zoom(axes, values):
@@ -195,8 +195,9 @@ def _teeth(analysis):
     count.step(angles, running.teeth, where="mid", color=style.INK)
     count.set(ylabel="teeth in contact", ylim=(0, running.teeth.max() + 1))
     count.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
-    for row, number in zip(running.separations, running.pitch.numbers, strict=True):
-        apart.plot(angles, 1000.0 * row, color=style.PINION if number == 0 else style.SOFT, linewidth=1.2)
+    followed = np.array(running.pitch.numbers) == 0
+    for rows, colour in ((~followed, style.SOFT), (followed, style.PINION)):
+        apart.plot(*_joined(angles, 1000.0 * running.separations[rows]), color=colour, linewidth=1.2)
     if running.mesh.allowance > 0.0:
         apart.axhline(1000.0 * running.mesh.allowance, color=style.WARN, linestyle="--", label="elastic allowance")
         apart.legend()

@@ -31,7 +31,7 @@ class _Drawn:
 def page(analysis):
     """The page as text. Every text of the design is escaped."""
     shown = pictures(analysis)
-    with aside(lambda: [_drawn(picture, analysis) for picture in shown[BESIDE:]]) as others:
+    with style.drawing(), aside(lambda: [_drawn(picture, analysis) for picture in shown[BESIDE:]]) as others:
         tables, view = groups(analysis), scene(analysis)
         drawn = [_drawn(picture, analysis) for picture in shown[:BESIDE]]
         return _filled(analysis, tables, view, drawn + others())

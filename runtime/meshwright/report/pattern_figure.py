@@ -67,10 +67,10 @@ def _limit(axes, places):
 def _flank(axes, projection, flank, colour):
     """Outline of the drawn part of the flank, and where a limit of the design ends it."""
     across, up = (np.ma.masked_invalid(v) for v in projection(flank.points))
-    outside = ~(flank.inside >= 0.0)
-    for edge in ((slice(None), 0), (slice(None), -1), (0, slice(None)), (-1, slice(None))):
-        lines = (np.ma.masked_where(outside[edge], v[edge]) for v in (across, up))
-        axes.plot(*lines, color=colour, linewidth=0.6, alpha=0.6)
+    places = np.where((flank.inside >= 0.0)[..., None], np.stack(projection(flank.points), axis=-1), np.nan)
+    edges = [places[:, 0], places[:, -1], places[0], places[-1]]
+    breaks = np.cumsum([len(edge) for edge in edges[:-1]])
+    axes.plot(*broken(np.vstack(edges), breaks).T, color=colour, linewidth=0.6, alpha=0.6)
     if not projection.end_on:
         axes.contourf(across, up, flank.inside, levels=[0.0, np.inf], colors=[colour], alpha=0.08)
     if np.nanmin(flank.inside) < 0.0 < np.nanmax(flank.inside):

@@ -20,14 +20,14 @@ def write_figures(analysis, folder, form):
     except OSError as error:
         raise UsageError(f"{folder}: cannot be made ({error.strerror}); name a folder") from error
     paths = []
-    for picture in pictures(analysis):
-        paths.append(folder / f"{picture.name}.{form}")
-        write_bytes(paths[-1], _drawn(picture.figure(analysis), form))
+    with style.drawing():
+        for picture in pictures(analysis):
+            paths.append(folder / f"{picture.name}.{form}")
+            write_bytes(paths[-1], _drawn(picture.figure(analysis), form))
     return paths
 
 
 def _drawn(figure, form):
     stream = io.BytesIO()
-    with style.drawing():
-        figure.savefig(stream, format=form, dpi=RESOLUTION)
+    figure.savefig(stream, format=form, dpi=RESOLUTION)
     return stream.getvalue()

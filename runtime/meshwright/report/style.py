@@ -3,10 +3,15 @@
 import io
 import re
 from contextlib import contextmanager
+from functools import cache
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.figure import Figure
+from matplotlib.textpath import text_to_path
 
+from meshwright.report.layout import POINTS
 from meshwright.report.panel import Panel
 
 PINION, WHEEL, INK, SOFT, WARN = "#1f6f9f", "#b8651b", "#1c2733", "#8593a1", "#c0273d"
@@ -38,6 +43,7 @@ _SETTINGS = {
     "axes.formatter.limits": (-9, 9),
     "axes.formatter.useoffset": False,
     "svg.fonttype": "none",
+    "svg.hashsalt": "meshwright",
 }
 
 
@@ -49,13 +55,19 @@ def drawing():
 
 
 def figure(width=6.4, height=3.6):
-    """An empty figure, inches."""
-    return _Figure(figsize=(width, height))
+    """An empty figure, inches; one renderer measures all its texts."""
+    empty = _Figure(figsize=(width, height))
+    FigureCanvasAgg(empty)
+    return empty
 
 
 class _Figure(Figure):
+    """Panels of one ground with the figure."""
+
     def add_subplot(self, *place, **options):
-        return super().add_subplot(*place, axes_class=Panel, **options)
+        axes = super().add_subplot(*place, axes_class=Panel, **options)
+        axes.patch.set_visible(False)
+        return axes
 
 
 def to_svg(drawn, name, label):
@@ -65,9 +77,10 @@ def to_svg(drawn, name, label):
     the caller.
     """
     stream = io.StringIO()
-    nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-    with mpl.rc_context(_SETTINGS | {"svg.hashsalt": name}):
-        drawn.savefig(stream, format="svg", metadata=nothing)
+    drawn.dpi = POINTS
+    renderer = _Renderer(*(POINTS * drawn.get_size_inches()), stream, image_dpi=POINTS)
+    drawn.draw(renderer)
+    renderer.finalize()
     text = stream.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
@@ -75,3 +88,15 @@ def to_svg(drawn, name, label):
         text = text.replace(mark, mark + f"{name}-")
     attributes = rf'<svg role="img" data-figure="{name}" aria-label="{label}" \1'
     return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"', attributes, text)
+
+
+class _Renderer(RendererSVG):
+    """Measures a text once for all figures: most numbers stand at several axes."""
+
+    def get_text_width_height_descent(self, s, prop, ismath):
+        return _measured(s, prop, ismath)
+
+
+@cache
+def _measured(text, font, is_math):
+    return text_to_path.get_text_width_height_descent(text, font, is_math)

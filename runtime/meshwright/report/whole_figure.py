@@ -1,6 +1,7 @@
 """Whole flanks at true scale: contact pattern and ease-off between the limits of the flank, equal axes in mm."""
 
 import math
+from functools import cached_property
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -66,7 +67,7 @@ class Sheet:
         figure.supylabel(self.labels[1], fontsize=9.0) if rows > 1 else panels[0].set_ylabel(self.labels[1])
         return figure, panels
 
-    @property
+    @cached_property
     def triangles(self):
         """The flank for Matplotlib's contours."""
         return Triangulation(*self.places.T, self.whole.triangles)
@@ -75,9 +76,10 @@ class Sheet:
         """Draw the border: solid on limits of the design, dashed where nothing ends the flank."""
         open_ = np.array([name == OPEN for name in self.whole.limits], dtype=bool)
         ends = self.places[self.whole.edges]
-        for chosen, look in ((~open_, {"colors": colour}), (open_, {"colors": style.SOFT, "linestyles": "dashed"})):
-            shown = _shown(axes, ends[chosen])
-            axes.add_collection(LineCollection(shown, linewidths=1.0, **look), autolim=False)
+        for chosen, look in ((~open_, {"color": colour}), (open_, {"color": style.SOFT, "linestyle": "dashed"})):
+            shown = np.reshape(_shown(axes, ends[chosen]), (-1, 2))
+            edges = broken(shown, np.arange(2, len(shown), 2))
+            axes.plot(*edges.T, linewidth=1.0, solid_capstyle="butt", **look)
 
     def path(self, axes, analysis, member):
         """Draw the path of contact and name its ends."""
