@@ -92,8 +92,8 @@ def main(arguments=None):
         print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
     except OSError as error:
-        place = error.filename or options.output
-        print(f"{place}: cannot be written ({error.strerror}); name another folder with --output", file=sys.stderr)
+        place, option = error.filename or options.into or options.output, "--into" if options.into else "--output"
+        print(f"{place}: cannot be written ({error.strerror}); name another folder with {option}", file=sys.stderr)
         return 2
     except (outside.FileError, DescriptionError, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)

@@ -92,6 +92,7 @@ def checked(plan):
     validate_regions(plan.drive, joints(plan))
     c = f"c/{plan.drive.name}"
     return [
+        (f"descriptions/{plan.drive.name}.json", description.text(plan.drive)),
         (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
@@ -103,7 +104,6 @@ def emit(plan, origin):
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     c = f"c/{drive.name}"
     yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
-    yield f"descriptions/{drive.name}.json", description.text(drive)
     # last: these add nodes to the tapes, the changes of the inputs and design systems at the end of their path
     tangents = sensitivity.tangents(plan)
     yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)

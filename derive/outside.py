@@ -17,6 +17,7 @@ from derive.audit.checker.refusal import Rejected
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
+from derive.language.validate import DescriptionError
 
 
 class FileError(ValueError):
@@ -37,6 +38,8 @@ def catalogue_of(path):
         spec.loader.exec_module(module)
     except SyntaxError as error:
         raise FileError(f"{path}, line {error.lineno}: {error.msg}; correct the line") from error
+    except OSError as error:
+        raise FileError(f"{path}: {error.filename}: {error.strerror}; give what the file reads") from error
     finally:
         sys.path.remove(str(path.resolve().parent))
     if not callable(getattr(module, "catalogue", None)):
@@ -49,7 +52,12 @@ def catalogue_of(path):
 
 def built(path, name, build):
     """The drive of a name, which must be the drive's own and fit for C."""
-    drive = build()
+    try:
+        drive = build()
+    except DescriptionError:
+        raise
+    except ValueError as error:  # what the language refuses
+        raise FileError(f"{path}: catalogue()[{name!r}]: {error}") from error
     if not isinstance(drive, Drive):
         raise FileError(f"{path}: catalogue()[{name!r}] builds a {type(drive).__name__}; build a Drive")
     if drive.name != name:

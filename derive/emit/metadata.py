@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 from dataclasses import asdict
+from functools import cache
 
 import mpmath
 import sympy as sp
@@ -135,9 +136,12 @@ def operations(plan):
     """Number of operations of each stage."""
     tape = plan.tape
 
+    @cache
+    def known(reached):
+        return {i for i, stage in enumerate(tape.stages) if stage <= reached}
+
     def count(outputs, reached):
-        known = {i for i, stage in enumerate(tape.stages) if stage <= reached}
-        return len(tape.needed(outputs, known))
+        return len(tape.needed(outputs, known(reached)))
 
     flat = [e for row in plan.jacobian for e in row]
     slots = list(plan.state)
@@ -236,9 +240,10 @@ def _terms(drive, rule):
     """A rule that is a sum of keys with rational factors, in the units of the keys: factor by symbol, and of a constant
     by "1"; None for all others.
     """
-    factors = {p.symbol: p.factor for p in drive.parameters}
     if rule.value.has(sp.Pow, sp.Function):
         return None
+    used = {rule.target, *rule.value.free_symbols}
+    factors = {p.symbol: p.factor for p in drive.parameters if p.symbol in used}
     numbers = replaced(rule.value, {q: factor * q for q, factor in factors.items()}) / factors[rule.target]
     terms = sp.expand(numbers).as_coefficients_dict()
     if any(not factor.is_Rational or (of != 1 and of not in factors) for of, factor in terms.items()):

@@ -368,9 +368,9 @@ class Motion:
         that is not one rotation by it.
         """
         moving = [k for k, factor in enumerate(self.factors) if _moved_by(factor, variable)]
-        factor, outer = self.factors[moving[0] if moving else 0], Motion(self.factors[: moving[0] if moving else 0])
-        if len(moving) != 1 or not isinstance(factor, Rotation | Swing):
+        if len(moving) != 1 or not isinstance(factor := self.factors[moving[0]], Rotation | Swing):
             raise ValueError(f"{variable} does not turn the body about one axis")
+        outer = Motion(self.factors[: moving[0]])
         rate = partial(factor.angle, variable)
         if rate not in (1, -1):
             raise ValueError(f"the body does not turn by {variable} but by {rate} times it")

@@ -36,6 +36,8 @@ def _chain_rule(expression: sp.Expr, inner: list[sp.Expr]) -> sp.Expr:
         return exponent * base ** (exponent - 1) * inner[0]
     if isinstance(expression, sp.sign):  # constant on either side
         return sp.S.Zero
+    if not isinstance(expression, sp.Function):
+        raise ValueError(f"{expression} has no derivative here; use sums, products, powers and functions")
     return sp.Add(*(expression.fdiff(k) * d for k, d in enumerate(inner, 1) if d != 0))
 
 

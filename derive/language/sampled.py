@@ -27,13 +27,28 @@ def _excess(a: mpmath.mpf) -> mpmath.mpf:
 _FUNCTIONS: Mapping[Any, Callable[..., mpmath.mpf]] = {
     sp.sin: mpmath.sin, sp.cos: mpmath.cos, sp.tan: mpmath.tan, sp.atan2: mpmath.atan2, sp.Abs: mpmath.mpf.__abs__,
     sp.atan: mpmath.atan, sp.asin: mpmath.asin, sp.acos: mpmath.acos, sp.sign: mpmath.sign,
-    unit_step: _unit_step, excess: _excess,
+    unit_step: _unit_step, excess: _excess, sp.Min: min, sp.Max: max,
 }  # fmt: skip
+
+#: Functions that generated code computes.
+COMPUTED = tuple(function for function in _FUNCTIONS if function not in (sp.Min, sp.Max))
+
+
+class NoValue(ArithmeticError):
+    """An expression without a real value where it is evaluated."""
 
 
 def value_of(expression: Number, values: Mapping[Any, Any], definitions: Definitions) -> mpmath.mpf:
-    """Value of the expression where its symbols have values (symbol → number) or are defined (symbol → expression)."""
-    return _value(sp.sympify(expression), {q: mpmath.mpf(number) for q, number in values.items()}, definitions)
+    """Value of the expression where its symbols have values (symbol → number) or are defined; NaN where one that it
+    needs is. Raises :class:`NoValue` where it divides by zero or leaves the real numbers.
+    """
+    whole = sp.sympify(expression)
+    known: dict[sp.Expr, mpmath.mpf] = {q: mpmath.mpf(values[q]) for q in definitions.free(whole) if q in values}
+    try:
+        value = _value(whole, known, definitions)
+        return value if mpmath.isnan(value) else mpmath.mpf(value)
+    except (ArithmeticError, AttributeError, TypeError, ValueError) as error:  # what is said to complex numbers too
+        raise NoValue(f"{whole} has no real value") from error
 
 
 def sampled(expressions: Iterable[Number]) -> Iterator[list[mpmath.mpf]]:
@@ -42,8 +57,9 @@ def sampled(expressions: Iterable[Number]) -> Iterator[list[mpmath.mpf]]:
     symbols = sorted({q for e in wanted for q in e.free_symbols}, key=str)
     for k in range(PLACES):
         with mpmath.workdps(DIGITS):
+            roots = [mpmath.sqrt(sp.prime(1 + k + PLACES * n)) for n in range(len(symbols))]
             values: dict[sp.Expr, mpmath.mpf] = {
-                q: mpmath.mpf(3 * k + n + 2) / (7 + 2 * n) for n, q in enumerate(symbols)
+                q: root - mpmath.floor(root) for q, root in zip(symbols, roots, strict=True)
             }
             yield [_value(e, values, Definitions()) for e in wanted]
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cache
 from typing import Any, Self, TypeAlias
 
 import sympy as sp
@@ -94,6 +95,7 @@ def unit_suffixes() -> tuple[str, ...]:
     return tuple(_INTERFACE_UNITS)
 
 
+@cache
 def interface_unit(key: str) -> tuple[str, str, sp.Expr]:
     """Unit suffix of an interface key ("" for a pure number), the inner unit and the exact factor to it."""
     suffix = max((u for u in _INTERFACE_UNITS if key.endswith("_" + u)), key=len, default="")

@@ -19,8 +19,7 @@ from derive.language.differentiate import partial
 from derive.language.drive import PATH, Body, Drive, Margin, Role
 from derive.language.functions import SOLID, SOLID_UNITS
 from derive.language.outline import OPTIONS, Outline
-from derive.language.replace import replaced
-from derive.language.sampled import value_of, vanishes
+from derive.language.sampled import COMPUTED, NoValue, value_of, vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
@@ -61,8 +60,8 @@ class Joint:
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
     checks = (
-        _keys, _units, _names, _words, _completion, _guards, _sample, _domains, _systems, _turns, _limits, _solids,
-        _exact,
+        _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems, _turns, _limits,
+        _solids,
     )  # fmt: skip
     for check in checks:
         for message in check(drive):
@@ -242,6 +241,12 @@ def _systems(drive: Drive) -> Iterator[str]:
         if strangers := _strangers(drive, equation, known):
             yield f"the equations of contact need {', '.join(strangers)}, which nothing gives"
     parameters = {p.symbol for p in drive.parameters}
+    for what, expression, given in (
+        ("the ratio", drive.ratio, parameters),
+        ("the wheel's angle", drive.wheel_angle, parameters | {drive.instant, drive.error}),
+    ):
+        if strangers := _strangers(drive, expression, given):
+            yield f"{what} needs {', '.join(strangers)}, which nothing gives"
     for system in drive.systems:
         for target in system.fills.keys() - parameters:
             yield f"the design system {system.name} fills {target}, which is no parameter"
@@ -254,9 +259,8 @@ def _turns(drive: Drive) -> Iterator[str]:
             body.motion.axis(variable)
         except ValueError as error:
             yield f"the motion of the {body.name}: {error}"
-    turned, rest = ({drive.instant: sp.Integer(k), drive.error: sp.S.Zero} for k in (1, 0))
     angle, ratio = map(drive.definitions.resolve, (drive.wheel_angle, drive.ratio))
-    slope = replaced(angle, turned) - replaced(angle, rest)
+    slope = partial(angle, drive.instant)
     if slope != ratio and not vanishes(slope - ratio):
         yield f"the wheel turns by {slope} for one radian of {drive.instant}, the ratio is {ratio}; make both the same"
 
@@ -285,33 +289,47 @@ def _solids(drive: Drive) -> Iterator[str]:
 
 
 def _exact(drive: Drive) -> Iterator[str]:
-    """Numbers are exact and real: an inexact one has no place in a proof, one that is no number none in a gear."""
+    """Numbers are exact and real: an inexact one has no place in a proof, one that is no number none in a gear.
+    Functions are those that generated code computes.
+    """
+    yield from _inexact(_expressions(drive), COMPUTED)
+    proportions = ((f"the proportion for {rule.target}", rule.value) for rule in drive.proportions)
+    yield from _inexact(proportions, (*COMPUTED, sp.Min, sp.Max))
+
+
+def _inexact(expressions: Iterable[tuple[str, Number]], functions: Collection[type[sp.Expr]]) -> Iterator[str]:
     seen: set[sp.Expr] = set()
-    for what, expression in _expressions(drive):
-        for atom in _atoms(sp.sympify(expression), seen):
-            if isinstance(atom, sp.Float):
-                yield f"{what} has the inexact number {atom}; write it as a sympy.Rational"
-            elif not (isinstance(atom, sp.Symbol | sp.Rational) or atom is sp.pi):
-                yield f"{what} has {atom}, which is no real number, or has no exact form in a description"
+    for what, expression in expressions:
+        for part in _parts(sp.sympify(expression), seen):
+            if isinstance(part, sp.Float):
+                yield f"{what} has the inexact number {part}; write it as a sympy.Rational"
+            elif not part.args:
+                if not (isinstance(part, sp.Symbol | sp.Rational) or part is sp.pi):
+                    yield f"{what} has {part}, which is no real number, or has no exact form in a description"
+            elif isinstance(part, sp.Pow):
+                if not (isinstance(part.exp, sp.Rational) and part.exp.q in (1, 2)):
+                    yield f"{what} has the power {part}; only whole and half powers are computed"
+            elif not isinstance(part, sp.Add | sp.Mul) and part.func not in functions:
+                names = ", ".join(function.__name__ for function in functions)
+                yield f"{what} uses {part.func.__name__}, which is not computed there; use {names} or sqrt"
 
 
-def _atoms(expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[sp.Expr]:
-    """Atoms of an expression, without those of parts ``seen`` before, to which its own are added."""
+def _parts(expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[sp.Expr]:
+    """Parts of an expression, each before its own, without those ``seen`` before, to which they are added."""
     pending = [expression]
     while pending:
         part = pending.pop()
         if part not in seen:
             seen.add(part)
+            yield part
             pending += part.args
-            if not part.args:
-                yield part
 
 
 def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
     """Every expression of the description, and what it is."""
     yield from ((f"the definition of {symbol}", value) for symbol, value in drive.definitions.items())
     yield from ((f"the default of {p.key}", p.default) for p in drive.parameters if p.default is not None)
-    yield from ((f"the rule for {rule.target}", rule.value) for rule in (*drive.rules, *drive.proportions))
+    yield from ((f"the rule for {rule.target}", rule.value) for rule in drive.rules)
     yield from ((f"the guard {guard.message!r}", guard.positive) for guard in drive.guards)
     yield from ((f"the size {name}", value) for name, value, _ in drive.sizes)
     yield from (("an equation of contact", equation) for equation in drive.residual)
@@ -353,6 +371,10 @@ def _limits(drive: Drive) -> Iterator[str]:
         yield "the ratio is zero"
 
 
+#: Components of two opposite unit normals add up to less than this: the sample's contact is solved in many digits.
+OPPOSITE = 1e-9
+
+
 def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
     """Raise :class:`DescriptionError` unless both normals point out of their bodies at the sample's contact.
 
@@ -363,9 +385,17 @@ def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
     narrow towards its tip: the normal has a component towards it.
     """
     first, second = (observed[f"normal_{body.name}_f"] for body in drive.bodies)
+    names = " and ".join(body.name for body in drive.bodies)
     if not _dot(first, second) < 0:
-        names = " and ".join(body.name for body in drive.bodies)
-        raise DescriptionError(f"{drive.name}: the normals of {names} point the same way in contact; one points inward")
+        raise DescriptionError(
+            f"{drive.name}: the normals of {names} point the same way in contact; one points inward, or the sample's "
+            "contact lies off the teeth: choose another sample design or angle then"
+        )
+    if not max(abs(a + b) for a, b in zip(first, second, strict=True)) < OPPOSITE:
+        raise DescriptionError(
+            f"{drive.name}: the normals of {names} are not opposite where the sample's surfaces should touch: it has "
+            "no contact at its angle; choose another sample design or angle"
+        )
     low, high = observed["curvature_gap"]
     least = max(abs(low), abs(high)) / 10**6
     if high < least or (low < -least and not _narrows(drive, observed, values)):
@@ -464,10 +494,12 @@ def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:
     Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
     """
     found = [
-        _dot(_body_normal(drive, body, observed, values), _slope(drive, body, m, observed, values)) < 0
+        _dot(_body_normal(drive, body, observed, values), slope) < 0
         for body in drive.bodies
         for m in body.margins
-        if m.role is Role.TIP and {*body.point} & m.positive.free_symbols
+        if m.role is Role.TIP
+        and {*body.point} & m.positive.free_symbols
+        and (slope := _slope(drive, body, m, observed, values)) is not None
     ]
     return not found or any(found)
 
@@ -477,11 +509,22 @@ def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) 
     return [value_of(c, values, drive.definitions) for c in turned]
 
 
-def _slope(drive: Drive, body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[mpmath.mpf]:
-    """Gradient of a margin by the body coordinates."""
-    at = {q: value if mpmath.isfinite(value) else 1 for q, value in values.items()}
-    at |= dict(zip(body.point, observed[f"point_{body.name}"], strict=True))
-    return [value_of(partial(margin.positive, q), at, drive.definitions) for q in body.point]
+def _at(body: Body, observed: Observed, values: Numbers) -> Numbers:
+    """What the limits of a body may depend on at the sample's contact: symbol → number."""
+    point = zip(body.point, observed[f"point_{body.name}"], strict=True) if body.point else ()
+    return {**values, **dict(point)}
+
+
+def _slope(drive: Drive, body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[mpmath.mpf] | None:
+    """Gradient of a margin by the body coordinates; None where it has none or hangs on keys that the sample leaves
+    open.
+    """
+    at = _at(body, observed, values)
+    try:
+        slope = [value_of(partial(margin.positive, q), at, drive.definitions) for q in body.point]
+    except NoValue:
+        return None
+    return slope if all(map(mpmath.isfinite, slope)) else None
 
 
 def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:

@@ -8,10 +8,11 @@ from typing import TypeAlias
 import sympy as sp
 
 from derive.language.drive import Drive, Margin
+from derive.language.sampled import NoValue, value_of
 from derive.language.symbols import Table
-from derive.language.validate import Joint
+from derive.language.validate import DescriptionError, Joint
 from derive.passes.plan import Flank, Schedule
-from derive.passes.sample import Completion, Values, in_double, near, solution, solve
+from derive.passes.sample import Completion, NoSample, Values, in_double, near, solution, solve
 
 Row: TypeAlias = list[float]
 
@@ -39,13 +40,15 @@ class _Place:
 
     def way(self) -> Row:
         """The unit direction across the joint in which the margin there grows, its conditions kept."""
-        # least |tangents · q| with slopes · q = (1, 0 …): Lagrange's equations
-        rows = [
-            [_dot(a, b) for b in self.tangents] + [row[k] for row in self.slopes] for k, a in enumerate(self.tangents)
-        ] + [[*row, *[0.0] * len(self.slopes)] for row in self.slopes]
-        wanted = [0.0] * len(self.tangents) + [1.0] + [0.0] * (len(self.slopes) - 1)
+        # least |tangents · q| with slopes · q = (1, 0 …): Lagrange's equations, each parameter in lengths of its own
+        lengths = [math.hypot(*t) for t in self.tangents]
+        tangents = [_unit(t) for t in self.tangents]
+        slopes = [_unit([s / length for s, length in zip(row, lengths, strict=True)]) for row in self.slopes]
+        rows = [[_dot(a, b) for b in tangents] + [row[k] for row in slopes] for k, a in enumerate(tangents)]
+        rows += [[*row, *[0.0] * len(slopes)] for row in slopes]
+        wanted = [0.0] * len(tangents) + [1.0] + [0.0] * (len(slopes) - 1)
         change = _solved(rows, wanted)
-        return _unit([sum(change[k] * t[axis] for k, t in enumerate(self.tangents)) for axis in range(3)])
+        return _unit([sum(change[k] * t[axis] for k, t in enumerate(tangents)) for axis in range(3)])
 
 
 class _Surface:
@@ -101,34 +104,36 @@ def _samples(plan: Schedule) -> Iterator[tuple[str, Mapping[sp.Symbol, float]]]:
     complete = Completion(drive, plan.systems)
     which = next(p for p in drive.parameters if p.table is Table.FLANK)
     for word, number in which.choices:
-        own = float(plan.sample[which.symbol]) == number
+        if float(plan.sample[which.symbol]) == number:
+            yield word, _filled(drive, in_double(plan.sample))
+            continue
         try:
-            design = in_double(plan.sample) if own else complete({**drive.sample, which.key: number}, math)
-            _fill(drive, design)
-            yield word, design if own else _contact(plan, design)
-        except (ArithmeticError, ValueError):  # the other flank may need a design of its own
+            design = _filled(drive, complete({**drive.sample, which.key: number}, math))
+            yield word, _contact(plan, design)
+        except DescriptionError:  # the other flank may need a design of its own
             continue
 
 
 def _contact(plan: Schedule, design: Values) -> Values:
     try:
         return solve(plan, design, plan.drive.sample_angle, math)
-    except ArithmeticError:
+    except NoSample:
         return near(plan, design, plan.drive.sample_angle, math)
 
 
-def _excess(value: float) -> float:
-    return max(value, 0.0)
-
-
-def _fill(drive: Drive, design: Values) -> None:
-    """Fill in the sizes of blank and tools that a design leaves open."""
+def _filled(drive: Drive, design: Values) -> Values:
+    """The design with the sizes of blank and tools that it leaves open."""
+    design = dict(design)
     for rule in drive.proportions:
         if math.isnan(design[rule.target]):
-            value = sp.sympify(drive.definitions.resolve(rule.value))
-            known = sorted(value.free_symbols, key=str)
-            number = sp.lambdify(known, value, [{"excess": _excess}, "math"])
-            design[rule.target] = float(number(*(design[q] for q in known)))
+            try:
+                design[rule.target] = float(value_of(rule.value, design, drive.definitions))
+            except NoValue as error:
+                raise DescriptionError(
+                    f"{drive.name}: the proportion for {rule.target} divides by zero or is no real number at the "
+                    "sample; choose another sample design, or another proportion"
+                ) from error
+    return design
 
 
 def _joint(
@@ -149,7 +154,6 @@ def _joint(
     try:
         q = _least(apart, start)
         one, other = region.at(inputs, q[:n]), flank.at(inputs, q[n:])
-        ways = -_dot(one.way(), other.way())
     except (ArithmeticError, ValueError):
         return None
     if not math.dist(one.point, other.point) < APART:
@@ -157,6 +161,7 @@ def _joint(
     normals = _dot(one.normal, other.normal)
     if not abs(normals) > TANGENT:
         return None
+    ways = -_dot(one.way(), other.way())
     return Joint(of.body, of.region, word, normals, ways, (one.regular, other.regular))
 
 

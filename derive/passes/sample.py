@@ -2,7 +2,8 @@
 
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeAlias, TypeVar
 
 import mpmath
@@ -38,6 +39,9 @@ PATH_STEPS = 16
 ON_PATH, FOUND = 1e-4, 1e-8
 
 
+_OTHER = "choose another sample design"
+
+
 class NoSample(DescriptionError, ArithmeticError):
     """A sample design without a contact at its angle, as far as Newton's method finds it."""
 
@@ -71,7 +75,7 @@ class Completion:
     def _apply_rules(self, values: Values, arithmetic: Arithmetic) -> None:
         for target, tape, node in self._rules:
             if arithmetic.isnan(values[target]):
-                values[target] = tape.evaluate([node], values, arithmetic)[0]
+                (values[target],) = _numbers(f"the rule for {target}", tape.evaluator([node], arithmetic), values)
 
 
 def sample_parameters(drive: Drive, systems: Sequence[SystemTape] | None = None) -> Values:
@@ -82,31 +86,47 @@ def sample_parameters(drive: Drive, systems: Sequence[SystemTape] | None = None)
 def _complete(plan: SystemTape, values: Values, arithmetic: Arithmetic) -> None:
     """Fill in what a design system gives, following its path in equal steps and exactly only at its end."""
     unknowns = plan.unknowns
-    equations = Equations(plan.tape, plan.residual, plan.jacobian, unknowns)
+    name = f"the design system {plan.system.name}"
+    equations = Equations(plan.tape, plan.residual, plan.jacobian, unknowns, name)
     near: Values = in_double(values)
-    near.update(zip(unknowns, plan.tape.evaluate(plan.guess, near, math), strict=True))
+    near.update(zip(unknowns, _numbers(name, plan.tape.evaluator(plan.guess, math), near), strict=True))
     for step in range(PATH_STEPS):
         near[PATH] = step / PATH_STEPS
         equations.newton(near, math, ON_PATH)
     number = real(arithmetic)
     inputs = values | {PATH: number(1)} | {symbol: number(near[symbol]) for symbol in unknowns}
     equations.solve(inputs, arithmetic)
-    for target, value in zip(plan.system.fills, plan.tape.evaluate(plan.values, inputs, arithmetic), strict=True):
+    filled = _numbers(name, plan.tape.evaluator(plan.values, arithmetic), inputs)
+    for target, value in zip(plan.system.fills, filled, strict=True):
         if arithmetic.isnan(values[target]):
             values[target] = value
 
 
 def sample_contact(plan: Schedule) -> Values:
     """Inputs (symbol → number) at a solved contact of the sample design."""
-    with mpmath.workdps(DIGITS):
+    with mpmath.workdps(DIGITS), _of(plan.drive):
         return solve(plan, sample_parameters(plan.drive, plan.systems), plan.drive.sample_angle)
+
+
+@contextmanager
+def _of(drive: Drive) -> Generator[None]:
+    """An error says whose sample it is."""
+    try:
+        yield
+    except NoSample as error:
+        raise NoSample(f"{drive.name}: {error}") from error
 
 
 def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
     """What is observed of the sample's contact: name → numbers."""
     nodes = [i for output in plan.observed for i in output.nodes]
-    with mpmath.workdps(DIGITS):
-        numbers = iter(plan.tape.evaluate(nodes, plan.sample, mpmath))
+    with mpmath.workdps(DIGITS), _of(plan.drive):
+        try:
+            numbers = iter(_numbers("what is observed of the contact", plan.tape.evaluator(nodes, mpmath), plan.sample))
+        except NoSample:
+            for output in plan.observed:
+                _numbers(f"{output.name} of the contact", plan.tape.evaluator(output.nodes, mpmath), plan.sample)
+            raise
     return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
 
 
@@ -137,7 +157,7 @@ def beside(plan: Schedule) -> list[float]:
 def solve(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
     """Inputs (symbol → number) at a contact: start system, then contact, by full Newton steps."""
     inputs = near(plan, parameters, angle, arithmetic)
-    Equations(plan.tape, plan.residual, plan.jacobian, plan.unknowns).solve(inputs, arithmetic)
+    Equations(plan.tape, plan.residual, plan.jacobian, plan.unknowns, "the contact").solve(inputs, arithmetic)
     return inputs
 
 
@@ -146,35 +166,57 @@ def near(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmeti
     drive = plan.drive
     inputs = dict(parameters)
     inputs[drive.instant] = real(arithmetic)(angle)
-    start = [u.symbol for u in drive.start.unknowns]
-    inputs.update(zip(start, plan.tape.evaluate(plan.start_guess, inputs, arithmetic), strict=True))
-    Equations(plan.tape, plan.start_residual, plan.start_jacobian, start).solve(inputs, arithmetic)
-    solution = plan.tape.evaluate(plan.start_solution, inputs, arithmetic)
+    start, name = [u.symbol for u in drive.start.unknowns], "the start system"
+    guess = _numbers(name, plan.tape.evaluator(plan.start_guess, arithmetic), inputs)
+    inputs.update(zip(start, guess, strict=True))
+    Equations(plan.tape, plan.start_residual, plan.start_jacobian, start, name).solve(inputs, arithmetic)
+    solution = _numbers(name, plan.tape.evaluator(plan.start_solution, arithmetic), inputs)
     inputs.update(zip(plan.unknowns, solution, strict=True))
     return inputs
 
 
+def _numbers(what: str, evaluate: Callable[[Values], list[Any]], inputs: Values) -> list[Any]:
+    """What ``evaluate`` makes of the inputs; raises :class:`NoSample` where that divides by zero or is not real."""
+    try:
+        numbers = evaluate(inputs)
+    except ZeroDivisionError as error:
+        raise NoSample(f"{what} divides by zero at the sample; {_OTHER}") from error
+    except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
+        raise NoSample(f"{what} leaves the real numbers at the sample; {_OTHER}") from error
+    if any(isinstance(value, mpmath.mpc) for value in numbers):
+        raise NoSample(f"{what} leaves the real numbers at the sample; {_OTHER}")
+    return numbers
+
+
 class Equations:
-    """Equations on a tape, with their slopes by the unknowns, for Newton's method in any arithmetic."""
+    """Equations on a tape, with their slopes by the unknowns, for Newton's method in any arithmetic; ``name`` is what
+    an error calls them.
+    """
 
     def __init__(
-        self, tape: Tape, residual: Sequence[int], jacobian: Sequence[Sequence[int]], unknowns: Sequence[sp.Symbol]
+        self,
+        tape: Tape,
+        residual: Sequence[int],
+        jacobian: Sequence[Sequence[int]],
+        unknowns: Sequence[sp.Symbol],
+        name: str,
     ) -> None:
         self._tape, self._nodes = tape, [*residual, *(e for row in jacobian for e in row)]
-        self._unknowns = unknowns
+        self._unknowns, self._name = unknowns, name
         self._evaluators: dict[Arithmetic, Callable[[Values], list[Any]]] = {}
 
     def solve(self, inputs: Values, arithmetic: Arithmetic) -> None:
         """Change the unknowns among ``inputs`` (symbol → number) to a solution: by doubles, whose last two steps are
-        done again where the arithmetic has more digits.
+        done again where the arithmetic has more digits, or all of them where doubles find none.
         """
-        try:
-            near: Values = in_double(inputs)
-        except TypeError as error:  # a complex number
-            raise self._unreal() from error
-        self.newton(near, math, FOUND)
+        near: Values = in_double(inputs)
         number = real(arithmetic)
-        inputs.update((symbol, number(near[symbol])) for symbol in self._unknowns)
+        try:
+            self.newton(near, math, FOUND)
+            inputs.update((symbol, number(near[symbol])) for symbol in self._unknowns)
+        except NoSample:
+            if number is float:
+                raise
         if number is not float:
             self.newton(inputs, arithmetic, 10.0 ** (-mpmath.mp.dps // 2 - 5))
 
@@ -185,19 +227,22 @@ class Equations:
             self._evaluators[arithmetic] = self._tape.evaluator(self._nodes, arithmetic)
         evaluate = self._evaluators[arithmetic]
         for _ in range(60):
-            try:
-                numbers = evaluate(inputs)
-            except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
-                raise self._unreal() from error
-            change = solution([[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)], number)
+            numbers = _numbers(self._name, evaluate, inputs)
+            rows = [[*numbers[n + i * n : n + i * n + n], numbers[i]] for i in range(n)]
+            change = solution(rows, number)
             for symbol, value in zip(unknowns, change, strict=True):
                 inputs[symbol] -= value
-            if max(map(abs, change), default=0) < tolerance:
+            if max(map(abs, change), default=0) < tolerance and (number is float or _held(rows, tolerance)):
                 return
-        raise NoSample(f"the sample of {unknowns} does not converge; choose another sample design")
+        if missing := [q for q in self._tape.inputs_of(self._nodes) if mpmath.isnan(inputs[q]) and q not in unknowns]:
+            names = ", ".join(sorted(f"{q} ({getattr(q, 'meaning', '')})" for q in missing))
+            raise NoSample(f"{self._name} of the sample needs {names}, which nothing gives; give it in the sample")
+        raise NoSample(f"{self._name} of the sample does not converge in {unknowns}; {_OTHER}")
 
-    def _unreal(self) -> NoSample:
-        return NoSample(f"the sample of {self._unknowns} leaves the real numbers; choose another")
+
+def _held(rows: list[list[Any]], tolerance: float) -> bool:
+    """Whether equations, rows (matrix | residual), hold but for a small change: one that no change sees may not."""
+    return all(abs(miss) <= tolerance * (1 + sum(map(abs, slopes))) for *slopes, miss in rows)
 
 
 def solution(rows: list[list[Real]], number: type[Real]) -> list[Real]:

@@ -230,7 +230,7 @@ class Tape:
         return self._new("div", (a, b))
 
     def sqrt(self, a: int) -> int:
-        if (value := self.const_value(a)) is not None:
+        if (value := self.const_value(a)) is not None and value >= 0:
             root = math.isqrt(int(value))
             if root**2 == value:
                 return self.constant(root)

@@ -8,6 +8,7 @@ import sympy as sp
 
 from derive import drives
 from derive.language import vectors as v
+from derive.language.chain import Motion
 from derive.language.contact import contact
 from derive.language.drive import Loading, Margin, Role
 from derive.language.functions import solid
@@ -162,6 +163,21 @@ CASES = {
         lambda d: replace(d, rules=(*d.rules, Rule(d.parameters[1].symbol, sp.Float("0.3")))), "rule for m.*Rational"
     ),
     "number that is none": (lambda d: _with_margin(d, Margin("off_tip", "tip", X / 0)), "'tip' of the pinion has zoo"),
+    "function that is not computed": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", sp.Max(X, 1))), "'tip' of the pinion uses Max.*use sin"
+    ),
+    "power that is not computed": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", 2**X)), r"'tip' of the pinion has the power 2\*\*x_at_pinion"
+    ),
+    "angle of the wheel that needs what nobody gives": (
+        lambda d: replace(d, wheel_angle=d.wheel_angle + sp.Symbol("hugo")), "wheel's angle needs hugo"
+    ),
+    "wheel that turns faster and faster": (
+        lambda d: replace(d, wheel_angle=d.wheel_angle + d.ratio * (d.instant**3 - d.instant)), "the wheel turns by"
+    ),
+    "body without a motion": (
+        lambda d: replace(d, pinion=replace(d.pinion, motion=Motion())), "motion of the pinion.*does not turn the body"
+    ),
     "wheel that does not turn": (
         lambda d: replace(d, wheel=replace(d.wheel, motion=d.pinion.motion)), "motion of the wheel.*does not turn"
     ),
@@ -294,3 +310,29 @@ def test_a_fillet_whose_normal_points_into_the_tooth_is_refused():
     inward = _with_fillet(drive, surface=lambda r: r.surface.turned_over())
     with pytest.raises(DescriptionError, match="fillet of the pinion, with flank 'left'.*points into the body"):
         _joined(inward)
+
+
+def test_a_fillet_is_checked_on_large_teeth_as_on_small_ones():
+    drive = _drive("cylindrical_gears")
+    large = replace(drive, sample={k: 400 * n if k.endswith("_mm") else n for k, n in drive.sample.items()})
+    assert len(_joined(large)) == len(_joined(drive)) == 4
+    inward = _with_fillet(large, surface=lambda r: r.surface.turned_over())
+    with pytest.raises(DescriptionError, match="fillet of the pinion.*points into the body"):
+        _joined(inward)
+
+
+def test_a_limit_without_a_value_at_the_contact_is_refused():
+    drive = _drive(SMALL)
+    for limit, why in ((1 / (X - X), "has zoo"), (sp.sqrt(-1 - X**2), "leaves the real numbers at the sample")):
+        with pytest.raises(DescriptionError, match=f"{SMALL}: .*{why}"):
+            wrong = _with_margin(drive, Margin("off_tip", "tip", limit))
+            validate(wrong)
+            _checked(wrong)
+
+
+def test_surfaces_that_cannot_touch_are_no_sample():
+    plan = schedule(_drive(SMALL))
+    observed = dict(observation(plan))
+    observed["normal_wheel_f"] = [n + mpmath.mpf(1) / 1000 for n in observed["normal_wheel_f"]]
+    with pytest.raises(DescriptionError, match="are not opposite where the sample's surfaces should touch"):
+        validate_normals(plan.drive, observed, plan.sample)

@@ -14,28 +14,49 @@ def test_a_root_is_found_to_all_digits():
     tape, lower, (residual,) = lowered(x**2 - p)
     with mpmath.workdps(40):
         inputs = {p: mpmath.mpf(2), x: mpmath.mpf(1)}
-        Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve(inputs, mpmath)
+        Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system").solve(inputs, mpmath)
         assert abs(inputs[x] - mpmath.sqrt(2)) < mpmath.mpf(10) ** -38
 
 
 def test_without_a_root_it_says_which_sample_does_not_converge():
     tape, lower, (residual,) = lowered(x**2 + 1)
-    with pytest.raises(ArithmeticError, match=r"sample of \[x\] does not converge"):
-        Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve({x: mpmath.mpf("0.7")}, mpmath)
+    with pytest.raises(ArithmeticError, match=r"the system of the sample does not converge in \[x\]"):
+        equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system")
+        equations.solve({x: mpmath.mpf("0.7")}, mpmath)
 
 
 def test_what_needs_a_root_of_a_negative_number_is_said_to_leave_the_real_numbers():
     tape, lower, (residual,) = lowered(sp.sqrt(x) + 1)
-    equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x])
-    for start in (mpmath.mpf(1), mpmath.sqrt(mpmath.mpf(-1))):
-        with pytest.raises(ArithmeticError, match=r"sample of \[x\] leaves the real numbers"):
-            equations.solve({x: start}, mpmath)
+    equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system")
+    with pytest.raises(ArithmeticError, match="the system leaves the real numbers at the sample"):
+        equations.solve({x: mpmath.mpf(1)}, mpmath)
+
+
+def test_equations_that_contradict_one_another_have_no_solution_where_no_change_is_left():
+    tape, lower, residual = lowered(x - p, x - 2 * p)
+    rows = [[tape.derivative(r, lower(x)), tape.constant(0)] for r in residual]
+    with pytest.raises(ArithmeticError, match="the system of the sample does not converge"):
+        Equations(tape, residual, rows, [x, p], "the system").solve({p: mpmath.mpf(2), x: mpmath.mpf(1)}, mpmath)
+
+
+def test_what_nothing_gives_is_named():
+    tape, lower, (residual,) = lowered(x**2 - p)
+    equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system")
+    with pytest.raises(ArithmeticError, match=r"the system of the sample needs p .*, which nothing gives"):
+        equations.solve({p: mpmath.nan, x: mpmath.mpf(1)}, mpmath)
+
+
+def test_a_division_by_zero_is_said_to_be_one():
+    tape, lower, (residual,) = lowered(1 / x - p)
+    equations = Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system")
+    with pytest.raises(ArithmeticError, match="the system divides by zero at the sample"):
+        equations.solve({p: mpmath.mpf(2), x: mpmath.mpf(0)}, mpmath)
 
 
 def test_doubles_are_enough_where_they_are_asked_for():
     tape, lower, (residual,) = lowered(x**2 - p)
     inputs = {p: 2.0, x: 1.0}
-    Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x]).solve(inputs, math)
+    Equations(tape, [residual], [[tape.derivative(residual, lower(x))]], [x], "the system").solve(inputs, math)
     assert inputs[x] == pytest.approx(math.sqrt(2.0), abs=1e-15)
 
 
