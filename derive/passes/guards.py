@@ -64,6 +64,9 @@ class Evaluated:
         return [i for group in self.groups for i in group]
 
 
+#: A condition that fails unseen: the function, the group of results, the node and its kind.
+Unseen: TypeAlias = tuple[Evaluated, Group, int, str]
+
 #: Functions that work for later ones, in which their conditions are seen.
 EARLY = ("setup", "set_phi")
 
@@ -232,9 +235,9 @@ def demanded(tape: Tape, i: int) -> list[Condition]:
 # -- guards of the design -------------------------------------------------------------------------------------------
 
 
-def design_guards(plan: Schedule) -> list[DesignGuard]:
+def design_guards(plan: Schedule, unseen: Iterable[Unseen]) -> list[DesignGuard]:
     """A drive's own guards; one for each design quantity by which the solution divides, of which it takes a root, or
-    whose failure a later result would not show; one for parameters that are not finite.
+    whose failure a later result would not show (``unseen``); one for parameters that are not finite.
     """
     tape = plan.tape
     guards: list[DesignGuard] = []
@@ -243,7 +246,7 @@ def design_guards(plan: Schedule) -> list[DesignGuard]:
         guards.append(DesignGuard(node, g.message, g.keys, node))
     needed = tape.needed([*(g.node for g in guards), *solving(plan)])
     wanted = [condition for i in needed for condition in demanded(tape, i)]
-    wanted += [(k, kind) for _, _, k, kind in _lost_in(plan, {"result"}) if tape.stages[k] <= Stage.DESIGN]
+    wanted += [(k, kind) for f, _, k, kind in unseen if f.guard == "result" and tape.stages[k] <= Stage.DESIGN]
     done = {g.of for g in guards}
     for node, kind in wanted:
         if tape.stages[node] <= Stage.DESIGN and node not in done:
@@ -253,17 +256,16 @@ def design_guards(plan: Schedule) -> list[DesignGuard]:
     return [*guards, _finite(plan, sorted(inputs))]
 
 
-def _lost_in(
-    plan: Schedule, guards: Collection[str], held: Collection[int | None] = ()
-) -> Iterator[tuple[Evaluated, Group, int, str]]:
-    """(function, group, node, kind) of conditions not in ``held`` that fail unseen in functions with these guards."""
+def unseen(plan: Schedule) -> list[Unseen]:
+    """Conditions that fail unseen in a function, but for those of a start, which the solution shows."""
+    found: list[Unseen] = []
     for f in functions(plan):
-        if f.guard in guards and f.name not in EARLY:
+        if f.guard != "start" and f.name not in EARLY:
             order = f.tape.needed(f.outputs)
             failing = _failing(f.tape, order)
             for (node, kind), groups in zip(failing, lost(f, order, failing.values()), strict=True):
-                if f.tape is not plan.tape or node not in held:
-                    yield from ((f, group, node, kind) for group in groups)
+                found += ((f, group, node, kind) for group in groups)
+    return found
 
 
 def _is_parameter(tape: Tape, i: int) -> bool:
@@ -385,7 +387,7 @@ class SideCondition(TypedDict):
     functions: dict[str, Use]
 
 
-def tests(plan: Schedule) -> Tests:
+def tests(plan: Schedule, unseen: Iterable[Unseen]) -> Tests:
     """Nodes to test: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
 
     Flanks and observations are not tested: a failing condition must be seen in the results themselves, as in the
@@ -394,7 +396,9 @@ def tests(plan: Schedule) -> Tests:
     held = {g.of for g in plan.guards}
     testing = {"derive", *(f.name for f in plan.functions)}
     found: dict[tuple[str, int], dict[Group, list[int]]] = {}
-    for f, group, node, kind in _lost_in(plan, GUARDS.keys() - {"start"}, held):
+    for f, group, node, kind in unseen:
+        if f.tape is plan.tape and node in held:
+            continue
         if f.name not in testing or kind != "nonzero":
             text = formula(f.tape, node, f.lower)
             raise Unguarded(f"{plan.drive.name}: nothing shows in {f.name} that {text} is not {kind}")

@@ -20,6 +20,10 @@ Row: TypeAlias = list[float]
 #: matrix grows at first, in the method of Levenberg and Marquardt: a place along the joint is as good as another.
 STEPS, STILL, DAMPING = 100, 1e-9, 1e-3
 
+#: Where so many steps one after another each leave more than this share of the squares, they are at their least: flank
+#: and region come near each other there, and no nearer.
+SLOW, LEFT = 3, 0.9
+
 #: Flank and region that are further apart than this, mm, or whose normals' cosine is less, do not join but cross: all
 #: that modifications of a flank part and turn is less.
 APART, TANGENT = 0.1, 0.9
@@ -167,7 +171,7 @@ def _joint(
 
 def _least(equations: Callable[[Row], tuple[Row, list[Row]]], q: Row) -> Row:
     """Where the sum of squares of some equations, given with their slopes, is least, from a place near it."""
-    damping, (values, slopes) = DAMPING, equations(q)
+    damping, slow, (values, slopes) = DAMPING, 0, equations(q)
     if not math.isfinite(_dot(values, values)):
         raise ArithmeticError("a size of the sample is missing")
     for _ in range(STEPS):
@@ -180,8 +184,9 @@ def _least(equations: Callable[[Row], tuple[Row, list[Row]]], q: Row) -> Row:
         if not _dot(trial[0], trial[0]) <= _dot(values, values):
             damping *= 10.0
         else:
+            slow = slow + 1 if _dot(trial[0], trial[0]) > LEFT * _dot(values, values) else 0
             damping, q, (values, slopes) = 0.1 * damping, further, trial
-        if max(map(abs, step)) < STILL:
+        if max(map(abs, step)) < STILL or slow == SLOW:
             break
     return q
 

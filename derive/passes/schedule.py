@@ -86,8 +86,9 @@ def bind(plan: Schedule) -> Schedule:
     plan.expansions = [_expansion(plan, f, second=True) for f in plan.flanks]
     plan.expansions += [_expansion(plan, f, second=False) for f in plan.regions]
     _assign_state(plan)
-    plan.guards = guards.design_guards(plan)
-    plan.tests = guards.tests(plan)
+    unseen = guards.unseen(plan)
+    plan.guards = guards.design_guards(plan, unseen)
+    plan.tests = guards.tests(plan, unseen)
     return plan
 
 

@@ -170,7 +170,7 @@ def _search(drive):
         search = first_contact._Search.of(drive, angles, solved.solutions)[0]
         if search is None:
             return None
-        table, start = search.table, solved.solutions[0]
+        table, start = search.flank.table, solved.solutions[0]
         placed = first_contact._placed(drive, np.linspace(0.0, 0.05, 2))
         pinion, wheel = (p[:, :3].reshape(-1, 12) for p in placed)
         begin = np.concatenate([start[b["unknowns"]] for b in drive.design.description["bodies"][::-1]])
@@ -181,7 +181,7 @@ def _search(drive):
 
 
 def _first(own, search, table, pinion, wheel, start):
-    (q, corner, open_, wheel_sizes, pinion_sizes), _ = search.kept
+    (q, corner, open_, wheel_sizes, pinion_sizes), _ = search.flank.kept
     return [
         _array(f"{own}_q", q), _array(f"{own}_corner", corner, "int"), _array(f"{own}_open", open_, "unsigned char"),
         _array(f"{own}_wheel_sizes", wheel_sizes), _array(f"{own}_pinion_sizes", pinion_sizes),
