@@ -96,6 +96,8 @@ def checked(plan):
         (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
+        # last: this adds nodes to the tapes, of design systems at the end of their path
+        (f"{c}_certified.h", certified.header(plan, metadata.GENERATOR)),
     ]
 
 
@@ -104,10 +106,9 @@ def emit(plan, origin):
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     c = f"c/{drive.name}"
     yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
-    # last: these add nodes to the tapes, the changes of the inputs and design systems at the end of their path
+    # last: these add nodes to the tapes, the changes of the inputs
     tangents = sensitivity.tangents(plan)
     yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)
-    yield f"{c}_certified.h", certified.header(plan, metadata.GENERATOR)
     yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
     evaluated = [*guards.functions(plan), *guards.moving(plan), *guards.bounded(plan), *tangents.functions()]
     metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
