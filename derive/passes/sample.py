@@ -118,16 +118,23 @@ def _of(drive: Drive) -> Generator[None]:
 
 
 def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
-    """What is observed of the sample's contact: name → numbers."""
+    """What is observed of the sample's contact: name → numbers; "not a number" is what has no real value there, as a
+    limit that is not applied.
+    """
     nodes = [i for output in plan.observed for i in output.nodes]
-    with mpmath.workdps(DIGITS), _of(plan.drive):
+    with mpmath.workdps(DIGITS):
         try:
-            numbers = iter(_numbers("what is observed of the contact", plan.tape.evaluator(nodes, mpmath), plan.sample))
+            numbers = iter(_numbers("the contact", plan.tape.evaluator(nodes, mpmath), plan.sample))
+            return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
         except NoSample:
-            for output in plan.observed:
-                _numbers(f"{output.name} of the contact", plan.tape.evaluator(output.nodes, mpmath), plan.sample)
-            raise
-    return {output.name: [next(numbers) for _ in output.nodes] for output in plan.observed}
+            return {output.name: [_value(plan, i) for i in output.nodes] for output in plan.observed}
+
+
+def _value(plan: Schedule, node: int) -> mpmath.mpf:
+    try:
+        return _numbers("the contact", plan.tape.evaluator([node], mpmath), plan.sample)[0]
+    except NoSample:
+        return mpmath.nan
 
 
 def real(arithmetic: Arithmetic) -> type[Any]:
