@@ -219,14 +219,14 @@ static double *changes(reader *r, int n)
     return d;
 }
 
-/* The functions of the table themselves; each counts as a call of the interface. */
 /* Where rays meet a flank near q[3*count]: no number means nowhere. */
 static void rays(reader *r, fuzzed *f, mw_surface flank, int count, int outputs, const double *q)
 {
     double *from = numbers(9), *along = numbers(9), *found = numbers((size_t)count * 3), *o = numbers((size_t)outputs + 1), *distance = numbers(3);
     for (int i = 0; i < 9; i++) from[i] = number(r, 1.0), along[i] = number(r, i % 4 == 0);
     memcpy(found, q, sizeof *q * (size_t)count * 3);
-    const int status = mw_rays(flank, count, outputs, f->s, from, along, 3, number(r, 8.0), number(r, 100.0), o, found, distance);
+    const double longest = number(r, 8.0), farthest = number(r, 100.0);
+    const int status = mw_rays(flank, count, outputs, f->s, from, along, 3, longest, farthest, o, found, distance);
     if (!outputs && status != MW_BAD_INPUT) fail("rays to a surface without outputs");
     note_numbers(r, found, (size_t)count * 3);
 }
@@ -252,6 +252,7 @@ static void across(reader *r, fuzzed *f, mw_surface flank, int count, int output
     rays(r, f, flank, count, by.outputs, q);
 }
 
+/* The functions of the table themselves; each counts as a call of the interface. */
 static void table(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
