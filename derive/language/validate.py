@@ -509,17 +509,11 @@ def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) 
     return [value_of(c, values, drive.definitions) for c in turned]
 
 
-def _at(body: Body, observed: Observed, values: Numbers) -> Numbers:
-    """What the limits of a body may depend on at the sample's contact: symbol → number."""
-    point = zip(body.point, observed[f"point_{body.name}"], strict=True) if body.point else ()
-    return {**values, **dict(point)}
-
-
 def _slope(drive: Drive, body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[mpmath.mpf] | None:
     """Gradient of a margin by the body coordinates; None where it has none or hangs on keys that the sample leaves
     open.
     """
-    at = _at(body, observed, values)
+    at = {**values, **dict(zip(body.point, observed[f"point_{body.name}"], strict=True))}
     try:
         slope = [value_of(partial(margin.positive, q), at, drive.definitions) for q in body.point]
     except NoValue:

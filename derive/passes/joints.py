@@ -165,7 +165,13 @@ def _joint(
     normals = _dot(one.normal, other.normal)
     if not abs(normals) > TANGENT:
         return None
-    ways = -_dot(one.way(), other.way())
+    try:
+        ways = -_dot(one.way(), other.way())
+    except ArithmeticError as error:
+        raise DescriptionError(
+            f"the {of.region} of the {of.body}, with flank {word!r}, or the flank is singular where they join; "
+            "choose a sample whose joint is regular"
+        ) from error
     return Joint(of.body, of.region, word, normals, ways, (one.regular, other.regular))
 
 

@@ -152,16 +152,16 @@ class _Copy:
             if left == 1:
                 self._hasten(users)
 
-    def start(self, n: int, time: float) -> tuple[Iterable[int], Iterable[int]]:
+    def start(self, n: int, time: float) -> tuple[list[int], list[int]]:
         """Start operation n; returns those ready that have become more urgent, and those that may come now."""
         graph, uses, waits, possible = self._graph, self._uses, self._waits, self.possible
         finished = max(time, possible[n]) + graph.latency[n]
         self.ready[n] = False
-        hastened: Iterable[int] = ()
+        hastened: list[int] = []
         for a in graph.args[n]:
             uses[a] -= 1
             if uses[a] == 1:
-                hastened = [*hastened, *self._hasten(graph.users[a])]
+                hastened += self._hasten(graph.users[a])
         released: list[int] = []
         for u in graph.users[n]:
             waits[u] -= 1

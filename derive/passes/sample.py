@@ -38,7 +38,7 @@ PATH_STEPS = 16
 #: Newton's last change on the way, and where doubles have found a solution: what is left of the error is its square.
 ON_PATH, FOUND = 1e-4, 1e-8
 
-
+#: What helps where a sample has no contact.
 _OTHER = "choose another sample design"
 
 
@@ -186,8 +186,8 @@ def _numbers(what: str, evaluate: Callable[[Values], list[Any]], inputs: Values)
     """What ``evaluate`` makes of the inputs; raises :class:`NoSample` where that divides by zero or is not real."""
     try:
         numbers = evaluate(inputs)
-    except ZeroDivisionError as error:
-        raise NoSample(f"{what} divides by zero at the sample; {_OTHER}") from error
+    except ArithmeticError as error:
+        raise NoSample(f"{what} divides by zero or overflows at the sample; {_OTHER}") from error
     except (AttributeError, TypeError, ValueError) as error:  # what real functions say to complex numbers
         raise NoSample(f"{what} leaves the real numbers at the sample; {_OTHER}") from error
     if any(isinstance(value, mpmath.mpc) for value in numbers):
