@@ -53,9 +53,10 @@ def test_every_status_and_flag_is_explained(capsys):
     ],
 )
 def test_quantities_reasons_and_keys_are_explained(capsys, words, said):
-    assert main(["explain", *words.split()]) == 0
-    shown = capsys.readouterr().out
-    assert said in shown and not ("." in words and "[design]" in shown)
+    for typed in (words.split(), [words]):
+        assert main(["explain", *typed]) == 0
+        shown = capsys.readouterr().out
+        assert said in shown and not ("." in words and "[design]" in shown)
 
 
 def test_the_help_of_new_names_the_words_of_every_family(capsys):

@@ -48,7 +48,8 @@ def test_a_ray_along_a_normal_meets_the_flank_where_it_began(design):
     distance, met = flank.met(points, -found.normals, near, 8.0, 1.0)
     assert distance == pytest.approx(away, abs=1e-12)
     assert met == pytest.approx(q, abs=1e-10)
-    assert np.isnan(flank.met(points, -found.normals, near, 8.0, 0.1)[0]).all()
+    for longest, farthest in ((8.0, 0.1), (0.0, 1.0), (np.nan, 1.0), (8.0, -1.0), (8.0, np.nan)):
+        assert np.isnan(flank.met(points, -found.normals, near, longest, farthest)[0]).all()
     across = np.cross(found.normals, [0.6, 0.0, 0.8])
     across /= np.linalg.norm(across, axis=1)[:, None]
     assert not (np.abs(flank.met(points, across, near, 8.0, 1.0)[0]) < 0.19).any()

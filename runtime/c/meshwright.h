@@ -112,10 +112,13 @@ typedef struct mw_coordinates {
  * numbers that describe no such surface. */
 int mw_places(const mw_coordinates *by, const double *s, const double *at, size_t n, double *o, double *q);
 
-/* Where n rays, from[3*n] and unit vectors along[3*n] in the body frame, meet a surface: distance[n] along them, mm, and
- * places q[n*parameters], by Newton's method from the places that q holds before and no distance; a distance is not a
- * number where it finds none. No step is longer than `longest`, mm on the surface; a ray met no nearer than `farthest`
- * is given up. s is set up; o[outputs] work. Returns as above. */
+/* Where n rays, from[3*n] and unit vectors along[3*n] in the body frame, meet a surface of mw_body or mw_region: distance[n]
+ * along them, mm, negative behind where they begin, and places q[n*parameters], by at most 16 steps of Newton's method from
+ * the places that q holds before and no distance: the meeting that it comes to, not the first, and of the surface, which
+ * goes on beyond the limits of the flank. Where it comes to none, the distance is not a number, and q where it was left.
+ * No step is longer than `longest`, mm on the surface. A ray whose end strays to `farthest`, mm, on the way is given up:
+ * several times the distance that is wanted is enough. s is set up; o[outputs] work. Returns as above, and MW_BAD_INPUT
+ * unless both lengths are positive. */
 int mw_rays(mw_surface surface, int parameters, int outputs, const double *s, const double *from, const double *along,
             size_t n, double longest, double farthest, double *o, double *q, double *distance);
 

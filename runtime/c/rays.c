@@ -40,6 +40,7 @@ int mw_rays(mw_surface surface, int parameters, int outputs, const double *s, co
     const int k = parameters;
     double change[MW_MAX_UNKNOWNS];
     if (k < 2 || k + 1 > MW_MAX_UNKNOWNS || outputs < 7 + 3 * k + (k - 2) * (1 + k)) return MW_BAD_INPUT;
+    if (!(longest > 0.0 && farthest > 0.0)) return MW_BAD_INPUT;
     for (size_t i = 0; i < n; i++, from += 3, along += 3, q += k) {
         double at = 0.0, before = HUGE_VAL;
         int met = 0;

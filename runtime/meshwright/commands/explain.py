@@ -42,7 +42,7 @@ def keys():
 
 
 def run(options):
-    known, word = meanings(), "_".join(options.word)
+    known, word = meanings(), "_".join(" ".join(options.word).split())
     if not word:
         lines = [f"{kind:<8} {name:<21} {text}" for kind, meant in known.items() for name, text in meant.items()]
     else:

@@ -30,7 +30,8 @@ EVENTS = {
 #: Quantities of results, as `meshwright explain` says them; rigid, unloaded teeth unless they say otherwise.
 QUANTITIES = {
     "contact_ratio": "over how many pitches one pair touches, from begin to end of its contact. Teeth that touch in a "
-    "point follow the path of that point: less than the total contact ratio of ISO 21771, which counts contact lines",
+    "point follow the path of that point: of helical teeth less than the total contact ratio of ISO 21771, which "
+    "counts contact lines",
     "teeth_in_contact": "how many pairs are inside their contact at once, averaged; an elastic allowance adds those "
     "that stand no further apart",
     "transmission_error": "wheel angle less pinion angle over gear ratio; relative: less its value at the reference "

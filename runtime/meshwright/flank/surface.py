@@ -153,12 +153,12 @@ class Flank:
 
     def met(self, points, along, start, longest, farthest):
         """Where rays from ``points`` (N, 3) along unit vectors (N, 3), body frame, meet the surface: distances (N,) in
-        mm, and parameters (N, k), from nearby ones (N, k). A distance is NaN where Newton's method, with steps no
-        longer than ``longest``, finds none within ``farthest``, mm.
+        mm, negative behind the points, and parameters (N, k), from nearby ones (N, k). A distance is NaN where Newton's
+        method, with steps no longer than ``longest``, finds none without straying to ``farthest``, mm.
         """
         evaluate, state, k, outputs, _, _ = self._evaluated
         q, o = self._rows(start).copy(), np.empty(outputs)
-        distance, points, along = np.empty(len(q)), np.ascontiguousarray(points), np.ascontiguousarray(along)
+        distance, points, along = np.full(len(q), np.nan), np.ascontiguousarray(points), np.ascontiguousarray(along)
         library().mw_rays(
             evaluate, k, outputs, state, pointer(points), pointer(along), len(q), longest, farthest, pointer(o),
             pointer(q), pointer(distance),
