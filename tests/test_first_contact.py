@@ -261,6 +261,17 @@ def test_an_aligned_drive_touches_first_where_its_tangency_is():
     assert found.points == pytest.approx(tangency.points, abs=1e-6)
 
 
+@pytest.mark.parametrize("name", ["bevel-face-hobbed-crown-pair", "bevel-crown-pair", "spur-profile-shift"])
+def test_conjugate_flanks_touch_first_somewhere_on_their_line_of_contact(name, capsys):
+    """All of a line is as high as its highest place: the search says which error that is, and leaves nothing open."""
+    assert main(["tca", name, "--json", "-"]) == 0
+    printed = capsys.readouterr()
+    first = [point["first_contact"] for point in json.loads(printed.out)["points"]]
+    assert len(first) >= 10 and "missed" not in printed.err
+    assert max(abs(found["transmission_error_arcsec"]) for found in first) < 1e-9
+    assert max(found["unresolved_mm"] for found in first) < 1e-9
+
+
 def test_one_angle_has_one_first_contact_whichever_others_are_asked_for():
     drive = Drive.from_tables(EDGE_FIRST)
     angles = np.radians(np.arange(-40.0, 41.0, 20.0))

@@ -11,6 +11,8 @@ enum {
 
 /* A place so near to a limit, mm or natural sizes, lies on it. */
 static const double ON_LIMIT = 1e-7;
+/* How far a climb goes at first, natural sizes; a rise by less over such a way, rad, is lost in rounding. */
+static const double FIRST_RADIUS = 0.1, LEVEL = 1e-16;
 
 /* The step with the largest quadratic model among those that keep every linearised limit, by looking at all sets of no,
  * one and two active ones; radius bounds it. active: numbers of the limits that hold it, -1 for none. */
@@ -125,10 +127,19 @@ static void restore(const search *h, const model_ *q, const int *active, place *
     }
 }
 
+/* Whether nothing around a place is higher, as on the ridge along which the flanks of a line contact touch: what holds the
+ * best step is its length alone, and a long one gains nothing. */
+static int level(const search *h, const model_ *q, const double *H, double radius, const candidate *step)
+{
+    candidate longer;
+    if (!(step->gain < LEVEL) || (step->active[0] != MAX_LIMITS && step->active[1] != MAX_LIMITS)) return 0;
+    return best_step(h, q, H, fmax(radius, FIRST_RADIUS), &longer) && longer.gain < LEVEL;
+}
+
 /* Climb from a place to the local extreme of the bounded flanks; active receives the limits that hold it. */
 static int climb(const search *h, place *P, int *active)
 {
-    double radius = 0.1, weight = 0.0, multiplier[2] = {0.0, 0.0};
+    double radius = FIRST_RADIUS, weight = 0.0, multiplier[2] = {0.0, 0.0};
     int held[2] = {-1, -1};
     for (int k = 0; k < CLIMB_STEPS; k++) {
         model_ q;
@@ -143,6 +154,10 @@ static int climb(const search *h, place *P, int *active)
             if (radius > 1.0) return 0;
             radius *= 2.0;
             continue;
+        }
+        if (level(h, &q, H, radius, &step)) {
+            active[0] = active[1] = -1;
+            return violation(h, P) < 1e-8;
         }
         const double length = fmax(fabs(step.d[0]), fabs(step.d[1]));
         for (int a = 0; a < 2; a++)
