@@ -271,7 +271,7 @@ class Drive:
 
     @cached_property
     def uses(self):
-        """What contact uses of the flanks: see :class:`~meshwright.flank.region.Uses`."""
+        """What contact uses of the flanks: see :class:`~meshwright.flank.uses.Uses`."""
         from meshwright.pattern.used import uses
 
         return uses(self)

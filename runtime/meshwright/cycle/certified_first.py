@@ -14,7 +14,8 @@ from meshwright.contact.certificate import InWords
 from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed
 from meshwright.contact.results import ARCSEC
-from meshwright.flank.region import Uses, region
+from meshwright.flank.region import region
+from meshwright.flank.uses import Uses
 
 #: An overlap below this is not told from a contact, mm of arc at the contact.
 SLACK = 1e-6

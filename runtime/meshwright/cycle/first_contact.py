@@ -13,8 +13,10 @@ import numpy as np
 from meshwright.base.library import ffi, library, pointer
 from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed, placements_at
+from meshwright.flank.bounds import OPEN
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import OPEN, Uses, region
+from meshwright.flank.region import region
+from meshwright.flank.uses import Uses
 
 #: Cells of the mesh over the wheel's flank, across and along.
 CELLS = (12, 24)

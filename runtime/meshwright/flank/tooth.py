@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import region, solved
+from meshwright.flank.region import region
+from meshwright.flank.sections import solved
 
 #: Cells of the mesh of the far flank from which each place is sought; Newton steps at most, the longest of them as part
 #: of the distance from the axis, and what is left where a place is found, as such a part.

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from meshwright.base.errors import UsageError
+from meshwright.flank.bounds import Limit
 from meshwright.flank.lines import SINGULAR, changes
-from meshwright.flank.region import Limit, Region, region
+from meshwright.flank.region import Region, region
 from meshwright.flank.sections import Sections, lengthwise, lengthwise_slopes
 from meshwright.flank.sides import PLACES_ALONG, Bools, Floats, RegionSide
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.cycle.pairs import Mesh
-from meshwright.flank.region import Uses
+from meshwright.flank.uses import Uses
 from meshwright.pattern.pattern import contours
 
 #: Angles of the window at which contact patches are looked at, and directions of each.
@@ -14,7 +14,7 @@ PATCHES, DIRECTIONS = 5, 8
 
 
 def uses(drive):
-    """The :class:`~meshwright.flank.region.Uses` of a drive over the window of a pair, contact patches included."""
+    """The :class:`~meshwright.flank.uses.Uses` of a drive over the window of a pair, contact patches included."""
     mesh = Mesh.of(drive)
     patches = cache(lambda: _patches(mesh))
     return Uses.of(drive, _solutions(mesh), lambda member: patches()[member])

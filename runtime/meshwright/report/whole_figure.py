@@ -8,7 +8,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 
-from meshwright.flank.region import OPEN
+from meshwright.flank.bounds import OPEN
 from meshwright.report import style
 from meshwright.report.branches import broken
 from meshwright.report.numbers import fixed, number

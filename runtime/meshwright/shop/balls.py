@@ -13,8 +13,9 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import about_z
+from meshwright.flank.bounds import OPEN
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import OPEN, solved
+from meshwright.flank.sections import solved
 from meshwright.shop.nominal import flank_words, of_flank
 
 NEWTON_STEPS = 60

@@ -6,8 +6,9 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.placement import about_z
+from meshwright.flank.inside import NEWTON_STEPS
 from meshwright.flank.mesh import mesh
-from meshwright.flank.region import NEWTON_STEPS, solved
+from meshwright.flank.sections import solved
 from meshwright.shop.nominal import of_flank
 
 #: Nominal points of a file lie on the flanks of its design this well, mm.
