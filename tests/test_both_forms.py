@@ -11,7 +11,8 @@ from derive.language.envelope import envelope
 from derive.language.symbols import Quantity
 from derive.passes import sample
 from derive.passes.schedule import schedule
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 
 def _unreduced(worm_profile, hob_profile):

@@ -7,7 +7,8 @@ from pathlib import Path
 import casadi
 
 from derive.language.drive import PATH
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 
 class _Symbolic:

@@ -15,7 +15,8 @@ from derive.emit.render import render
 from derive.language.drive import PATH
 from derive.passes.directional import Derivatives
 from derive.passes.guards import Evaluated
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 _POINT = "point_pinion_f"
 

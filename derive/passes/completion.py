@@ -11,7 +11,8 @@ import sympy as sp
 from derive.language.drive import PATH, DesignSystem, Drive
 from derive.language.symbols import Parameter, Quantity
 from derive.passes.singular import singular_function
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,8 @@ from derive.passes.completion import ParameterTape, SystemTape
 from derive.passes.plan import DesignGuard, Output, Schedule, Tests
 from derive.passes.quotients import by_reciprocal
 from derive.program.formula import formula
-from derive.program.tape import Lowering, Node, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Node, Stage, Tape
 
 #: A node and what it must be, results of which one must show a failure, and of each node a bit for each condition.
 Condition: TypeAlias = tuple[int, str]

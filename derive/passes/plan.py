@@ -14,7 +14,8 @@ from derive.language.drive import Drive
 from derive.language.symbols import Quantity
 from derive.passes.completion import ParameterTape, SystemTape
 from derive.passes.linearise import Linear
-from derive.program.tape import Lowering, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Tape
 
 #: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
 Tests: TypeAlias = Mapping[tuple[str, int], Mapping[tuple[int, ...], list[int]]]

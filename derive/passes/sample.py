@@ -14,7 +14,8 @@ from derive.language.symbols import Table
 from derive.language.validate import DescriptionError
 from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Schedule
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 #: Inputs and their numbers, of many digits or floats.
 Values: TypeAlias = dict[sp.Symbol, Any]

@@ -23,7 +23,8 @@ from derive.passes.directional import Derivatives
 from derive.passes.edges import edge_contact
 from derive.passes.plan import Along, BodyOutputs, Expansion, Flank, FunctionOutputs, Output, Schedule
 from derive.passes.singular import singular_function
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 #: What the instantaneous ratio divides by.
 LEVER = Origin("derivation/quotient", "lever arm of the wheel")

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from derive.language.surface import Surface
-from derive.program.tape import Lowering, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Tape
 
 
 def singular_function(lower: Lowering, surface: Surface) -> int:

@@ -2,7 +2,8 @@
 
 from fractions import Fraction
 
-from derive.program.tape import Lowering, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Tape
 
 #: Longest formula shown in full; of longer ones the innermost parts are left out.
 LONGEST = 100

@@ -6,8 +6,9 @@ import sympy as sp
 
 from derive import drives
 from derive.passes.schedule import schedule
+from derive.program.lowering import Lowering
 from derive.program.routine import routine
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.tape import Stage, Tape
 
 p, x, y, z = sp.symbols("p x y z", real=True)
 INPUTS = {p: Stage.DESIGN, x: Stage.ITERATE, y: Stage.ITERATE, z: Stage.ITERATE}

@@ -9,7 +9,8 @@ import sympy as sp
 from derive.emit import c99
 from derive.language.choice import excess
 from derive.language.definitions import Definitions
-from derive.program.tape import Lowering, Stage, Tape
+from derive.program.lowering import Lowering
+from derive.program.tape import Stage, Tape
 
 x, y, p = sp.symbols("x y p", real=True)
 INPUTS = {p: Stage.DESIGN, x: Stage.ITERATE, y: Stage.ITERATE}
