@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derive.drives import cylindrical_worm as k
+from derive.drives import cylindrical_worm_keys as k
 from derive.exchange.rexs import (
     HAND,
     Assumption,
