@@ -1,7 +1,6 @@
 """Generated functions that a drive offers beside its contact: placements, limit points, axes."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -49,14 +48,6 @@ class Function:
         known = [name for body in self.drive.design.description["bodies"] for name in body["recovered"]]
         return tuple(name for name in known if name in self.results)
 
-    @cached_property
-    def state(self):
-        """State of the compiled model, whatever backend solves the contact: these functions do not depend on it."""
-        compiled = self.drive.design.model
-        s = np.empty(compiled.ns)
-        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
-        return s
-
     def __call__(self, *arguments):
         """Results by name: arrays of the arguments' common shape, with a last axis where a result is a vector."""
         if len(arguments) != len(self.arguments):
@@ -67,7 +58,7 @@ class Function:
         shape = grid[0].shape if grid else ()
         q = np.ascontiguousarray(np.stack([g.ravel() for g in grid], axis=1)) if grid else np.empty((1, 0))
         rows = np.empty((len(q), self.pointer.outputs))
-        buffers = (pointer(a) for a in (self.state, q))
+        buffers = (pointer(a) for a in (self.drive.design.state, q))
         results = pointer(rows)
         library().mw_flank(self.pointer.evaluate, q.shape[1], rows.shape[1], *buffers, len(q), results)
         return {o["name"]: _values(rows, o, shape) for o in self.description["outputs"]}

@@ -180,7 +180,7 @@ def _model(path):
 def _followed(path, system, angle, unknowns, wanted):
     """Solutions along the angles ``wanted`` (N,), as far as the edge can be followed."""
     compiled = _model(path)
-    state = path.drive.flank(path.drive.design.description["bodies"][0]["name"]).state.copy()
+    state = path.drive.design.state.copy()
     x, records = np.empty((len(wanted), compiled.nx)), ffi.new("mw_info[]", max(len(wanted), 1))
     start, wanted = np.ascontiguousarray(unknowns), np.ascontiguousarray(wanted)
     solved = library().mw_edge_follow(

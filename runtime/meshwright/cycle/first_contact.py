@@ -283,9 +283,8 @@ class _Search:
         """
         until = -self.sense * math.inf if until is None else until
         design = self.drive.design
-        state = self.drive.flank(design.description["bodies"][1]["name"]).state
         here = zip(*_placed(self.drive, angles), strict=True)
-        return [self._one(design.model, state, *both, until) for both in zip(angles, here, strict=True)]
+        return [self._one(design.model, design.state, *both, until) for both in zip(angles, here, strict=True)]
 
     def _one(self, compiled, state, angle, here, until):
         """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from

@@ -132,6 +132,14 @@ class Design:
         """The same with its lane kernels, which a checkout compiles when they are first asked for."""
         return model_in_lanes(self.description["name"], self.places)
 
+    @cached_property
+    def state(self):
+        """What surfaces and functions of the compiled model read (ns,), whatever backend solves the contact."""
+        compiled = self.model
+        s = np.empty(compiled.ns)
+        compiled.setup(pointer(self.parameters), pointer(s))
+        return s
+
     @property
     def label(self):
         """Name, drive, flank and a digest of all parameters, in a line: equal designs have equal digests."""

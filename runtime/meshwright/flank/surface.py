@@ -73,20 +73,17 @@ class Flank:
         """"flank", or another region of the member."""
         return self.body.get("region", "flank")
 
-    @cached_property
-    def state(self):
-        """State of the compiled model, whatever backend solves the contact: flanks do not depend on it."""
-        compiled = self.drive.design.model
-        s = np.empty(compiled.ns)
-        compiled.setup(pointer(self.drive.design.parameters), pointer(s))
-        return s
+    @property
+    def _state(self):
+        """The design's state, for C."""
+        return pointer(self.drive.design.state)
 
     @cached_property
     def sizes(self):
         """Natural sizes (k,) of the parameters: those of contact, 1 of what other regions have of their own."""
         compiled, of = self.drive.design.model, Flank.of(self.drive, self.body["name"]).body
         scale = np.empty(compiled.nx)
-        compiled.scale(pointer(self.state), pointer(scale))
+        compiled.scale(self._state, pointer(scale))
         known = dict(zip(of["parameters"], scale[of["unknowns"]], strict=True))
         return np.array([known.get(name, 1.0) for name in self.parameters])
 
@@ -106,7 +103,7 @@ class Flank:
         outputs = {o["name"]: slice(o["offset"], o["offset"] + o["size"]) for o in self.body["curvature"]}
         rows = np.empty((len(q), max(at.stop for at in outputs.values())))
         library().mw_flank(
-            self.pointer.curvature, q.shape[1], rows.shape[1], pointer(self.state), pointer(q), len(q), pointer(rows)
+            self.pointer.curvature, q.shape[1], rows.shape[1], self._state, pointer(q), len(q), pointer(rows)
         )
         form = rows[:, outputs["second_form"]]
         return FlankCurvature(
@@ -120,7 +117,7 @@ class Flank:
         q = self._rows(parameters)
         slopes = np.empty((len(q), 1 + len(self.body["margins"]), q.shape[1]))
         compiled = self.drive.design.model
-        library().mw_bounds(compiled, self.number, 1, pointer(self.state), pointer(q), len(q), pointer(slopes))
+        library().mw_bounds(compiled, self.number, 1, self._state, pointer(q), len(q), pointer(slopes))
         return slopes
 
     def second_derivatives(self, parameters):
@@ -131,7 +128,7 @@ class Flank:
         k, limits, compiled = q.shape[1], 1 + len(self.body["margins"]), self.drive.design.model
         rows, columns = np.triu_indices(k)
         pairs = np.empty((len(q), 3 + limits + self.body["conditions"], len(rows)))
-        if library().mw_bounds(compiled, self.number, 2, pointer(self.state), pointer(q), len(q), pointer(pairs)) < 0:
+        if library().mw_bounds(compiled, self.number, 2, self._state, pointer(q), len(q), pointer(pairs)) < 0:
             raise UsageError(f"the {self.region} of the {self.body['name']} has no second derivatives; a flank has")
         full = np.empty((*pairs.shape[:2], k, k))
         full[:, :, rows, columns] = full[:, :, columns, rows] = pairs
@@ -200,4 +197,4 @@ class Flank:
         """What a call hands to C: the function, the state, numbers of parameters and results; margins; conditions."""
         margins = tuple(m["event"] for m in self.body["margins"])
         sizes = len(self.parameters), self.body["outputs"], margins, self.body["conditions"]
-        return self.pointer.flank, pointer(self.state), *sizes
+        return self.pointer.flank, self._state, *sizes
