@@ -23,9 +23,11 @@ from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensi
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
 from derive.passes import guards
+from derive.passes.equations import derive
 from derive.passes.joints import joints
+from derive.passes.pivot_order import reduce
 from derive.passes.sample import observation
-from derive.passes.schedule import bind, derive, reduce
+from derive.passes.schedule import scheduled
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -59,7 +61,7 @@ def compile_drive(page, name, proved, log, open_=None, emitted=None, begun=lambd
     with log("reduce", name):
         plan = reduce(plan)
     with log("schedule", name):
-        plan = bind(plan)
+        plan = scheduled(plan)
     apart = begun(partial(checked, plan))
     with log("prove", name):
         origin = provenance(proved(), plan, open_)

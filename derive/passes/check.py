@@ -9,7 +9,7 @@ import operator
 import random
 import secrets
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from fractions import Fraction
 from functools import cache, partial
 from typing import Any
@@ -17,7 +17,7 @@ from typing import Any
 import sympy as sp
 
 from derive.program.routine import Routine, routine
-from derive.program.tape import Tape
+from derive.program.tape import Stage, Tape
 
 _SOURCE = random.Random(secrets.randbits(128))
 
@@ -172,6 +172,13 @@ def solves(
         row = numbers[k * len(change) : (k + 1) * len(change)]
         if (sum(a * b for a, b in zip(row, changes, strict=True)) - value) % _prime():
             raise PassError(f"{name}: equation {k} is not solved")
+
+
+def bound(name: str, tape: Tape, outputs: Iterable[int], known: Iterable[int], stages: Collection[Stage]) -> None:
+    """Raises :class:`PassError` unless what is computed from ``known`` on for ``outputs`` has these binding times."""
+    for i in tape.needed(outputs, known):
+        if tape.stages[i] not in stages and tape.stages[i] != Stage.CONSTANT:
+            raise PassError(f"binding times: {name} computes node {i}, which is of the {tape.stages[i].name.lower()}")
 
 
 def derives(

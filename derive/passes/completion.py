@@ -22,11 +22,11 @@ class SystemTape:
     system: DesignSystem
     tape: Tape
     lower: Lowering
-    residual: list[int]
-    jacobian: list[list[int]]
-    scales: list[int]
-    guess: list[int]
-    values: list[int]
+    residual: tuple[int, ...]
+    jacobian: tuple[tuple[int, ...], ...]
+    scales: tuple[int, ...]
+    guess: tuple[int, ...]
+    values: tuple[int, ...]
     watch: int | None
 
     @property
@@ -39,7 +39,7 @@ class ParameterTape:
     """Nodes of expressions of a drive's parameter vector alone, on a tape of their own."""
 
     lower: Lowering
-    nodes: list[int]
+    nodes: tuple[int, ...]
 
     @property
     def tape(self) -> Tape:
@@ -51,7 +51,7 @@ def on_parameters(drive: Drive, expressions: Iterable[sp.Expr]) -> ParameterTape
     lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
     for p in drive.parameters:
         lower(p.symbol)
-    return ParameterTape(lower, [lower(e) for e in expressions])
+    return ParameterTape(lower, tuple(lower(e) for e in expressions))
 
 
 def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> SystemTape:
@@ -73,11 +73,11 @@ def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> Syste
         system=system,
         tape=tape,
         lower=lower,
-        residual=residual,
-        jacobian=[[tape.derivative(r, u) for u in unknowns] for r in residual],
-        scales=[lower(u.scale) for u in system.unknowns],
-        guess=guess,
-        values=[lower(value) for value in system.fills.values()],
+        residual=tuple(residual),
+        jacobian=tuple(tuple(tape.derivative(r, u) for u in unknowns) for r in residual),
+        scales=tuple(lower(u.scale) for u in system.unknowns),
+        guess=tuple(guess),
+        values=tuple(lower(value) for value in system.fills.values()),
         watch=_watch(system, lower, fixed),
     )
 

@@ -2,7 +2,10 @@
 
 from collections.abc import Mapping
 
-from derive.program.tape import Tape
+import sympy as sp
+
+from derive.passes.plan import Along, Derived
+from derive.program.tape import Stage, Tape
 
 
 class Derivatives:
@@ -17,3 +20,12 @@ class Derivatives:
                 args, zero = self.tape.arguments[k], self.tape.constant(0)
                 self._done[k] = self.tape.rule(k, [self._done.get(a, zero) for a in args]) if args else zero
         return self._done[i]
+
+
+def along(plan: Derived) -> Along:
+    """Derivatives of the residual along a direction: see :class:`~derive.passes.plan.Along`."""
+    tape, symbols = plan.tape, [*plan.unknowns, plan.drive.instant]
+    seeds = {plan.lower(s): tape.input(sp.Symbol(f"along_{s}"), Stage.ITERATE) for s in symbols}
+    tangent = Derivatives(tape, seeds)
+    first = [tangent(i) for i in plan.residual]
+    return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))

@@ -1,6 +1,6 @@
 """Contact of an edge: where a margin of the blank ends a flank, the edge touches the mating flank or the mating edge.
 
-Input: a schedule with its bodies on the tape. Output: equations in the unknowns of contact, with their Jacobian, and
+Input: a plan with its bodies on the tape. Output: equations in the unknowns of contact, with their Jacobian, and
 the systems that are chosen among them: one for each edge on the mating flank, one for each pair of edges.
 
 An edge lies where a margin of its member is zero. It touches the mating flank where both have a point in common and the
@@ -9,15 +9,16 @@ edition, 2004: edge contact as tangency of a curve and a surface). Two edges tou
 Conditions that the surfaces keep of their own belong to every system.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
 from derive.language.contact import common_frame, contact
-from derive.language.drive import Body, Margin, Role
+from derive.language.drive import Body, Role
 from derive.passes import check, linearise
+from derive.passes.flanks import margin
 from derive.passes.geometry import dot
-from derive.passes.plan import Edges, EdgeSystem, Schedule
+from derive.passes.plan import Derived, Edges, EdgeSystem
 from derive.passes.singular import determinant
 from derive.program.tape import Tape
 
@@ -46,13 +47,13 @@ class _Member:
         return f"{self.body.name}_{self.body.margins[k].event}"
 
 
-def edge_contact(plan: Schedule, margin: Callable[[Body, Margin], int]) -> Edges:
-    """The :class:`Edges` of a schedule; ``margin(body, margin)`` is the node of a margin."""
-    members = _members(plan, margin)
+def edge_contact(plan: Derived) -> Edges:
+    """The :class:`Edges` of a plan."""
+    members = _members(plan)
     pinion, wheel = members
     listed = [(member, k) for member in members for k in member.edges]
     if not listed:
-        return Edges([], [], ())
+        return Edges((), (), ())
     tape, unknowns = plan.tape, [plan.lower(u) for u in plan.unknowns]
     distance = [tape.sub(a, b) for a, b in zip(pinion.point, wheel.point, strict=True)]
     always = [*distance, *(plan.lower(c) for member in members for c in member.body.surface.conditions)]
@@ -61,7 +62,8 @@ def edge_contact(plan: Schedule, margin: Callable[[Body, Margin], int]) -> Edges
     equations = [*always, *margins, *tangency]
     jacobian = linearise.jacobian(tape, linearise.forward(tape, equations, unknowns))
     check.derives("edges", tape, equations, unknowns, jacobian)
-    return Edges(equations, jacobian, tuple(_systems(pinion, wheel, len(always), len(listed))))
+    systems = tuple(_systems(pinion, wheel, len(always), len(listed)))
+    return Edges(tuple(equations), tuple(map(tuple, jacobian)), systems)
 
 
 def _systems(pinion: _Member, wheel: _Member, always: int, count: int) -> Iterator[EdgeSystem]:
@@ -78,7 +80,7 @@ def _systems(pinion: _Member, wheel: _Member, always: int, count: int) -> Iterat
         yield EdgeSystem(f"{pinion.event(i)}_{wheel.event(j)}", (i, j), (*common, *rows))
 
 
-def _members(plan: Schedule, margin: Callable[[Body, Margin], int]) -> tuple[_Member, _Member]:
+def _members(plan: Derived) -> tuple[_Member, _Member]:
     """Pinion and wheel in the frame in which the residual of contact compares them, where their nodes are known."""
     (pinion, wheel), tape, lower = plan.drive.bodies, plan.tape, plan.lower
     orders = ((pinion, wheel), (wheel, pinion))
@@ -90,7 +92,7 @@ def _members(plan: Schedule, margin: Callable[[Body, Margin], int]) -> tuple[_Me
         parameters = tuple(lower(p) for p in body.surface.parameters)
         slopes = tuple([tape.derivative(lower(c), p) for p in parameters] for c in body.surface.conditions)
         point, normal = (tuple(map(lower, vector)) for vector in (surface.body_point, surface.body_normal))
-        return _Member(body, tuple(margin(body, m) for m in body.margins), parameters, point, normal, slopes)
+        return _Member(body, tuple(margin(plan, body, m) for m in body.margins), parameters, point, normal, slopes)
 
     return member(pinion), member(wheel)
 

@@ -21,7 +21,7 @@ from derive.language.drive import Body, Drive
 from derive.language.functions import Function, Result
 from derive.language.origin import SINGULAR, UNIT, Origin
 from derive.language.symbols import Quantity
-from derive.passes.plan import Schedule
+from derive.passes.plan import Derived
 from derive.passes.singular import determinant
 from derive.program.tape import Tape
 
@@ -34,6 +34,11 @@ PRINCIPAL = Origin("derivation/quotient", "larger principal curvature of the gap
 
 PINION_ANGLE = Quantity("pinion_angle", "rad", "angle of the pinion in mesh", "f")
 WHEEL_ANGLE = Quantity("wheel_angle", "rad", "angle of the wheel in mesh", "f")
+
+
+def functions(drive: Drive) -> tuple[Function, ...]:
+    """What a drive offers beside its contact: how its bodies are placed, and its own functions."""
+    return placement(drive), *drive.functions
 
 
 def placement(drive: Drive) -> Function:
@@ -66,7 +71,7 @@ def _rows(motion: Motion) -> list[sp.Expr]:
     return [column[row] for row in range(3) for column in columns]
 
 
-def lever_arm(plan: Schedule, body: Body, variable: Quantity, point: Sequence[int], normal: Sequence[int]) -> int:
+def lever_arm(plan: Derived, body: Body, variable: Quantity, point: Sequence[int], normal: Sequence[int]) -> int:
     """Node of n · (d × (r − o)): how fast the body's point moves along ``normal`` for a unit of its angle, mm."""
     direction, origin = (list(map(plan.lower, vector)) for vector in body.motion.axis(variable))
     arm = [plan.tape.sub(r, o) for r, o in zip(point, origin, strict=True)]

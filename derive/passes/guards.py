@@ -11,13 +11,13 @@ result itself.
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, reduce
 from typing import TypeAlias, TypedDict
 
 from derive.language.origin import ARCCOSINE, PARTIAL, Origin
 from derive.passes.completion import ParameterTape, SystemTape
-from derive.passes.plan import DesignGuard, Output, Schedule, Tests
+from derive.passes.plan import Bound, DesignGuard, Output, Schedule, Tests
 from derive.passes.quotients import by_reciprocal
 from derive.program.formula import formula
 from derive.program.lowering import Lowering
@@ -72,7 +72,15 @@ Unseen: TypeAlias = tuple[Evaluated, Group, int, str]
 EARLY = ("setup", "set_phi")
 
 
-def solving(plan: Schedule) -> list[int]:
+def guard(plan: Bound) -> Schedule:
+    """The functions of a drive with its guards and tests."""
+    opened = Schedule(**vars(plan), guards=(), tests={})
+    failing = unseen(opened)
+    guarded = replace(opened, guards=design_guards(opened, failing))
+    return replace(guarded, tests=tests(guarded, failing))
+
+
+def solving(plan: Bound) -> list[int]:
     """Nodes that the solution of a contact needs."""
     flat = [e for row in (*plan.jacobian, *plan.start_jacobian) for e in row]
     start = [*plan.start_residual, *plan.start_guess, *plan.start_scales, *plan.start_solution]
@@ -116,7 +124,7 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
         yield results(function.name, function.outputs)
 
 
-def moving(plan: Schedule) -> Iterator[Evaluated]:
+def moving(plan: Bound) -> Iterator[Evaluated]:
     """The functions of input angle and unknowns that read the design part of the state: the residual by an anchor, and
     its derivatives along a direction.
     """
@@ -130,7 +138,7 @@ def moving(plan: Schedule) -> Iterator[Evaluated]:
     yield on_tape("along", [plan.along.first, plan.along.second], "tangent")
 
 
-def bounded(plan: Schedule) -> Iterator[Evaluated]:
+def bounded(plan: Bound) -> Iterator[Evaluated]:
     """The functions of bounded flanks; they read parameters and state."""
     known = frozenset(plan.state) | {plan.lower(p.symbol) for p in plan.drive.parameters}
 
@@ -236,7 +244,7 @@ def demanded(tape: Tape, i: int) -> list[Condition]:
 # -- guards of the design -------------------------------------------------------------------------------------------
 
 
-def design_guards(plan: Schedule, unseen: Iterable[Unseen]) -> list[DesignGuard]:
+def design_guards(plan: Bound, unseen: Iterable[Unseen]) -> tuple[DesignGuard, ...]:
     """A drive's own guards; one for each design quantity by which the solution divides, of which it takes a root, or
     whose failure a later result would not show (``unseen``); one for parameters that are not finite.
     """
@@ -254,7 +262,7 @@ def design_guards(plan: Schedule, unseen: Iterable[Unseen]) -> list[DesignGuard]
             done.add(node)
             guards.append(_guard(plan, node, kind))
     inputs = {a for i in needed for a in tape.nodes[i].args if _is_parameter(tape, a)}
-    return [*guards, _finite(plan, sorted(inputs))]
+    return (*guards, _finite(plan, sorted(inputs)))
 
 
 def unseen(plan: Schedule) -> list[Unseen]:
@@ -273,7 +281,7 @@ def _is_parameter(tape: Tape, i: int) -> bool:
     return tape.nodes[i].op == "input" and tape.stages[i] == Stage.DESIGN
 
 
-def _guard(plan: Schedule, node: int, kind: str) -> DesignGuard:
+def _guard(plan: Bound, node: int, kind: str) -> DesignGuard:
     tape = plan.tape
     text = formula(tape, node, plan.lower)
     if kind == "nonzero":
@@ -281,7 +289,7 @@ def _guard(plan: Schedule, node: int, kind: str) -> DesignGuard:
     return DesignGuard(node, f"a root of a negative number: {text} must be above 0", _keys(plan, [node]), node)
 
 
-def _finite(plan: Schedule, inputs: Iterable[int]) -> DesignGuard:
+def _finite(plan: Bound, inputs: Iterable[int]) -> DesignGuard:
     """Σp² over itself: 1, or not a number where a parameter is infinite or not a number."""
     tape = plan.tape
     total = tape.constant(1)
@@ -292,7 +300,7 @@ def _finite(plan: Schedule, inputs: Iterable[int]) -> DesignGuard:
     return DesignGuard(share, "a value that the contact needs is missing or not finite", required)
 
 
-def _keys(plan: Schedule, nodes: Sequence[int]) -> tuple[str, ...]:
+def _keys(plan: Bound, nodes: Sequence[int]) -> tuple[str, ...]:
     tape = plan.tape
     found = {tape.nodes[a].value for i in tape.needed(nodes) for a in tape.nodes[i].args if _is_parameter(tape, a)}
     found |= {tape.nodes[i].value for i in nodes if _is_parameter(tape, i)}

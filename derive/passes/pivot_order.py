@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from derive.language.origin import ELIMINATION, Origin
-from derive.passes import sample
-from derive.passes.plan import Schedule
+from derive.language.origin import ELIMINATION, STEP_SIZE, Origin
+from derive.passes import check, sample
+from derive.passes.plan import Derived, Reduced
 from derive.program.tape import Tape
 
 #: Row and column; numbers at the sample, row by row, and whether they are ever other than zero.
@@ -25,10 +25,20 @@ Present: TypeAlias = list[list[bool]]
 STABLE_SHARE = 0.1
 
 
-def newton_step(plan: Schedule) -> tuple[list[int], list[int]]:
-    """Nodes of the updated unknowns and of their changes."""
+def reduce(plan: Derived) -> Reduced:
+    """The equations with their linear system solved: Newton's step, in the order of pivots of the sample's contact."""
+    tape, contact = plan.tape, sample.sample_contact(plan)
+    step, change = newton_step(plan, sample.in_double(contact))
+    check.solves("pivot order", tape, plan.jacobian, change, plan.residual)
+    with tape.within(STEP_SIZE):
+        weight = tuple(tape.div(tape.constant(1), s) for s in plan.scales)
+    return Reduced(**vars(plan), sample=contact, step=tuple(step), change=tuple(change), weight=weight)
+
+
+def newton_step(plan: Derived, inputs: Mapping[sp.Symbol, float]) -> tuple[list[int], list[int]]:
+    """Nodes of the updated unknowns and of their changes; ``inputs`` are those of the sample."""
     tape, linear = plan.tape, plan.linear
-    order = _pivot_order(plan, sample.in_double(plan.sample))
+    order = _pivot_order(plan, inputs)
     right = [*plan.residual, *[tape.constant(0)] * linear.variables]
     changes = _solve(tape, linear.matrix, right, order)[: linear.unknowns]
     unknowns = [plan.lower(u) for u in plan.unknowns]
@@ -36,7 +46,7 @@ def newton_step(plan: Schedule) -> tuple[list[int], list[int]]:
     return updated, changes
 
 
-def _pivot_order(plan: Schedule, inputs: Mapping[sp.Symbol, float]) -> list[Pivot]:
+def _pivot_order(plan: Derived, inputs: Mapping[sp.Symbol, float]) -> list[Pivot]:
     matrix = plan.linear.matrix
     n = len(matrix)
     flat = [e for row in matrix for e in row]

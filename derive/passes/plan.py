@@ -1,10 +1,12 @@
-"""The plan of a drive: what the passes fill in, one after the other, and the printers read.
+"""The plan of a drive: what is known of it after each pass, immutable, each with all that the passes before it found.
 
-Values are nodes of one tape; each table says which of them a generated function returns, by name, unit and frame.
+:class:`Derived` → :class:`Reduced` → :class:`Observed` → :class:`Read` → :class:`Bound` → :class:`Schedule`, which the
+printers read. Values are nodes of one tape; each table says which of them a generated function returns, by name, unit
+and frame.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import mpmath
@@ -17,6 +19,9 @@ from derive.passes.linearise import Linear
 from derive.program.lowering import Lowering
 from derive.program.tape import Tape
 
+#: Nodes, and rows of them.
+Nodes: TypeAlias = tuple[int, ...]
+Rows: TypeAlias = tuple[Nodes, ...]
 #: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
 Tests: TypeAlias = Mapping[tuple[str, int], Mapping[tuple[int, ...], list[int]]]
 
@@ -116,8 +121,8 @@ class Edges:
     edge its margin, then of each edge its tangency to the mating flank. No equations where no margin is an edge.
     """
 
-    equations: list[int]
-    jacobian: list[list[int]]
+    equations: Nodes
+    jacobian: Rows
     systems: tuple[EdgeSystem, ...]
 
 
@@ -131,54 +136,45 @@ class DesignGuard:
     of: int | None = None
 
 
-@dataclass
-class Schedule:
-    """A drive on a tape. ``state`` lists the nodes kept between stages, design slots first.
+@dataclass(frozen=True)
+class Derived:
+    """The equations of a drive on a tape: see :func:`derive.passes.equations.derive`.
 
-    ``rules`` are the defaults and rules that complete a design, in the order in which they run. ``sample`` is the
-    contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
+    ``rules`` are the defaults and rules that complete a design, in the order in which they run.
     """
 
     drive: Drive
     tape: Tape
     lower: Lowering
-    sample: dict[sp.Symbol, mpmath.mpf] = field(init=False)
-    residual: list[int] = field(init=False)
-    linear: Linear = field(init=False)
-    jacobian: list[list[int]] = field(init=False)
-    scales: list[int] = field(init=False)
-    step: list[int] = field(init=False)
-    change: list[int] = field(init=False)
-    weight: list[int] = field(init=False)
-    start_residual: list[int] = field(init=False)
-    start_jacobian: list[list[int]] = field(init=False)
-    start_guess: list[int] = field(init=False)
-    start_scales: list[int] = field(init=False)
-    start_solution: list[int] = field(init=False)
-    guards: list[DesignGuard] = field(default_factory=list[DesignGuard])
-    tests: Tests = field(default_factory=dict[tuple[str, int], dict[tuple[int, ...], list[int]]])
-    observed: list[Output] = field(default_factory=list[Output])
-    bodies: dict[str, BodyOutputs] = field(default_factory=dict[str, BodyOutputs])
-    flanks: list[Flank] = field(default_factory=list[Flank])
-    regions: list[Flank] = field(default_factory=list[Flank])
-    rules: list[ParameterTape] = field(init=False)
-    systems: list[SystemTape] = field(init=False)
-    sizes: ParameterTape = field(init=False)
-    functions: list[FunctionOutputs] = field(init=False)
-    along: Along = field(init=False)
-    edges: Edges = field(init=False)
-    expansions: list[Expansion] = field(init=False)
-    state: dict[int, int] = field(default_factory=dict[int, int])
-    design_slots: int = 0
+    rules: tuple[ParameterTape, ...]
+    systems: tuple[SystemTape, ...]
+    sizes: ParameterTape
+    residual: Nodes
+    linear: Linear
+    jacobian: Rows
+    scales: Nodes
+    start_residual: Nodes
+    start_jacobian: Rows
+    start_scales: Nodes
+    start_guess: Nodes
+    start_solution: Nodes
 
     @property
     def unknowns(self) -> list[Quantity]:
         return [u.symbol for u in self.drive.unknowns]
 
-    @property
-    def placement(self) -> FunctionOutputs:
-        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
-        return self.functions[0]
+
+@dataclass(frozen=True)
+class Reduced(Derived):
+    """Newton's step too: see :func:`derive.passes.pivot_order.reduce`.
+
+    ``sample`` is the contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
+    """
+
+    sample: Mapping[sp.Symbol, mpmath.mpf]
+    step: Nodes
+    change: Nodes
+    weight: Nodes
 
     @property
     def newton_step(self) -> list[int]:
@@ -188,9 +184,50 @@ class Schedule:
         """
         return [*self.step, *self.change, *self.weight]
 
+
+@dataclass(frozen=True)
+class Observed(Reduced):
+    """What is read of a solved contact too: see :func:`derive.passes.observation.observe`."""
+
+    observed: tuple[Output, ...]
+    bodies: Mapping[str, BodyOutputs]
+
+
+@dataclass(frozen=True)
+class Read(Observed):
+    """What is read anywhere else too: see :func:`derive.passes.schedule.read`."""
+
+    flanks: tuple[Flank, ...]
+    regions: tuple[Flank, ...]
+    functions: tuple[FunctionOutputs, ...]
+    along: Along
+    edges: Edges
+    expansions: tuple[Expansion, ...]
+
+    @property
+    def placement(self) -> FunctionOutputs:
+        """The function that places both bodies: see :func:`derive.passes.geometry.placement`."""
+        return self.functions[0]
+
+
+@dataclass(frozen=True)
+class Bound(Read):
+    """Binding times too: ``state`` numbers the nodes kept between stages, design slots first."""
+
+    state: Mapping[int, int]
+    design_slots: int
+
     @property
     def angles(self) -> list[int]:
         """Nodes of the angles beyond those of the design of which the residual takes sine and cosine."""
         nodes, design = self.tape.nodes, set(list(self.state)[: self.design_slots])
         turned = (i for i in self.tape.needed(self.residual, design) if nodes[i].op in ("sin", "cos"))
         return list(dict.fromkeys(nodes[i].args[0] for i in turned))
+
+
+@dataclass(frozen=True)
+class Schedule(Bound):
+    """All functions of a drive, with what answers where they are not defined: see :mod:`derive.passes.guards`."""
+
+    guards: tuple[DesignGuard, ...]
+    tests: Tests

@@ -13,7 +13,7 @@ from derive.language.drive import PATH, Drive
 from derive.language.symbols import Table
 from derive.language.validate import DescriptionError
 from derive.passes.completion import SystemTape, lower_system
-from derive.passes.plan import Schedule
+from derive.passes.plan import Derived, Observed, Reduced
 from derive.program.lowering import Lowering
 from derive.program.tape import Stage, Tape
 
@@ -103,7 +103,7 @@ def _complete(plan: SystemTape, values: Values, arithmetic: Arithmetic) -> None:
             values[target] = value
 
 
-def sample_contact(plan: Schedule) -> Values:
+def sample_contact(plan: Derived) -> Values:
     """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS), _of(plan.drive):
         return solve(plan, sample_parameters(plan.drive, plan.systems), plan.drive.sample_angle)
@@ -118,7 +118,7 @@ def _of(drive: Drive) -> Generator[None]:
         raise NoSample(f"{drive.name}: {error}") from error
 
 
-def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
+def observation(plan: Observed) -> dict[str, list[mpmath.mpf]]:
     """What is observed of the sample's contact: name → numbers; "not a number" is what has no real value there, as a
     limit that is not applied.
     """
@@ -131,7 +131,7 @@ def observation(plan: Schedule) -> dict[str, list[mpmath.mpf]]:
             return {output.name: [_value(plan, i) for i in output.nodes] for output in plan.observed}
 
 
-def _value(plan: Schedule, node: int) -> mpmath.mpf:
+def _value(plan: Observed, node: int) -> mpmath.mpf:
     try:
         return _numbers("the contact", plan.tape.evaluator([node], mpmath), plan.sample)[0]
     except NoSample:
@@ -143,12 +143,12 @@ def real(arithmetic: Arithmetic) -> type[Any]:
     return getattr(arithmetic, "mpf", float)
 
 
-def in_double(inputs: Values) -> dict[sp.Symbol, float]:
+def in_double(inputs: Mapping[sp.Symbol, Any]) -> dict[sp.Symbol, float]:
     """The same inputs as floats."""
     return {symbol: float(value) for symbol, value in inputs.items()}
 
 
-def beside(plan: Schedule) -> list[float]:
+def beside(plan: Reduced) -> list[float]:
     """Start values (nx,) from which Newton comes to the sample's solution in a few steps.
 
     Each unknown stands off by a share of its natural size. A pair that touches along a line has no Newton step, whose
@@ -162,14 +162,14 @@ def beside(plan: Schedule) -> list[float]:
     return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
 
 
-def solve(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
+def solve(plan: Derived, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
     """Inputs (symbol → number) at a contact: start system, then contact, by full Newton steps."""
     inputs = near(plan, parameters, angle, arithmetic)
     Equations(plan.tape, plan.residual, plan.jacobian, plan.unknowns, "the contact").solve(inputs, arithmetic)
     return inputs
 
 
-def near(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
+def near(plan: Derived, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:
     """Inputs (symbol → number) close to a contact: the solution of the start system."""
     drive = plan.drive
     inputs = dict(parameters)
@@ -183,7 +183,7 @@ def near(plan: Schedule, parameters: Values, angle: float, arithmetic: Arithmeti
     return inputs
 
 
-def _numbers(what: str, evaluate: Callable[[Values], list[Any]], inputs: Values) -> list[Any]:
+def _numbers(what: str, evaluate: Callable[..., list[Any]], inputs: Mapping[sp.Symbol, Any]) -> list[Any]:
     """What ``evaluate`` makes of the inputs; raises :class:`NoSample` where that divides by zero or is not real."""
     try:
         numbers = evaluate(inputs)

@@ -140,8 +140,8 @@ def test_a_new_tool_brings_its_own_provenance():
     drive = plan.drive
 
     def with_wheel_on(statement):
-        plan.drive = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(statement)))
-        return provenance(proved, plan)["equations_of"]
+        on = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(statement)))
+        return provenance(proved, replace(plan, drive=on))["equations_of"]
 
     used = with_wheel_on("helicoids/zc-limit")
     assert all("helicoids/zc-limit" in used[name] for name in ("flank_wheel", "eval", "step", "observe"))

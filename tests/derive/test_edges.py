@@ -48,17 +48,12 @@ def test_every_edge_of_a_blank_has_a_system_with_the_mating_flank_and_one_with_e
 
 
 def test_a_wrong_slope_of_an_edge_is_caught(plan):
-    found = edge_contact(plan, lambda body, margin: _margin(plan, body, margin))
+    found = edge_contact(plan)
     unknowns = [plan.lower(u) for u in plan.unknowns]
     wrong = [list(row) for row in found.jacobian]
     wrong[-1] = wrong[-1][1:] + wrong[-1][:1]
     with pytest.raises(check.PassError):
         check.derives("edges", plan.tape, found.equations, unknowns, wrong)
-
-
-def _margin(plan, body, margin):
-    flank = next(f for f in plan.flanks if f.body == body.name)
-    return flank.limits[1 + body.margins.index(margin)]
 
 
 def test_c_and_casadi_have_the_same_equations_of_edge_contact(plan, state):

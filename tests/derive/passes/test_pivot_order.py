@@ -6,7 +6,7 @@ import pytest
 
 from derive.passes.linearise import linearise
 from derive.passes.pivot_order import newton_step
-from tests.derive.small import VALUES, lowered, p, x, y, z
+from tests.derive.small import VALUES, lowered, p, plan, x, y, z
 
 SYMBOLS = (x, y, z)
 
@@ -14,11 +14,11 @@ SYMBOLS = (x, y, z)
 def step(equations):
     tape, lower, residual = lowered(*equations)
     unknowns = [lower(s) for s in SYMBOLS[: len(equations)]]
-    plan = SimpleNamespace(
-        tape=tape, lower=lower, residual=residual, unknowns=SYMBOLS[: len(equations)], sample=VALUES,
+    system = SimpleNamespace(
+        tape=tape, lower=lower, residual=residual, unknowns=SYMBOLS[: len(equations)],
         scales=[tape.constant(1)] * len(equations), linear=linearise(tape, residual, unknowns),
     )  # fmt: skip
-    return tape, newton_step(plan)[0]
+    return tape, newton_step(system, VALUES)[0]
 
 
 @pytest.mark.parametrize(
@@ -39,3 +39,9 @@ def test_linear_equations_are_solved_in_one_step(equations):
 def test_an_unknown_in_no_equation_is_refused():
     with pytest.raises(ArithmeticError, match="occurs in no equation"):
         step((x - 1, x - p))
+
+
+def test_a_newton_step_at_the_solution_goes_nowhere():
+    made = plan()
+    changes = made.tape.evaluate(made.change, made.sample)
+    assert len(changes) == len(made.unknowns) and max(map(abs, map(float, changes))) < 1e-12

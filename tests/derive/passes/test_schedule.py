@@ -1,18 +1,26 @@
-"""Binding times: what is kept for a design depends on that alone, what is kept for an angle not on the unknowns."""
+"""Each pass makes a plan of its own, with all that the passes before it found, and changes none."""
 
-from derive.program.tape import Stage
-from tests.derive.small import plan
+from dataclasses import FrozenInstanceError, fields
+
+import pytest
+
+from derive import drives
+from derive.passes.binding import bind
+from derive.passes.equations import derive
+from derive.passes.guards import guard
+from derive.passes.observation import observe
+from derive.passes.pivot_order import reduce
+from derive.passes.schedule import read
+from tests.derive.small import DRIVE
 
 
-def test_the_state_is_known_before_it_is_read():
-    made = plan()
-    slots = list(made.state)
-    assert {made.tape.stages[i] for i in slots[: made.design_slots]} <= {Stage.CONSTANT, Stage.DESIGN}
-    assert {made.tape.stages[i] for i in slots} <= {Stage.CONSTANT, Stage.DESIGN, Stage.INSTANT}
-
-
-def test_a_newton_step_at_the_solution_goes_nowhere():
-    made = plan()
-    n = len(made.unknowns)
-    changes = made.tape.evaluate(made.change, made.sample)
-    assert len(changes) == n and max(map(abs, map(float, changes))) < 1e-12
+def test_a_pass_adds_to_what_the_passes_before_it_found():
+    plan = derive(drives.catalogue([DRIVE])[DRIVE]())
+    for follows in (reduce, observe, read, bind, guard):
+        before = dict(vars(plan))
+        further = follows(plan)
+        assert vars(plan) == before and len(fields(further)) > len(before)
+        assert all(getattr(further, name) is found for name, found in before.items())
+        plan = further
+    with pytest.raises(FrozenInstanceError):
+        plan.state = {}
