@@ -28,6 +28,7 @@ from derive.passes.joints import joints
 from derive.passes.pivot_order import reduce
 from derive.passes.sample import observation
 from derive.passes.schedule import scheduled
+from derive.passes.tangents import differentiate
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -108,12 +109,12 @@ def emit(plan, origin):
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     c = f"c/{drive.name}"
     yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
-    # last: these add nodes to the tapes, the changes of the inputs
-    tangents = sensitivity.tangents(plan)
-    yield f"{c}_sensitivity.h", sensitivity.header(plan, tangents, metadata.GENERATOR)
+    moved = differentiate(plan)
+    yield f"{c}_sensitivity.h", sensitivity.header(moved, metadata.GENERATOR)
     yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
-    evaluated = [*guards.functions(plan), *guards.moving(plan), *guards.bounded(plan), *tangents.functions()]
-    metadata_of["side_conditions"] = guards.side_conditions(plan, evaluated)
+    evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved)]
+    evaluated += [tangent.evaluated() for tangent in moved.tangents()]
+    metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
 
 

@@ -9,7 +9,7 @@ import operator
 import random
 import secrets
 import weakref
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache, partial
 from typing import Any
@@ -189,15 +189,26 @@ def derives(
     flat = [s for row in slopes for s in row]
     found = residues(routine(tape, flat))
     for j, variable in enumerate(inputs):
-        rates = _rates(tape, values, variable)
+        rates = _rates(tape, values, {variable: 1})
         for i, rate in enumerate(rates):
             if (found[i * len(inputs) + j] - rate) % p:
                 raise PassError(f"{name}: entry {i}, {j} is not the derivative")
 
 
-def _rates(tape: Tape, outputs: Sequence[int], variable: int) -> list[int]:
-    """∂outputs/∂variable modulo the prime, by the chain rule on residues."""
-    p, rate = _prime(), {variable: 1}
+def moves(
+    name: str, tape: Tape, values: Sequence[int], seeds: Mapping[int, int], tangents: Sequence[int]
+) -> None:
+    """Raises :class:`PassError` unless ``tangents`` are how ``values`` change if inputs do by their ``seeds``."""
+    found = residues(routine(tape, tangents))
+    rates = _rates(tape, values, {i: _residue(tape, seed) for i, seed in seeds.items()})
+    for i, (tangent, rate) in enumerate(zip(found, rates, strict=True)):
+        if (tangent - rate) % _prime():
+            raise PassError(f"{name}: entry {i} is not the derivative along the direction")
+
+
+def _rates(tape: Tape, outputs: Sequence[int], changes: Mapping[int, int]) -> list[int]:
+    """Changes of the outputs for ``changes`` of inputs modulo the prime, by the chain rule on residues."""
+    p, rate = _prime(), dict(changes)
     value: dict[int, int] = {}
 
     def at(i: int) -> tuple[int, int]:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from derive.passes import check
 from derive.passes.plan import Along, Derived
 from derive.program.tape import Stage, Tape
 
@@ -27,5 +28,7 @@ def along(plan: Derived) -> Along:
     tape, symbols = plan.tape, [*plan.unknowns, plan.drive.instant]
     seeds = {plan.lower(s): tape.input(sp.Symbol(f"along_{s}"), Stage.ITERATE) for s in symbols}
     tangent = Derivatives(tape, seeds)
-    first = [tangent(i) for i in plan.residual]
-    return Along(tuple(seeds.values()), tuple(first), tuple(tangent(i) for i in first))
+    first = tuple(tangent(i) for i in plan.residual)
+    second = tuple(tangent(i) for i in first)
+    check.moves("along", tape, (*plan.residual, *first), seeds, (*first, *second))
+    return Along(tuple(seeds.values()), first, second)

@@ -28,6 +28,12 @@ class Lowering:
         self._done: dict[sp.Expr, int] = {}
         self._names: dict[int, str] = {}
 
+    def copy(self) -> Lowering:
+        """The same on a copy of the tape."""
+        other = Lowering(self.tape.copy(), self.inputs, self.definitions)
+        other._done, other._names = dict(self._done), dict(self._names)
+        return other
+
     def names(self) -> dict[int, str]:
         """Node → name of the definition whose value it is, for those that have been needed."""
         return self._names

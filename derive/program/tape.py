@@ -10,6 +10,7 @@ import math
 import operator
 from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
+from copy import copy
 from enum import IntEnum
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -65,6 +66,13 @@ class Tape:
         self._derivatives: dict[int, dict[int, int]] = {}
         self._inputs: dict[int, int] = {}
         self._reads: list[int] = []
+
+    def copy(self) -> Tape:
+        """A tape with the same values under the same numbers, which grows by itself."""
+        other = Tape()
+        vars(other).update((name, copy(part)) for name, part in vars(self).items())
+        other._derivatives = {}
+        return other
 
     # -- building ---------------------------------------------------------------------------------------------
 
