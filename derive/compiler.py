@@ -23,6 +23,7 @@ from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensi
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
 from derive.passes import guards
+from derive.passes.completion import at_end
 from derive.passes.equations import derive
 from derive.passes.joints import joints
 from derive.passes.pivot_order import reduce
@@ -99,8 +100,7 @@ def checked(plan):
         (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
-        # last: this adds nodes to the tapes, of design systems at the end of their path
-        (f"{c}_certified.h", certified.header(plan, metadata.GENERATOR)),
+        (f"{c}_certified.h", certified.header(plan, [*map(at_end, plan.systems)], metadata.GENERATOR)),
     ]
 
 

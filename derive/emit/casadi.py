@@ -7,8 +7,6 @@ from pathlib import Path
 import casadi
 
 from derive.language.drive import PATH
-from derive.program.lowering import Lowering
-from derive.program.tape import Stage, Tape
 
 
 class _Symbolic:
@@ -52,7 +50,7 @@ def function(plan):
         "start_guess": vector(plan.start_guess),
         "scale": vector(plan.scales),
         "guards": vector([g.node for g in plan.guards]),
-        "rules": casadi.vertcat(*_rules(drive, inputs)),
+        "rules": casadi.vertcat(*plan.completion.tape.evaluate(plan.completion.nodes, inputs, _Symbolic)),
     }
     return casadi.Function(drive.name, [p, phi, x], list(results.values()), ["p", "phi", "x"], list(results))
 
@@ -100,12 +98,6 @@ def _symbols(plan):
     x = casadi.SX.sym("x", len(plan.unknowns))
     inputs = {q.symbol: p[k] for k, q in enumerate(plan.drive.parameters)} | {plan.drive.instant: phi}
     return p, phi, x, inputs | {u: x[k] for k, u in enumerate(plan.unknowns)}
-
-
-def _rules(drive, inputs):
-    tape = Tape()
-    lower = Lowering(tape, {q.symbol: Stage.DESIGN for q in drive.parameters}, drive.definitions)
-    return tape.evaluate([lower(rule.value) for rule in drive.completion], inputs, _Symbolic)
 
 
 def system_function(drive, plan):

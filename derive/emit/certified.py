@@ -139,8 +139,8 @@ def _operations(tape, steps):
             yield step.op, [i], step.args
 
 
-def header(plan, generator):
-    """The text of the drive's header of tables."""
+def header(plan, systems, generator):
+    """The text of the drive's header of tables; ``systems`` are its design systems at the end of their path."""
     drive, tape, lower = plan.drive, plan.tape, plan.lower
     by_p = {lower(p.symbol): k for k, p in enumerate(drive.parameters)}
     slots, count = list(plan.state), len(plan.state)
@@ -158,7 +158,7 @@ def header(plan, generator):
         design_slots=plan.design_slots,
         factors=[_exactly(p.factor).parts() for p in drive.parameters],
         rules=list(_rules(plan)),
-        systems=[_system(system, drive) for system in plan.systems],
+        systems=[_system(system, drive) for system in systems],
         setup=code(tape, slots[: plan.design_slots], by_p),
         instant=code(tape, slots[plan.design_slots :], before | {lower(drive.instant): count}),
         equations=code(tape, [*plan.residual, *jacobian], by_x, len(plan.residual)),
@@ -236,14 +236,12 @@ def _system(plan, drive):
     """A design system at the end of its path: its equations and the values that it fills in, of (q, 1, y)."""
     lower, count = plan.lower, len(drive.parameters)
     leaves = {lower(p.symbol): k for k, p in enumerate(drive.parameters)} | {lower(PATH): count}
-    at_end = {lower(PATH): plan.tape.constant(1)}
     leaves |= {lower(u): count + 1 + k for k, u in enumerate(plan.unknowns)}
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    equations = [plan.tape.substitute(i, at_end) for i in (*plan.residual, *(e for row in plan.jacobian for e in row))]
-    values = [plan.tape.substitute(i, at_end) for i in plan.values]
+    equations = [*plan.residual, *(e for row in plan.jacobian for e in row)]
     return {
         "name": plan.system.name,
         "equations": code(plan.tape, equations, leaves, len(plan.residual)),
-        "values": code(plan.tape, values, leaves),
+        "values": code(plan.tape, plan.values, leaves),
         "fills": [index[target] for target in plan.system.fills],
     }

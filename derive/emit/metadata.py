@@ -160,11 +160,10 @@ def self_test(plan):
     reaches ``x``. Hex floats.
     """
     inputs = sample.in_double(plan.sample)
-    start = sample.beside(plan)
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),
-        "x_start": [x.hex() for x in start],
+        "x_start": [x.hex() for x in plan.beside],
         "x": [inputs[u].hex() for u in plan.unknowns],
     }
 

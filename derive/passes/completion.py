@@ -4,7 +4,7 @@ Each system has a small tape of its own, read by the C printer and, at generatio
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -48,10 +48,34 @@ class ParameterTape:
 
 def on_parameters(drive: Drive, expressions: Iterable[sp.Expr]) -> ParameterTape:
     """The :class:`ParameterTape` of these expressions."""
-    lower = Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+    lower = _lowering(drive)
     for p in drive.parameters:
         lower(p.symbol)
     return ParameterTape(lower, tuple(lower(e) for e in expressions))
+
+
+def together(drive: Drive) -> ParameterTape:
+    """The defaults and rules that complete a design of a drive, on one tape."""
+    lower = _lowering(drive)
+    return ParameterTape(lower, tuple(lower(rule.value) for rule in drive.completion))
+
+
+def _lowering(drive: Drive) -> Lowering:
+    return Lowering(Tape(), {p.symbol: Stage.DESIGN for p in drive.parameters}, drive.definitions)
+
+
+def at_end(plan: SystemTape) -> SystemTape:
+    """A design system at the end of its path, on a copy of its tape."""
+    lower = plan.lower.copy()
+    tape, end = lower.tape, {lower(PATH): lower.tape.constant(1)}
+    return replace(
+        plan,
+        tape=tape,
+        lower=lower,
+        residual=tuple(tape.substitute(i, end) for i in plan.residual),
+        jacobian=tuple(tuple(tape.substitute(i, end) for i in row) for row in plan.jacobian),
+        values=tuple(tape.substitute(i, end) for i in plan.values),
+    )
 
 
 def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> SystemTape:

@@ -10,7 +10,7 @@ import sympy as sp
 from derive.language.drive import Drive, Values
 from derive.language.symbols import Quantity
 from derive.passes import check, geometry, linearise
-from derive.passes.completion import lower_system, on_parameters
+from derive.passes.completion import lower_system, on_parameters, together
 from derive.passes.plan import Derived
 from derive.program.lowering import Lowering
 from derive.program.tape import Stage, Tape
@@ -20,6 +20,7 @@ def derive(drive: Drive) -> Derived:
     """The equations of a drive on one tape."""
     lower = _lowering(drive)
     rules = tuple(on_parameters(drive, [rule.value]) for rule in drive.completion)
+    completion = together(drive)
     systems = tuple(lower_system(system, drive.parameters) for system in drive.systems)
     sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
     unknowns = [u.symbol for u in drive.unknowns]
@@ -35,6 +36,7 @@ def derive(drive: Drive) -> Derived:
         tape=lower.tape,
         lower=lower,
         rules=rules,
+        completion=completion,
         systems=systems,
         sizes=sizes,
         residual=tuple(residual),

@@ -32,7 +32,14 @@ def reduce(plan: Derived) -> Reduced:
     check.solves("pivot order", tape, plan.jacobian, change, plan.residual)
     with tape.within(STEP_SIZE):
         weight = tuple(tape.div(tape.constant(1), s) for s in plan.scales)
-    return Reduced(**vars(plan), sample=contact, step=tuple(step), change=tuple(change), weight=weight)
+    return Reduced(
+        **vars(plan),
+        sample=contact,
+        step=tuple(step),
+        change=tuple(change),
+        weight=weight,
+        beside=sample.beside(plan, contact),
+    )
 
 
 def newton_step(plan: Derived, inputs: Mapping[sp.Symbol, float]) -> tuple[list[int], list[int]]:

@@ -140,13 +140,15 @@ class DesignGuard:
 class Derived:
     """The equations of a drive on a tape: see :func:`derive.passes.equations.derive`.
 
-    ``rules`` are the defaults and rules that complete a design, in the order in which they run.
+    ``rules`` are the defaults and rules that complete a design, in the order in which they run, each on a tape of its
+    own; ``completion`` has them together.
     """
 
     drive: Drive
     tape: Tape
     lower: Lowering
     rules: tuple[ParameterTape, ...]
+    completion: ParameterTape
     systems: tuple[SystemTape, ...]
     sizes: ParameterTape
     residual: Nodes
@@ -168,13 +170,15 @@ class Derived:
 class Reduced(Derived):
     """Newton's step too: see :func:`derive.passes.pivot_order.reduce`.
 
-    ``sample`` is the contact of the sample design (symbol → number, see :mod:`derive.passes.sample`).
+    ``sample`` is the contact of the sample design (symbol → number), ``beside`` a start for Newton's method close by:
+    see :mod:`derive.passes.sample`.
     """
 
     sample: Mapping[sp.Symbol, mpmath.mpf]
     step: Nodes
     change: Nodes
     weight: Nodes
+    beside: tuple[float, ...]
 
     @property
     def newton_step(self) -> list[int]:

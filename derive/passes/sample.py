@@ -13,7 +13,7 @@ from derive.language.drive import PATH, Drive
 from derive.language.symbols import Table
 from derive.language.validate import DescriptionError
 from derive.passes.completion import SystemTape, lower_system
-from derive.passes.plan import Derived, Observed, Reduced
+from derive.passes.plan import Derived, Observed
 from derive.program.lowering import Lowering
 from derive.program.tape import Stage, Tape
 
@@ -148,18 +148,18 @@ def in_double(inputs: Mapping[sp.Symbol, Any]) -> dict[sp.Symbol, float]:
     return {symbol: float(value) for symbol, value in inputs.items()}
 
 
-def beside(plan: Reduced) -> list[float]:
-    """Start values (nx,) from which Newton comes to the sample's solution in a few steps.
+def beside(plan: Derived, contact: Values) -> tuple[float, ...]:
+    """Start values (nx,) from which Newton comes to the sample's ``contact`` in a few steps.
 
     Each unknown stands off by a share of its natural size. A pair that touches along a line has no Newton step, whose
     matrix is singular: there the solution itself is returned.
     """
     n, flat = len(plan.unknowns), [*(e for row in plan.jacobian for e in row), *plan.scales]
     with mpmath.workdps(DIGITS):
-        numbers = plan.tape.evaluate(flat, plan.sample, mpmath)
+        numbers = plan.tape.evaluate(flat, contact, mpmath)
         _, pivots = _eliminated([[*numbers[i * n : i * n + n], mpmath.mpf(0)] for i in range(n)], mpmath.mpf)
     share = BESIDE if len(pivots) == n else 0.0
-    return [float(plan.sample[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True)]
+    return tuple(float(contact[u] + share * size) for u, size in zip(plan.unknowns, numbers[n * n :], strict=True))
 
 
 def solve(plan: Derived, parameters: Values, angle: float, arithmetic: Arithmetic = mpmath) -> Values:

@@ -1,6 +1,6 @@
 """A description names what the header computes: sizes, offsets and a hash of the arithmetic."""
 
-from copy import copy
+from dataclasses import replace
 
 from derive.emit import metadata
 from tests.derive.small import plan
@@ -9,8 +9,7 @@ from tests.derive.small import plan
 def test_the_hash_is_that_of_the_arithmetic():
     made = plan()
     assert metadata.specification_hash(made) == metadata.specification_hash(made)
-    turned = copy(made)
-    turned.residual = made.residual[::-1]
+    turned = replace(made, residual=made.residual[::-1])
     assert metadata.specification_hash(turned) != metadata.specification_hash(made)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from derive.language.drive import PATH, DesignSystem
 from derive.language.symbols import Quantity, Unknown
-from derive.passes.completion import lower_system
+from derive.passes.completion import at_end, lower_system
 
 size, given, other = Quantity("m", "mm"), Quantity("a", "mm"), Quantity("b", "mm")
 
@@ -32,3 +32,12 @@ def test_the_path_leads_from_the_guess_to_the_solution(path, root):
 def test_the_slope_is_that_of_the_equation():
     tape = lower_system(system(), [_Given])
     assert tape.tape.evaluate(tape.jacobian[0], {given: 9.0, size: 5.0}) == [10.0]
+
+
+def test_at_its_end_a_path_leaves_the_equation_itself_on_a_tape_of_its_own():
+    tape = lower_system(system(homotopy=True), [_Given])
+    count, ended = len(tape.tape.nodes), at_end(tape)
+    assert len(tape.tape.nodes) == count
+    assert ended.tape.inputs_of([*ended.residual, *ended.jacobian[0]]) == {given, size}
+    assert ended.tape.evaluate(ended.residual, {given: 9.0, size: 5.0}) == [16.0]
+    assert ended.tape.evaluate(ended.jacobian[0], {given: 9.0, size: 5.0}) == [10.0]
