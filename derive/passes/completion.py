@@ -10,6 +10,7 @@ import sympy as sp
 
 from derive.language.drive import PATH, DesignSystem, Drive
 from derive.language.symbols import Parameter, Quantity
+from derive.passes import check
 from derive.passes.singular import singular_function
 from derive.program.lowering import Lowering
 from derive.program.tape import Stage, Tape
@@ -93,12 +94,14 @@ def lower_system(system: DesignSystem, parameters: Sequence[Parameter]) -> Syste
         left = tape.sub(tape.constant(1), lower(PATH))
         begun = [tape.substitute(r, dict(zip(unknowns, guess, strict=True))) for r in residual]
         residual = [tape.sub(r, tape.mul(left, b)) for r, b in zip(residual, begun, strict=True)]
+    jacobian = tuple(tuple(tape.derivative(r, u) for u in unknowns) for r in residual)
+    check.derives(f"design system {system.name}", tape, residual, unknowns, jacobian)
     return SystemTape(
         system=system,
         tape=tape,
         lower=lower,
         residual=tuple(residual),
-        jacobian=tuple(tuple(tape.derivative(r, u) for u in unknowns) for r in residual),
+        jacobian=jacobian,
         scales=tuple(lower(u.scale) for u in system.unknowns),
         guess=tuple(guess),
         values=tuple(lower(value) for value in system.fills.values()),

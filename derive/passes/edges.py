@@ -16,7 +16,7 @@ from itertools import product
 from derive.language.contact import common_frame, contact
 from derive.language.drive import Body, Role
 from derive.passes import check, linearise
-from derive.passes.flanks import margin
+from derive.passes.flanks import margin, slopes
 from derive.passes.geometry import dot
 from derive.passes.plan import Derived, Edges, EdgeSystem
 from derive.passes.singular import determinant
@@ -82,7 +82,7 @@ def _systems(pinion: _Member, wheel: _Member, always: int, count: int) -> Iterat
 
 def _members(plan: Derived) -> tuple[_Member, _Member]:
     """Pinion and wheel in the frame in which the residual of contact compares them, where their nodes are known."""
-    (pinion, wheel), tape, lower = plan.drive.bodies, plan.tape, plan.lower
+    (pinion, wheel), lower = plan.drive.bodies, plan.lower
     orders = ((pinion, wheel), (wheel, pinion))
     first, second = next((p for p in orders if contact(p[0].placed, p[1].placed) == plan.drive.residual), orders[0])
     placed = dict(zip((first.name, second.name), common_frame(first.placed, second.placed), strict=True))
@@ -90,9 +90,9 @@ def _members(plan: Derived) -> tuple[_Member, _Member]:
     def member(body: Body) -> _Member:
         surface = placed[body.name]
         parameters = tuple(lower(p) for p in body.surface.parameters)
-        slopes = tuple([tape.derivative(lower(c), p) for p in parameters] for c in body.surface.conditions)
+        conditions = tuple(map(list, slopes(plan, body.surface)))
         point, normal = (tuple(map(lower, vector)) for vector in (surface.body_point, surface.body_normal))
-        return _Member(body, tuple(margin(plan, body, m) for m in body.margins), parameters, point, normal, slopes)
+        return _Member(body, tuple(margin(plan, body, m) for m in body.margins), parameters, point, normal, conditions)
 
     return member(pinion), member(wheel)
 

@@ -76,8 +76,10 @@ def _start(drive: Drive, lower: Lowering, unknowns: Iterable[Quantity]) -> tuple
     if drive.start.fixed:
         nodes = [fixed(lower, i, drive.start.fixed) for i in nodes]
     solutions = [] if drive.start.fixed else _solutions(drive, lower)
-    linear = linearise.linearise(lower.tape, nodes, [lower(u) for u in unknowns], solutions)
-    return nodes, linearise.jacobian(lower.tape, linear)
+    inputs = [lower(u) for u in unknowns]
+    jacobian = linearise.jacobian(lower.tape, linearise.linearise(lower.tape, nodes, inputs, solutions))
+    check.derives("start", lower.tape, nodes, inputs, jacobian)
+    return nodes, jacobian
 
 
 def fixed(lower: Lowering, node: int, values: Values) -> int:

@@ -12,7 +12,7 @@ import sympy as sp
 from derive.language.drive import Body, Margin, Region
 from derive.language.origin import Origin
 from derive.language.surface import Surface
-from derive.passes import geometry
+from derive.passes import check, geometry
 from derive.passes.equations import fixed
 from derive.passes.plan import Derived, Expansion, Flank, Output
 from derive.passes.singular import singular_function
@@ -36,15 +36,20 @@ def region(plan: Derived, of: Region) -> Flank:
 def expansion(plan: Derived, of: Flank, *, second: bool) -> Expansion:
     """The :class:`~derive.passes.plan.Expansion` of a flank or region."""
     tape, parameters = plan.tape, [plan.lower(p) for p in of.parameters]
-    rising = [tape.derivative(i, p) for i in of.limits for p in parameters]
+    rising = [[tape.derivative(i, p) for p in parameters] for i in of.limits]
+    check.derives("expansion", tape, of.limits, parameters, rising)
     point = next(o.nodes for o in of.outputs if o.name == "point")
-    bent = [
-        tape.derivative(tape.derivative(i, p), q)
+    pairs = [
+        (tape.derivative(i, p), q)
         for i in (*point, *of.limits, *of.conditions)
         for p, q in combinations_with_replacement(parameters, 2)
         if second
     ]
-    return Expansion(of, tuple(rising), tuple(bent))
+    bent = tuple(tape.derivative(i, q) for i, q in pairs)
+    for q in parameters:
+        own = [(i, slope) for (i, by), slope in zip(pairs, bent, strict=True) if by == q]
+        check.derives("expansion", tape, [i for i, _ in own], [q], [[slope] for _, slope in own])
+    return Expansion(of, tuple(i for row in rising for i in row), bent)
 
 
 def regular(plan: Derived, body: Body) -> int:
@@ -76,7 +81,10 @@ def vector(plan: Derived, components: Iterable[sp.Expr]) -> list[int]:
 def slopes(plan: Derived, surface: Surface) -> list[tuple[int, ...]]:
     """Derivatives of each implicit condition of a surface by its parameters."""
     parameters = [plan.lower(p) for p in surface.parameters]
-    return [tuple(plan.tape.derivative(plan.lower(c), p) for p in parameters) for c in surface.conditions]
+    conditions = [plan.lower(c) for c in surface.conditions]
+    found = [tuple(plan.tape.derivative(c, p) for p in parameters) for c in conditions]
+    check.derives("conditions", plan.tape, conditions, parameters, found)
+    return found
 
 
 def second_form(plan: Derived, surface: Surface, basis: geometry.Basis) -> geometry.Form:

@@ -21,6 +21,7 @@ from derive.language.drive import Body, Drive
 from derive.language.functions import Function, Result
 from derive.language.origin import SINGULAR, UNIT, Origin
 from derive.language.symbols import Quantity
+from derive.passes import check
 from derive.passes.plan import Derived
 from derive.passes.singular import determinant
 from derive.program.tape import Tape
@@ -119,6 +120,8 @@ def second_form(
     _, length = unit(tape, raw_normal)
     columns = [[tape.derivative(i, p) for i in point] for p in parameters]
     changes = [[tape.derivative(i, p) for i in raw_normal] for p in parameters]
+    by_parameter = [[*column, *change] for column, change in zip(columns, changes, strict=True)]
+    check.derives("geometry", tape, [*point, *raw_normal], parameters, [*zip(*by_parameter, strict=True)])
     with tape.within(UNIT):
         turnings = [[tape.div(c, length) for c in change] for change in changes]
     matrix = [[dot(tape, e, column) for column in columns] for e in basis] + [list(row) for row in slopes]

@@ -4,7 +4,9 @@ import pytest
 
 from derive.language.drive import PATH, DesignSystem
 from derive.language.symbols import Quantity, Unknown
+from derive.passes import check
 from derive.passes.completion import at_end, lower_system
+from derive.program.tape import Tape
 
 size, given, other = Quantity("m", "mm"), Quantity("a", "mm"), Quantity("b", "mm")
 
@@ -41,3 +43,9 @@ def test_at_its_end_a_path_leaves_the_equation_itself_on_a_tape_of_its_own():
     assert ended.tape.inputs_of([*ended.residual, *ended.jacobian[0]]) == {given, size}
     assert ended.tape.evaluate(ended.residual, {given: 9.0, size: 5.0}) == [16.0]
     assert ended.tape.evaluate(ended.jacobian[0], {given: 9.0, size: 5.0}) == [10.0]
+
+
+def test_a_wrong_slope_is_caught(monkeypatch):
+    monkeypatch.setattr(Tape, "derivative", lambda tape, node, variable: tape.constant(1))
+    with pytest.raises(check.PassError, match="design system size: entry 0, 0"):
+        lower_system(system(), [_Given])
