@@ -23,6 +23,7 @@ from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensi
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
 from derive.passes import guards
+from derive.passes.arrange import arrange
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
 from derive.passes.joints import joints
@@ -94,11 +95,11 @@ def checked(plan):
     validate_normals(plan.drive, observed, plan.sample)
     validate_ratio(plan.drive, observed, plan.sample)
     validate_regions(plan.drive, joints(plan))
-    c = f"c/{plan.drive.name}"
+    c, kernels = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
     return [
         (f"descriptions/{plan.drive.name}.json", description.text(plan.drive)),
-        (f"{c}_lanes.h", lanes.header(plan, metadata.GENERATOR)),
-        (f"{c}_bounded.h", bounded.header(plan, metadata.GENERATOR)),
+        (f"{c}_lanes.h", lanes.header(plan, arrange(plan, kernels), metadata.GENERATOR)),
+        (f"{c}_bounded.h", bounded.header(plan, arrange(plan, guards.bounded(plan)), metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
         (f"{c}_certified.h", certified.header(plan, [*map(at_end, plan.systems)], metadata.GENERATOR)),
     ]
@@ -108,12 +109,13 @@ def emit(plan, origin):
     """What the other printers make of a schedule, file by file: path and text; what others include comes first."""
     drive, metadata_of = plan.drive, metadata.describe(plan, origin)
     c = f"c/{drive.name}"
-    yield f"{c}.h", c99.header(plan, metadata_of, RUNTIME)
+    routines = arrange(plan, [*guards.functions(plan), *guards.moving(plan)])
+    yield f"{c}.h", c99.header(plan, routines, metadata_of, RUNTIME)
     moved = differentiate(plan)
-    yield f"{c}_sensitivity.h", sensitivity.header(moved, metadata.GENERATOR)
+    tangents = [tangent.evaluated() for tangent in moved.tangents()]
+    yield f"{c}_sensitivity.h", sensitivity.header(moved, arrange(moved, tangents), metadata.GENERATOR)
     yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
-    evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved)]
-    evaluated += [tangent.evaluated() for tangent in moved.tangents()]
+    evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]
     metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
 

@@ -7,7 +7,7 @@ from derive.emit.c99 import Leaves, Printer, linearised
 from derive.emit.render import render
 
 
-def header(plan, generator):
+def header(plan, routines, generator):
     """The text of the drive's header of bounded flanks."""
     drive = plan.drive
     before = len(plan.state)
@@ -15,8 +15,8 @@ def header(plan, generator):
         plan.lower(p.symbol): f"s[{before + k}]" for k, p in enumerate(drive.parameters)
     }
     unknowns = {plan.lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
-    edges = Printer(plan.tape, drive.name, known | unknowns, seldom=True)
-    equations, jacobian = linearised(edges, plan.edges.equations, plan.edges.jacobian)
+    printer = Printer(plan.tape, drive.name, known | unknowns, seldom=True)
+    equations, jacobian = linearised(printer, routines["edges"]) if plan.edges.systems else (None, None)
     return render(
         "bounded.h.jinja",
         drive=drive,
@@ -25,16 +25,17 @@ def header(plan, generator):
         equations=equations,
         jacobian=jacobian,
         systems=plan.edges.systems,
-        expansions=[_expansion(plan, known, e) for e in plan.expansions],
+        expansions=[_expansion(plan, known, routines, e) for e in plan.expansions],
     )
 
 
-def _expansion(plan, known, expansion):
+def _expansion(plan, known, routines, expansion):
     """Bodies of the slopes and of the second derivatives of one surface, functions of its parameters q."""
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(expansion.of.parameters)}
     printer = Printer(plan.tape, plan.drive.name, known | own, seldom=True)
+    name = f"{expansion.of.region}_{expansion.of.body}"
     return {
-        "name": f"{expansion.of.region}_{expansion.of.body}",
-        "slopes": printer.body(expansion.slopes)[0],
-        "second": printer.body(expansion.second)[0] if expansion.second else None,
+        "name": name,
+        "slopes": printer.body(*routines[f"slopes_{name}"])[0],
+        "second": printer.body(*routines[f"second_{name}"])[0] if expansion.second else None,
     }

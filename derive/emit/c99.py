@@ -1,4 +1,4 @@
-"""Print a schedule as one self-contained C99 header.
+"""Print a schedule as one self-contained C99 header, of the routines that :mod:`derive.passes.arrange` has made.
 
 The header needs only ``sqrt``, has no heap, no writable data and no input or output, compiles as C99 and C++11, and
 gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math, no contraction). Compiled with
@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from derive.emit import approximation, embedded
 from derive.emit.render import render
 from derive.language.drive import PATH
-from derive.passes.fuse import fuse
+from derive.passes.arrange import Routines
 from derive.passes.order import interleaved
 from derive.passes.plan import Schedule
-from derive.passes.quotients import reciprocals
-from derive.program.routine import routine
 from derive.program.tape import Stage
 
 #: Operations from which on a function that is seldom called is compiled as it stands: the time that a compiler takes to
@@ -62,7 +60,7 @@ def estrin(name, variable, coefficients):
 
 
 class Printer:
-    """Writes straight-line C for sets of nodes of one tape. ``leaves`` maps nodes to what the function can read.
+    """Writes straight-line C for routines of one tape. ``leaves`` maps nodes to what the function can read.
 
     What is computed ``seldom``, for a design, a start, a solved contact or a point of a flank, calls sine and cosine
     instead of having them written out in place, for the C compiler's sake. ``names`` are words for nodes, written in a
@@ -78,22 +76,16 @@ class Printer:
         self.seldom = seldom
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
-    def body(self, outputs, known=None, later=()):
-        """C that computes ``outputs``; ``known`` maps nodes to operands of earlier statements of the function.
+    def body(self, printed, known=None):
+        """C of a routine; ``known`` maps nodes to operands of earlier statements of the function.
 
-        Returns the body and ``known`` extended by what it computed. The function goes on to ``later``.
+        Returns the body and ``known`` extended by what it computed.
         """
         operands = dict(known or {})
-        printed = self.routine(outputs, operands, later)
         if not self.seldom or printed.operations < LONG:
             return side_by_side([self], printed, [operands]), operands
         statements = [line for i, step in printed.steps for line in self.statement(i, step, operands)]
-        return Body(tuple(statements), self.results(outputs, operands), printed.operations, long=True), operands
-
-    def routine(self, outputs, known, later=()):
-        """The routine behind ``outputs`` as it is printed, in an order of evaluation."""
-        readable = known.keys() | self.leaves.keys()
-        return fuse(reciprocals(routine(self.tape, outputs, readable, later)))
+        return Body(tuple(statements), self.results(printed.outputs, operands), printed.operations, long=True), operands
 
     def results(self, outputs, operands):
         """The operands of ``outputs``."""
@@ -217,7 +209,7 @@ def _comment(name, meaning):
     return re.sub(r"[^A-Za-z0-9_ ,.:'()/-]|(?<![a-z])-|-(?![a-z])| / ", " ", told)
 
 
-def header(plan: Schedule, description: dict, runtime):
+def header(plan: Schedule, routines: Routines, description: dict, runtime):
     """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
     ``runtime`` the folder of the C runtime.
     """
@@ -231,9 +223,13 @@ def header(plan: Schedule, description: dict, runtime):
     anchored = AnchoredPrinter(tape, prefix, leaves.moving, plan.angles, names=names)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
     start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
-    slots = list(plan.state)
-    residual, jacobian = linearised(iterate, plan.residual, plan.jacobian)
-    start_residual, start_jacobian = linearised(start, plan.start_residual, plan.start_jacobian)
+    residual, jacobian = linearised(iterate, routines["eval"])
+    start_residual, start_jacobian = linearised(start, routines["start_eval"])
+    guards, setup = (design.body(part)[0] for part in routines["setup"])
+
+    def body(printer, name):
+        return printer.body(*routines[name])[0]
+
     return render(
         "drive.h.jinja",
         plan=plan,
@@ -243,29 +239,29 @@ def header(plan: Schedule, description: dict, runtime):
         tables=embedded.tables(runtime),
         solver=embedded.solver(runtime),
         indices=list(_indices(description)),
-        rules=list(_rules(plan)),
-        sizes=_from_parameters(drive, plan.sizes).body(plan.sizes.nodes)[0],
-        guards=design.body([g.node for g in plan.guards])[0],
-        setup=design.body(slots[: plan.design_slots])[0],
+        rules=list(_rules(plan, routines)),
+        sizes=body(_from_parameters(drive, plan.sizes), "size"),
+        guards=guards,
+        setup=setup,
         kept=[f"p[{k}]" for k in range(len(drive.parameters))],
-        set_phi=instant.body(slots[plan.design_slots :])[0],
+        set_phi=body(instant, "set_phi"),
         residual=residual,
         jacobian=jacobian,
-        step=iterate.body(plan.newton_step)[0],
-        anchored=anchored.body(plan.residual)[0],
-        anchor=Printer(tape, prefix, leaves.moving, seldom=True).body(plan.angles)[0],
-        scale=iterate.body(plan.scales)[0],
-        guess=iterate.body(plan.start_guess)[0],
-        start_scale=iterate.body(plan.start_scales)[0],
+        step=body(iterate, "step"),
+        anchored=body(anchored, "by_anchor"),
+        anchor=body(Printer(tape, prefix, leaves.moving, seldom=True), "anchor"),
+        scale=body(iterate, "scale"),
+        guess=body(iterate, "guess"),
+        start_scale=body(iterate, "start_scale"),
         start_residual=start_residual,
         start_jacobian=start_jacobian,
-        start_solution=start.body(plan.start_solution)[0],
-        observed=solved.body([i for o in plan.observed for i in o.nodes])[0],
-        flanks=[_surface(plan, flank, leaves.state) for flank in plan.flanks],
-        regions=[_surface(plan, region, leaves.state) for region in plan.regions],
-        along=_along(plan, leaves),
-        systems=[_system(system, drive) for system in plan.systems],
-        functions=[_function(plan, f, leaves.state) for f in plan.functions],
+        start_solution=body(start, "start_solution"),
+        observed=body(solved, "observe"),
+        flanks=[_surface(plan, flank, leaves.state, routines) for flank in plan.flanks],
+        regions=[_surface(plan, region, leaves.state, routines) for region in plan.regions],
+        along=_along(plan, leaves, routines["along"]),
+        systems=[_system(system, drive, routines) for system in plan.systems],
+        functions=[_function(plan, f, leaves.state, routines) for f in plan.functions],
         literal=number,
         approximation=approximation,
         estrin=estrin,
@@ -287,75 +283,79 @@ def _indices(description):
     yield from ((f"O_{o['name']}", o["offset"]) for o in description["outputs"])
 
 
-def linearised(printer, residual, jacobian):
+def linearised(printer, routines):
     """Bodies of one function: of the residual, and of the Jacobian that may follow it."""
-    flat = [e for row in jacobian for e in row]
-    body, known = printer.body(residual, later=flat)
-    return body, printer.body(flat, known)[0]
+    residual, jacobian = routines
+    body, known = printer.body(residual)
+    return body, printer.body(jacobian, known)[0]
 
 
-def _surface(plan, flank, state):
-    body, curvature = (_on_arguments(plan, flank.parameters, o, state) for o in (flank.outputs, flank.curvature))
+def _surface(plan, flank, state, routines):
+    printer, name = _on_arguments(plan, flank.parameters, state), f"{flank.region}_{flank.body}"
+    body, curvature = (printer.body(*routines[of])[0] for of in (name, f"curvature_{name}"))
     return {"flank": flank, "body": body, "curvature": curvature}
 
 
-def _function(plan, function, state):
-    tests = plan.tests.get((function.name, 0))
-    return {"function": function, "body": _on_arguments(plan, function.parameters, function.outputs, state, tests)}
+def _function(plan, function, state, routines):
+    printer, groups = _on_arguments(plan, function.parameters, state), [o.nodes for o in function.outputs]
+    [made], tests = routines[function.name], plan.tests.get((function.name, 0), {})
+    return {"function": function, "body": _tested(printer, made, groups, tests)}
 
 
-def _on_arguments(plan, arguments, outputs, state, tests=None):
-    """The body of a function of its own arguments q and the state."""
+def _on_arguments(plan, arguments, state):
+    """A printer of functions of their own arguments q and the state."""
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(arguments)}
-    printer = Printer(plan.tape, plan.drive.name, state | own, seldom=True)
-    return _tested(printer, [o.nodes for o in outputs], tests or {})
+    return Printer(plan.tape, plan.drive.name, state | own, seldom=True)
 
 
-def _along(plan, leaves):
+def _along(plan, leaves, routines):
     """Bodies of the residual's first derivative along a direction v, and of the second that may follow it."""
     own = {node: f"v[{k}]" for k, node in enumerate(plan.along.direction)}
-    printer = Printer(plan.tape, plan.drive.name, leaves.moving | own, seldom=True)
-    body, known = printer.body(plan.along.first, later=plan.along.second)
-    return {"first": body, "second": printer.body(plan.along.second, known)[0]}
+    first, second = linearised(Printer(plan.tape, plan.drive.name, leaves.moving | own, seldom=True), routines)
+    return {"first": first, "second": second}
 
 
-def _system(plan, drive):
+def _system(plan, drive, routines):
     """A design system's C: functions of q, the parameters followed by the share of the path, and of y."""
     lower, count = plan.lower, len(drive.parameters)
     known = {lower(p.symbol): f"q[{k}]" for k, p in enumerate(drive.parameters)} | {lower(PATH): f"q[{count}]"}
     leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
     printer = Printer(plan.tape, drive.name, leaves, seldom=True)
-    index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    residual, jacobian = linearised(printer, plan.residual, plan.jacobian)
+    index, name = {p.symbol: k for k, p in enumerate(drive.parameters)}, plan.system.name
+    residual, jacobian = linearised(printer, routines[f"{name}_eval"])
+    guess, scale, watch, values = (
+        printer.body(*routines[f"{name}_{part}"])[0] for part in ("guess", "scale", "watch", "fill")
+    )
     return {
-        "name": plan.system.name,
+        "name": name,
         "unknowns": plan.unknowns,
-        "guess": printer.body(plan.guess)[0],
-        "scale": printer.body(plan.scales)[0],
+        "guess": guess,
+        "scale": scale,
         "residual": residual,
         "jacobian": jacobian,
-        "watch": None if plan.watch is None else printer.body([plan.watch])[0],
-        "values": printer.body(plan.values)[0],
+        "watch": None if plan.watch is None else watch,
+        "values": values,
         "fills": [index[target] for target in plan.system.fills],
     }
 
 
-def _rules(plan):
+def _rules(plan, routines):
     """Each default and rule of the drive: parameter index, statements, value, name."""
     drive = plan.drive
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
     for k, (rule, program) in enumerate(zip(drive.completion, plan.rules, strict=True)):
-        body = _tested(_from_parameters(drive, program), [program.nodes], plan.tests.get(("derive", k), {}))
+        printer, tests = _from_parameters(drive, program), plan.tests.get(("derive", k), {})
+        body = _tested(printer, routines["derive"][k], [program.nodes], tests)
         target = rule.target
         yield {"index": index[target], "statements": body.statements, "value": body.results[0], "name": target.name}
 
 
-def _tested(printer, groups, tests):
+def _tested(printer, made, groups, tests):
     """The body of a function; where a node of ``tests`` (group of results → nodes) is zero, they are not numbers."""
     outputs = [i for group in groups for i in group]
     wanted = [tests.get(tuple(group), ()) for group in groups for _ in group]
     nodes = [i for each in wanted for i in each]
-    body, _ = printer.body([*outputs, *nodes])
+    body, _ = printer.body(made)
     operand = dict(zip(nodes, body.results[len(outputs) :], strict=True))
 
     def result(value, each):

@@ -7,6 +7,7 @@ takes two lanes in a turn, of the lower and of the upper half, so that one has w
 
 from derive.emit.c99 import Leaves, Printer, side_by_side
 from derive.emit.render import render
+from derive.passes.arrange import Routines
 from derive.passes.plan import Schedule
 
 
@@ -19,13 +20,17 @@ def _in_lane(text, lane):
     return f"{text[:-1]} * MW_LANES + {lane}]" if text.endswith("]") else f"{text}[{lane}]"
 
 
-def header(plan: Schedule, generator: str):
+#: Functions that are printed in lanes.
+KERNELS = ("setup", "set_phi", "step")
+
+
+def header(plan: Schedule, routines: Routines, generator: str):
     """The text of the drive's lane header."""
     leaves, name = Leaves.of(plan), plan.drive.name
-    slots = list(plan.state)
+    (guards, setup), [step] = routines["setup"], routines["step"]
 
-    def body(readable, outputs):
-        return Printer(plan.tape, name, _in_lanes(readable)).body(outputs)[0]
+    def body(readable, made):
+        return Printer(plan.tape, name, _in_lanes(readable)).body(made)[0]
 
     lower = Printer(plan.tape, name, _in_lanes(leaves.iterate))
     upper = Printer(plan.tape, name, _in_lanes(leaves.iterate, "m"), suffix="m")
@@ -35,8 +40,8 @@ def header(plan: Schedule, generator: str):
         X=plan.drive.name,
         generator=generator,
         design_slots=plan.design_slots,
-        guards=body(leaves.design, [g.node for g in plan.guards]),
-        setup=body(leaves.design, slots[: plan.design_slots]),
-        set_phi=body(leaves.instant, slots[plan.design_slots :]),
-        step=side_by_side([lower, upper], lower.routine(plan.newton_step, {}), [{}, {}]),
+        guards=body(leaves.design, guards),
+        setup=body(leaves.design, setup),
+        set_phi=body(leaves.instant, *routines["set_phi"]),
+        step=side_by_side([lower, upper], step, [{}, {}]),
     )

@@ -49,7 +49,7 @@ class Evaluated:
     """A generated function: the nodes it returns, and those it is given by an earlier stage.
 
     ``groups`` are results of which it is enough that one is not finite; ``guard`` is the name of what answers;
-    ``part`` tells apart what is printed as one function from several tapes.
+    ``part`` tells apart what is printed as one function from several tapes. The ``leading`` outputs can be had alone.
     """
 
     name: str
@@ -59,6 +59,7 @@ class Evaluated:
     known: frozenset[int]
     guard: str
     part: int = 0
+    leading: int | None = None
 
     @property
     def outputs(self) -> list[int]:
@@ -93,8 +94,10 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
     slots = list(plan.state)
     state, design = frozenset(slots), frozenset(slots[: plan.design_slots])
 
-    def on_tape(name: str, outputs: Iterable[int], guard: str, known: frozenset[int] = state) -> Evaluated:
-        return Evaluated(name, tape, lower, (tuple(outputs),), known, guard)
+    def on_tape(
+        name: str, outputs: Iterable[int], guard: str, known: frozenset[int] = state, leading: int | None = None
+    ) -> Evaluated:
+        return Evaluated(name, tape, lower, (tuple(outputs),), known, guard, leading=leading)
 
     def results(name: str, outputs: Iterable[Output]) -> Evaluated:
         return Evaluated(name, tape, lower, tuple(o.nodes for o in outputs), state, "result")
@@ -108,12 +111,12 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
     yield on_tape("setup", slots[: plan.design_slots], "setup", frozenset())
     yield on_tape("set_phi", slots[plan.design_slots :], "step size", design)
     matrix = [e for row in plan.jacobian for e in row]
-    yield on_tape("eval", [*plan.residual, *matrix], "residual")
+    yield on_tape("eval", [*plan.residual, *matrix], "residual", leading=len(plan.residual))
     yield on_tape("step", plan.newton_step, "step size")
     yield on_tape("guess", plan.start_guess, "start")
     yield on_tape("start_scale", plan.start_scales, "start")
     start_matrix = [e for row in plan.start_jacobian for e in row]
-    yield on_tape("start_eval", [*plan.start_residual, *start_matrix], "start")
+    yield on_tape("start_eval", [*plan.start_residual, *start_matrix], "start", leading=len(plan.start_residual))
     yield on_tape("start_solution", plan.start_solution, "start")
     yield on_tape("scale", plan.scales, "residual")
     yield results("observe", plan.observed)
@@ -130,23 +133,24 @@ def moving(plan: Bound) -> Iterator[Evaluated]:
     """
     design = frozenset(list(plan.state)[: plan.design_slots])
 
-    def on_tape(name: str, groups: Iterable[Iterable[int]], guard: str) -> Evaluated:
-        return Evaluated(name, plan.tape, plan.lower, tuple(map(tuple, groups)), design, guard)
+    def on_tape(name: str, groups: Iterable[Iterable[int]], guard: str, leading: int | None = None) -> Evaluated:
+        return Evaluated(name, plan.tape, plan.lower, tuple(map(tuple, groups)), design, guard, leading=leading)
 
     yield on_tape("anchor", [plan.angles], "residual")
     yield on_tape("by_anchor", [plan.residual], "residual")
-    yield on_tape("along", [plan.along.first, plan.along.second], "tangent")
+    yield on_tape("along", [plan.along.first, plan.along.second], "tangent", len(plan.along.first))
 
 
 def bounded(plan: Bound) -> Iterator[Evaluated]:
     """The functions of bounded flanks; they read parameters and state."""
     known = frozenset(plan.state) | {plan.lower(p.symbol) for p in plan.drive.parameters}
 
-    def on_tape(name: str, outputs: Iterable[int], guard: str) -> Evaluated:
-        return Evaluated(name, plan.tape, plan.lower, (tuple(outputs),), known, guard)
+    def on_tape(name: str, outputs: Iterable[int], guard: str, leading: int | None = None) -> Evaluated:
+        return Evaluated(name, plan.tape, plan.lower, (tuple(outputs),), known, guard, leading=leading)
 
     if plan.edges.systems:
-        yield on_tape("edges", [*plan.edges.equations, *(e for row in plan.edges.jacobian for e in row)], "residual")
+        slopes = [e for row in plan.edges.jacobian for e in row]
+        yield on_tape("edges", [*plan.edges.equations, *slopes], "residual", len(plan.edges.equations))
     for expansion in plan.expansions:
         name = f"{expansion.of.region}_{expansion.of.body}"
         yield on_tape(f"slopes_{name}", expansion.slopes, "result")
@@ -161,14 +165,15 @@ def _on_parameters(name: str, program: ParameterTape, guard: str, part: int = 0)
 
 def _of_system(plan: SystemTape) -> Iterator[Evaluated]:
     name, matrix = plan.system.name, [e for row in plan.jacobian for e in row]
-    for suffix, outputs, guard in (
-        ("guess", plan.guess, "system"),
-        ("scale", plan.scales, "system"),
-        ("eval", [*plan.residual, *matrix], "system"),
-        ("watch", [] if plan.watch is None else [plan.watch], "system"),
-        ("fill", plan.values, "parameter"),
+    for suffix, outputs, guard, leading in (
+        ("guess", plan.guess, "system", None),
+        ("scale", plan.scales, "system", None),
+        ("eval", [*plan.residual, *matrix], "system", len(plan.residual)),
+        ("watch", [] if plan.watch is None else [plan.watch], "system", None),
+        ("fill", plan.values, "parameter", None),
     ):
-        yield Evaluated(f"{name}_{suffix}", plan.tape, plan.lower, (tuple(outputs),), frozenset(), guard)
+        groups = (tuple(outputs),)
+        yield Evaluated(f"{name}_{suffix}", plan.tape, plan.lower, groups, frozenset(), guard, leading=leading)
 
 
 def partial_operations(evaluated: Evaluated) -> list[int]:

@@ -8,6 +8,8 @@ import sympy as sp
 
 from derive.emit import c99
 from derive.emit.c99 import Printer, estrin
+from derive.passes.arrange import fused
+from derive.program.routine import routine
 from tests.derive.small import VALUES, lowered, p, x, y
 
 
@@ -35,7 +37,7 @@ def test_statements_compute_the_nodes():
     expressions = (x * y + p, sp.sqrt(x**2 + p) / (y - p))
     tape, lower, nodes = lowered(*expressions)
     leaves = {lower(s): str(s) for s in (x, y, p)}
-    body = Printer(tape, "none", leaves).body(nodes)[0]
+    body = Printer(tape, "none", leaves).body(fused(routine(tape, nodes)))[0]
     numbers = {str(s): v for s, v in VALUES.items()}
     for result, expression in zip(body.results, expressions, strict=True):
         assert value(body, result, **numbers) == pytest.approx(float(expression.subs(VALUES)), rel=1e-15)
@@ -46,9 +48,9 @@ def test_a_long_function_that_is_seldom_called_computes_the_same(monkeypatch):
     expression = (x * y + p) * sp.sqrt(x**2 + p) - y / (x + p)
     tape, lower, nodes = lowered(expression)
     leaves, numbers = {lower(s): str(s) for s in (x, y, p)}, {str(s): v for s, v in VALUES.items()}
-    short = Printer(tape, "none", leaves, seldom=True).body(nodes)[0]
+    short = Printer(tape, "none", leaves, seldom=True).body(fused(routine(tape, nodes)))[0]
     monkeypatch.setattr(c99, "LONG", short.operations)
-    long = Printer(tape, "none", leaves, seldom=True).body(nodes)[0]
-    often = Printer(tape, "none", leaves).body(nodes)[0]
+    long = Printer(tape, "none", leaves, seldom=True).body(fused(routine(tape, nodes)))[0]
+    often = Printer(tape, "none", leaves).body(fused(routine(tape, nodes)))[0]
     assert (short.long, long.long, often.long) == (False, True, False)
     assert value(long, long.results[0], **numbers) == value(short, short.results[0], **numbers)

@@ -1,0 +1,46 @@
+"""The generated functions as the routines that are printed: quotients as products, products in sums.
+
+Input: generated functions, each by what it returns and what it is given. Output: by name their routines.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import TypeAlias
+
+from derive.passes.fuse import fuse
+from derive.passes.guards import Evaluated
+from derive.passes.plan import Schedule
+from derive.passes.quotients import reciprocals
+from derive.program.routine import Routine, routine
+
+#: Name of a generated function → its routines, part by part; a part that goes on from another follows it.
+Routines: TypeAlias = Mapping[str, tuple[Routine, ...]]
+
+
+def arrange(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:
+    """The :data:`Routines` of these functions of a drive."""
+    made: dict[str, tuple[Routine, ...]] = {}
+    for f in functions:
+        tests = plan.tests.get((f.name, f.part), {})
+        tested = [i for group in f.groups for _ in group for i in tests.get(group, ())]
+        made[f.name] = (*made.get(f.name, ()), *_routines(f, [*f.outputs, *tested]))
+    return made
+
+
+def _routines(f: Evaluated, outputs: list[int]) -> tuple[Routine, ...]:
+    if f.leading is None:
+        return (fused(routine(f.tape, outputs, f.known)),)
+    leading, others = outputs[: f.leading], outputs[f.leading :]
+    first = fused(routine(f.tape, leading, f.known, others))
+    return first, fused(routine(f.tape, others, f.known | _computed(first)))
+
+
+def fused(made: Routine) -> Routine:
+    """A routine with its quotients as products and its products in sums."""
+    return fuse(reciprocals(made))
+
+
+def _computed(done: Routine) -> set[int]:
+    """Nodes that a routine has computed: of sine and cosine of an angle both."""
+    angles = [step.args[0] for _, step in done.steps if step.op in ("sin", "cos")]
+    turned = (done.tape.find(op, angle) for angle in angles for op in ("sin", "cos"))
+    return {i for i, _ in done.steps}.union(i for i in turned if i is not None)

@@ -1,0 +1,40 @@
+"""Generated functions as routines compute what the tape does, and a part goes on where the one before it ends."""
+
+from dataclasses import replace
+
+import sympy as sp
+
+from derive.passes import check, guards
+from derive.passes.arrange import arrange
+from derive.passes.guards import Evaluated
+from derive.program.routine import routine
+from tests.derive.small import lowered, p, plan, x, y
+
+
+def test_every_function_computes_what_the_tape_does():
+    made = plan()
+    functions = [*guards.functions(made), *guards.moving(made), *guards.bounded(made)]
+    routines = arrange(made, functions)
+    for f in functions:
+        if f.tape is made.tape and f.name != "setup":
+            outputs = [i for part in routines[f.name] for i in part.outputs]
+            assert outputs[: len(f.outputs)] == f.outputs
+            values = [v for part in routines[f.name] for v in check.residues(part)]
+            assert values == check.residues(routine(f.tape, outputs, f.known))
+    assert len(routines["derive"]) == len(made.rules) and len(routines["setup"]) == 2
+
+
+def test_a_part_that_goes_on_computes_nothing_again():
+    tape, lower, nodes = lowered(sp.sin(x * y), sp.cos(x * y) * p + sp.sin(x * y))
+    f = Evaluated("f", tape, lower, (tuple(nodes),), frozenset(), "result", leading=1)
+    first, second = arrange(plan(), [f])["f"]
+    assert [step.op for _, step in first.steps] == ["mul", "sin"]
+    assert [step.op for _, step in second.steps] == ["fma"]  # the cosine comes with the sine
+
+
+def test_quotients_of_what_follows_count_for_what_comes_first():
+    tape, lower, nodes = lowered(x / y, 1 / y)
+    whole = Evaluated("f", tape, lower, (tuple(nodes),), frozenset(), "result")
+    alone, parts = (arrange(plan(), [f])["f"] for f in (whole, replace(whole, leading=1)))
+    assert len(alone) == 1 and check.residues(alone[0]) == [v for part in parts for v in check.residues(part)]
+    assert [step.op for _, step in parts[0].steps] == ["div", "mul"] and not parts[1].steps
