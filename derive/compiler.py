@@ -15,6 +15,7 @@ up when its operations are known.
 
 import hashlib
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -22,8 +23,8 @@ from derive.audit.provenance import provenance
 from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
-from derive.passes import guards
-from derive.passes.arrange import arrange
+from derive.passes import enclosed, guards
+from derive.passes.arrange import arrange, unfused
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
 from derive.passes.joints import joints
@@ -96,12 +97,13 @@ def checked(plan):
     validate_ratio(plan.drive, observed, plan.sample)
     validate_regions(plan.drive, joints(plan))
     c, kernels = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
+    ended = replace(plan, systems=tuple(map(at_end, plan.systems)))
     return [
         (f"descriptions/{plan.drive.name}.json", description.text(plan.drive)),
         (f"{c}_lanes.h", lanes.header(plan, arrange(plan, kernels), metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, arrange(plan, guards.bounded(plan)), metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
-        (f"{c}_certified.h", certified.header(plan, [*map(at_end, plan.systems)], metadata.GENERATOR)),
+        (f"{c}_certified.h", certified.header(ended, unfused(ended, enclosed.functions(ended)), metadata.GENERATOR)),
     ]
 
 
@@ -114,7 +116,8 @@ def emit(plan, origin):
     moved = differentiate(plan)
     tangents = [tangent.evaluated() for tangent in moved.tangents()]
     yield f"{c}_sensitivity.h", sensitivity.header(moved, arrange(moved, tangents), metadata.GENERATOR)
-    yield f"{c}_certify.h", certify.header(plan, metadata_of, RUNTIME)
+    proved = unfused(plan, [f for f in guards.functions(plan) if f.name in certify.FUNCTIONS])
+    yield f"{c}_certify.h", certify.header(plan, proved, metadata_of, RUNTIME)
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]
     metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"

@@ -1,23 +1,19 @@
 """Print a schedule's functions as tables of operations, for arithmetics that enclose what they compute.
 
-The same routines as the C99 printer's (:mod:`derive.emit.c99`), not fused, each a list of operations on numbered
-registers. The C runtime (``runtime/c/certify``) runs them in whichever arithmetic a proof needs: midpoint and radius,
-the same in double-double, polynomials with an error bound. Each constant comes with how far its double is off, π
-included, and each factor from the unit of a key to the inner unit.
+The routines are those of :mod:`derive.passes.enclosed`, not fused, each a list of operations on numbered registers. The
+C runtime (``runtime/c/certify``) runs them in whichever arithmetic a proof needs: midpoint and radius, the same in
+double-double, polynomials with an error bound. Each constant comes with how far its double is off, π included, and each
+factor from the unit of a key to the inner unit.
 """
 
 from dataclasses import dataclass
 from fractions import Fraction
 
-import sympy as sp
-
 from derive.emit.c99 import number
 from derive.emit.render import render
-from derive.language.chain import Rotation
 from derive.language.drive import PATH
-from derive.passes.quotients import reciprocals
+from derive.passes import geometry
 from derive.program.enclosure import Enclosure
-from derive.program.routine import routine
 
 #: Operations by number, as in mw_certified.h. A square is its own operation: it is never negative.
 OPERATIONS = ("add", "sub", "mul", "sqr", "div", "neg", "sqrt", "sincos", "atan2", "magnitude", "sign")
@@ -47,35 +43,34 @@ class Code:
     first: int
 
 
-def code(tape, outputs, leaves, leading=None):
-    """The :class:`Code` that computes these nodes from ``leaves`` (node → place in the arguments)."""
-    first = len(outputs) if leading is None else leading
-    return _Writer(tape, list(outputs), leaves).code(first)
+def code(made, leaves, leading=None):
+    """The :class:`Code` of a routine that reads ``leaves`` (node → place in the arguments)."""
+    return _Writer(made, leaves).code(len(made.outputs) if leading is None else leading)
 
 
-def operations_of(tape, outputs, known):
-    """(operation, nodes that it computes, arguments) in an order of evaluation that leads to ``outputs``."""
-    found = list(_operations(tape, reciprocals(routine(tape, outputs, known)).steps))
-    read = {*outputs}.union(*(args for _, _, args in found))
+def operations_of(made):
+    """(operation, nodes that it computes, arguments) of a routine, in an order of evaluation."""
+    found = list(_operations(made.tape, made.steps))
+    read = {*made.outputs}.union(*(args for _, _, args in found))
     return [step for step in found if read & {*step[1]}]  # nobody reads the sign of what is a magnitude
 
 
 class _Writer:
     """Assigns registers: each is free again after the last operation that reads it."""
 
-    def __init__(self, tape, outputs, leaves):
-        self.tape, self.outputs = tape, outputs
-        self.steps = list(operations_of(tape, outputs, leaves.keys()))
+    def __init__(self, routine, leaves):
+        self.tape, self.outputs = routine.tape, list(routine.outputs)
+        self.steps = operations_of(routine)
         made = {i for step in self.steps for i in step[1]}
-        read = dict.fromkeys([a for step in self.steps for a in step[2]] + outputs)
-        self.inputs = [i for i in read if i not in made and tape.const_value(i) is None]
-        self.constants = [i for i in read if i not in made and tape.const_value(i) is not None]
+        read = dict.fromkeys([a for step in self.steps for a in step[2]] + self.outputs)
+        self.inputs = [i for i in read if i not in made and self.tape.const_value(i) is None]
+        self.constants = [i for i in read if i not in made and self.tape.const_value(i) is not None]
         self.places = [leaves[i] for i in self.inputs]
         self.register = {i: k for k, i in enumerate([*self.inputs, *self.constants])}
         self.fixed = self.count = len(self.register)
         self.free, self.depth = [], {}
         self.last = {a: at for at, step in enumerate(self.steps) for a in (*step[1], *step[2])}
-        self.last |= dict.fromkeys(outputs, len(self.steps))
+        self.last |= dict.fromkeys(self.outputs, len(self.steps))
 
     def code(self, leading):
         instructions, wanted, first = [], set(self.outputs[:leading]), 0
@@ -139,15 +134,17 @@ def _operations(tape, steps):
             yield step.op, [i], step.args
 
 
-def header(plan, systems, generator):
-    """The text of the drive's header of tables; ``systems`` are its design systems at the end of their path."""
-    drive, tape, lower = plan.drive, plan.tape, plan.lower
+def header(plan, routines, generator):
+    """The text of the drive's header of tables, of a plan whose design systems are at the end of their path."""
+    drive, lower = plan.drive, plan.lower
     by_p = {lower(p.symbol): k for k, p in enumerate(drive.parameters)}
-    slots, count = list(plan.state), len(plan.state)
-    by_state = dict(plan.state)
+    count, by_state = len(plan.state), dict(plan.state)
     before = {node: slot for node, slot in by_state.items() if slot < plan.design_slots}
     by_x = by_state | {lower(u): count + k for k, u in enumerate(plan.unknowns)}
-    jacobian = [e for row in plan.jacobian for e in row]
+
+    def table(name, leaves, leading=None):
+        return code(routines[name][-1], leaves, leading)
+
     return render(
         "certified.h.jinja",
         drive=drive,
@@ -157,43 +154,22 @@ def header(plan, systems, generator):
         slots=count,
         design_slots=plan.design_slots,
         factors=[_exactly(p.factor).parts() for p in drive.parameters],
-        rules=list(_rules(plan)),
-        systems=[_system(system, drive) for system in systems],
-        setup=code(tape, slots[: plan.design_slots], by_p),
-        instant=code(tape, slots[plan.design_slots :], before | {lower(drive.instant): count}),
-        equations=code(tape, [*plan.residual, *jacobian], by_x, len(plan.residual)),
-        observed=code(tape, _watched(plan), by_x),
-        along=code(tape, [*plan.along.first, *plan.along.second], before | _line(plan, count)),
-        flanks=list(_flanks(plan)),
-        placement=_placement(plan, before),
-        turning=int(_turns_about_z(drive)),
+        rules=list(_rules(plan, routines["derive"])),
+        systems=[_system(system, drive, table) for system in plan.systems],
+        setup=table("setup", by_p),
+        instant=table("set_phi", before | {lower(drive.instant): count}),
+        equations=table("eval", by_x, len(plan.residual)),
+        observed=table("watched", by_x),
+        along=table("along", before | _line(plan, count)),
+        flanks=[table(f"on_{f.body}", by_state | _own(plan, f.parameters), 3) for f in plan.flanks],
+        placement=table("placed", before | _own(plan, plan.placement.parameters)),
+        turning=int(geometry.turns_about_z(drive)),
     )
 
 
-def _flanks(plan):
-    """Both flanks: point, then regular and margins, then its tangents. The pinion's in the fixed frame, where its turn
-    and its parameters meet in fewer angles; the wheel's in its own.
-    """
-    found, slots = {o.name: o.nodes for o in plan.observed}, dict(plan.state)
-    for body, flank in zip(plan.drive.bodies, plan.flanks, strict=True):
-        local = {o.name: o.nodes for o in flank.outputs}
-        fixed = body is plan.drive.bodies[0]
-        point = found[f"point_{body.name}_f"] if fixed else local["point"]
-        tangents = [i for q in flank.parameters for i in (found if fixed else local)[f"tangent_{q}"]]
-        own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(flank.parameters)}
-        yield code(plan.tape, [*point, *flank.limits, *tangents], slots | own, len(point))
-
-
-def _placement(plan, before):
-    own = {plan.lower(q): len(plan.state) + k for k, q in enumerate(plan.placement.parameters)}
-    return code(plan.tape, [i for o in plan.placement.outputs for i in o.nodes], before | own)
-
-
-def _turns_about_z(drive):
-    """Whether the wheel's angle is that of the last of its rotations, about the z axis of its own frame, alone."""
-    *others, last = drive.wheel.motion.factors
-    moves = any(sp.sympify(e).has(drive.error) for factor in others for e in factor.expressions())
-    return isinstance(last, Rotation) and last.axis == "z" and sp.diff(last.angle, drive.error) in (1, -1) and not moves
+def _own(plan, arguments):
+    """Places of a function's own arguments, after the numbers of the state."""
+    return {plan.lower(q): len(plan.state) + k for k, q in enumerate(arguments)}
 
 
 def _line(plan, count):
@@ -208,40 +184,24 @@ def _exactly(factor):
     return Enclosure.of_symbol(factor)
 
 
-def _watched(plan):
-    """What is enclosed at a contact: points and normals of both members in the fixed frame, the pinion's first; wheel
-    angle; principal curvatures of the gap; of each body whether it is regular, and its margins.
-    """
-    found, flat = {o.name: o.nodes for o in plan.observed}, [i for o in plan.observed for i in o.nodes]
-    nodes = []
-    for body in plan.drive.bodies:
-        nodes += [*found[f"point_{body.name}_f"], *found[f"normal_{body.name}_f"]]
-    nodes += [*found["wheel_angle"], *found["curvature_gap"]]
-    for body in plan.drive.bodies:
-        places = plan.bodies[body.name]
-        nodes += [flat[at] for at in (places.singular, *places.margins)]
-    return nodes
-
-
-def _rules(plan):
+def _rules(plan, routines):
     """Each default and rule: parameter index and code of its value, followed by what must not be zero."""
     index = {p.symbol: k for k, p in enumerate(plan.drive.parameters)}
-    for k, (rule, program) in enumerate(zip(plan.drive.completion, plan.rules, strict=True)):
-        tests = [i for nodes in plan.tests.get(("derive", k), {}).values() for i in nodes]
+    for rule, program, made in zip(plan.drive.completion, plan.rules, routines, strict=True):
         leaves = {program.lower(p.symbol): j for j, p in enumerate(plan.drive.parameters)}
-        yield {"target": index[rule.target], "code": code(program.tape, [*program.nodes, *tests], leaves)}
+        yield {"target": index[rule.target], "code": code(made, leaves)}
 
 
-def _system(plan, drive):
+def _system(plan, drive, table):
     """A design system at the end of its path: its equations and the values that it fills in, of (q, 1, y)."""
     lower, count = plan.lower, len(drive.parameters)
     leaves = {lower(p.symbol): k for k, p in enumerate(drive.parameters)} | {lower(PATH): count}
     leaves |= {lower(u): count + 1 + k for k, u in enumerate(plan.unknowns)}
     index = {p.symbol: k for k, p in enumerate(drive.parameters)}
-    equations = [*plan.residual, *(e for row in plan.jacobian for e in row)]
+    name = plan.system.name
     return {
-        "name": plan.system.name,
-        "equations": code(plan.tape, equations, leaves, len(plan.residual)),
-        "values": code(plan.tape, plan.values, leaves),
+        "name": name,
+        "equations": table(f"{name}_eval", leaves, len(plan.residual)),
+        "values": table(f"{name}_fill", leaves),
         "fills": [index[target] for target in plan.system.fills],
     }

@@ -1,9 +1,9 @@
 """Print a schedule as one C99 header that proves contacts: straight-line code in midpoint-radius arithmetic.
 
 The operations are those of :mod:`derive.emit.certified`, which writes them as tables for the library's slower
-arithmetics. Residual at a point and Jacobian over a box are one function, so that the compiler finds what midpoints of
-both share; the same text serves one point and as many as there are lanes. The header needs ``sqrt`` only and has no
-heap and no writable data.
+arithmetics, of routines that are not fused. Residual at a point and Jacobian over a box are one function, so that the
+compiler finds what midpoints of both share; the same text serves one point and as many as there are lanes. The header
+needs ``sqrt`` only and has no heap and no writable data.
 
 Where the Jacobian's radii are known for a whole domain (``runtime/c/certify/domain.h``), residual and Jacobian take a
 function of midpoints, with radii only of what the residual reads. It has the operations of the table of both, one by
@@ -34,11 +34,9 @@ class _Text:
         self.tape, self.prefix, self.type, self.suffix, self.read = tape, prefix, type_, suffix, read
         self.names, self.statements = {}, []
 
-    def of(self, outputs, among=None):
-        """Operands of ``outputs``, once their statements are written, as they are computed ``among`` other outputs:
-        which quotients share a reciprocal depends on all that is computed.
-        """
-        steps = operations_of(self.tape, among or outputs, self.read.keys())
+    def of(self, made, outputs):
+        """Operands of these ``outputs`` of a routine, once their statements are written."""
+        steps = operations_of(made)
         wanted = _reached(steps, outputs)
         for op, results, args in steps:
             if wanted & {*results}:
@@ -84,9 +82,10 @@ class _Point:
     largest size is read by. ``guards`` are what ``domain.h`` looks at, in the order of the operations.
     """
 
-    def __init__(self, tape, read, most, residual, jacobian):
-        self.tape, self.read, self.most = tape, read, most
-        self.steps = operations_of(tape, [*residual, *jacobian], read.keys())
+    def __init__(self, made, read, most, equations):
+        residual, jacobian = made.outputs[:equations], made.outputs[equations:]
+        self.tape, self.read, self.most = made.tape, read, most
+        self.steps = operations_of(made)
         self.wide = _reached(self.steps, residual)
         self.factor = Counter(a for op, _, args in self.steps if op == "mul" for a in args)
         self.names, self.radii, self.statements, self.guards = {}, {}, [], []
@@ -180,17 +179,21 @@ class _Point:
         self._say(results[1], cosine, f"mwc_units_turned({radius}, {sine}, 1.0)")
 
 
-def _balls(tape, suffix, read, outputs, among=None):
-    text = _Text(tape, "mwc_", "mw_ball", suffix, read)
-    return {"results": text.of(outputs, among), "statements": text.statements}
+def _balls(made, suffix, read, outputs=None):
+    text = _Text(made.tape, "mwc_", "mw_ball", suffix, read)
+    return {"results": text.of(made, made.outputs if outputs is None else outputs), "statements": text.statements}
 
 
-def header(plan, description, runtime):
+#: Functions that are printed in this arithmetic.
+FUNCTIONS = ("setup", "set_phi", "eval", "scale")
+
+
+def header(plan, routines, description, runtime):
     """The text of the drive's header.
 
     ``description`` is the drive's metadata, ``runtime`` the folder of the C runtime.
     """
-    tape, lower, slots = plan.tape, plan.lower, list(plan.state)
+    tape, lower = plan.tape, plan.lower
     shared = {n: f"MWC_SHARED(s, {k})" for n, k in plan.state.items() if k < plan.design_slots}
     own = {n: f"MWC_OWN(t, {k - plan.design_slots})" for n, k in plan.state.items() if k >= plan.design_slots}
     at = {lower(u): f"mwc_make(x[{k} * MW_LANES + l], 0.0)" for k, u in enumerate(plan.unknowns)}
@@ -200,9 +203,8 @@ def header(plan, description, runtime):
     turned = {n: (f"({ball}).mid", f"MWC_UNITS * ({ball}).radius") for n, ball in own.items()}
     point = {lower(u): (f"x[{k} * MW_LANES + l]", None) for k, u in enumerate(plan.unknowns)}
     given = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)}
-    setup = _Text(tape, "mwc_wide_", "mw_wide", "w", given)
-    jacobian = [entry for row in plan.jacobian for entry in row]
-    both = [*plan.residual, *jacobian]
+    (_, kept), [turning], [both], [scales] = (routines[name] for name in FUNCTIONS)
+    setup, count = _Text(tape, "mwc_wide_", "mw_wide", "w", given), len(plan.residual)
     return render(
         "certify.h.jinja",
         drive=plan.drive,
@@ -213,12 +215,12 @@ def header(plan, description, runtime):
         arithmetic=embedded.arithmetic(runtime),
         test=embedded.test(runtime),
         design_slots=plan.design_slots,
-        slots=len(slots),
-        setup={"results": setup.of(slots[: plan.design_slots]), "statements": setup.statements},
-        instant=_balls(tape, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}, slots[plan.design_slots :]),
-        residual=_balls(tape, "p", shared | own | at, plan.residual, both),
-        jacobian=_balls(tape, "b", shared | own | about, jacobian, both),
-        point=_Point(tape, shared_3 | turned | point, most, plan.residual, jacobian),
+        slots=len(plan.state),
+        setup={"results": setup.of(kept, kept.outputs), "statements": setup.statements},
+        instant=_balls(turning, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}),
+        residual=_balls(both, "p", shared | own | at, both.outputs[:count]),
+        jacobian=_balls(both, "b", shared | own | about, both.outputs[count:]),
+        point=_Point(both, shared_3 | turned | point, most, count),
         columns=[*(k for k in range(len(plan.unknowns)) if k != description["error"]), description["error"]],
-        scales=_balls(tape, "b", shared | own, plan.scales),
+        scales=_balls(scales, "b", shared | own),
     )

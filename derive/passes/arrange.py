@@ -18,12 +18,27 @@ Routines: TypeAlias = Mapping[str, tuple[Routine, ...]]
 
 def arrange(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:
     """The :data:`Routines` of these functions of a drive."""
-    made: dict[str, tuple[Routine, ...]] = {}
-    for f in functions:
-        tests = plan.tests.get((f.name, f.part), {})
-        tested = [i for group in f.groups for _ in group for i in tests.get(group, ())]
-        made[f.name] = (*made.get(f.name, ()), *_routines(f, [*f.outputs, *tested]))
-    return made
+    return _by_name((f.name, _routines(f, _outputs(plan, f))) for f in functions)
+
+
+def unfused(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:
+    """The same for arithmetic that encloses what it computes, where a sum gains nothing by a product: each in one."""
+    return _by_name(
+        (f.name, (reciprocals(routine(f.tape, _outputs(plan, f), f.known)),)) for f in functions
+    )
+
+
+def _by_name(made: Iterable[tuple[str, tuple[Routine, ...]]]) -> Routines:
+    found: dict[str, tuple[Routine, ...]] = {}
+    for name, routines in made:
+        found[name] = (*found.get(name, ()), *routines)
+    return found
+
+
+def _outputs(plan: Schedule, f: Evaluated) -> list[int]:
+    """What a function returns, and what it tests."""
+    tests = plan.tests.get((f.name, f.part), {})
+    return [*f.outputs, *(i for group in f.groups for _ in group for i in tests.get(group, ()))]
 
 
 def _routines(f: Evaluated, outputs: list[int]) -> tuple[Routine, ...]:

@@ -16,7 +16,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from derive.language import vectors as v
-from derive.language.chain import Motion
+from derive.language.chain import Motion, Rotation
 from derive.language.drive import Body, Drive
 from derive.language.functions import Function, Result
 from derive.language.origin import SINGULAR, UNIT, Origin
@@ -70,6 +70,13 @@ def placement(drive: Drive) -> Function:
 def _rows(motion: Motion) -> list[sp.Expr]:
     columns = [*(motion.direction(axis) for axis in (v.I, v.J, v.K)), motion.point(v.ORIGIN)]
     return [column[row] for row in range(3) for column in columns]
+
+
+def turns_about_z(drive: Drive) -> bool:
+    """Whether the wheel's angle is that of the last of its rotations, about the z axis of its own frame, alone."""
+    *others, last = drive.wheel.motion.factors
+    moves = any(sp.sympify(e).has(drive.error) for factor in others for e in factor.expressions())
+    return isinstance(last, Rotation) and last.axis == "z" and sp.diff(last.angle, drive.error) in (1, -1) and not moves
 
 
 def lever_arm(plan: Derived, body: Body, variable: Quantity, point: Sequence[int], normal: Sequence[int]) -> int:

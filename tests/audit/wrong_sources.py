@@ -60,7 +60,7 @@ DRIVES = {
     "emit/casadi.py": EVERY, "emit/certified.py": EVERY, "emit/approximation.py": EVERY,
     "passes/schedule.py": EVERY, "passes/equations.py": EVERY, "passes/flanks.py": EVERY, "passes/binding.py": EVERY,
     "passes/observation.py": EVERY, "passes/plan.py": EVERY, "passes/pivot_order.py": EVERY,
-    "passes/tangents.py": EVERY, "passes/arrange.py": EVERY,
+    "passes/tangents.py": EVERY, "passes/arrange.py": EVERY, "passes/enclosed.py": EVERY,
     "program/enclosure.py": EVERY, "program/routine.py": EVERY,
     "emit/templates/drive.h.jinja": EVERY, "emit/templates/functions.jinja": EVERY,
     "emit/templates/lanes.h.jinja": EVERY, "emit/templates/sensitivity.h.jinja": EVERY,
