@@ -24,7 +24,7 @@ from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensi
 from derive.language import description
 from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
 from derive.passes import enclosed, guards
-from derive.passes.arrange import arrange, unfused
+from derive.passes.arrange import arrange, side_by_side, unfused
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
 from derive.passes.joints import joints
@@ -96,11 +96,12 @@ def checked(plan):
     validate_normals(plan.drive, observed, plan.sample)
     validate_ratio(plan.drive, observed, plan.sample)
     validate_regions(plan.drive, joints(plan))
-    c, kernels = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
+    c, functions = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
+    kernels = arrange(plan, functions, often=lanes.KERNELS)
     ended = replace(plan, systems=tuple(map(at_end, plan.systems)))
     return [
         (f"descriptions/{plan.drive.name}.json", description.text(plan.drive)),
-        (f"{c}_lanes.h", lanes.header(plan, arrange(plan, kernels), metadata.GENERATOR)),
+        (f"{c}_lanes.h", lanes.header(plan, kernels, side_by_side(plan), metadata.GENERATOR)),
         (f"{c}_bounded.h", bounded.header(plan, arrange(plan, guards.bounded(plan)), metadata.GENERATOR)),
         *((f"casadi/{name}.casadi", text) for name, text in casadi.texts(plan).items()),
         (f"{c}_certified.h", certified.header(ended, unfused(ended, enclosed.functions(ended)), metadata.GENERATOR)),
@@ -115,7 +116,8 @@ def emit(plan, origin):
     yield f"{c}.h", c99.header(plan, routines, metadata_of, RUNTIME)
     moved = differentiate(plan)
     tangents = [tangent.evaluated() for tangent in moved.tangents()]
-    yield f"{c}_sensitivity.h", sensitivity.header(moved, arrange(moved, tangents), metadata.GENERATOR)
+    moving = arrange(moved, tangents, often={f.name for f in tangents})
+    yield f"{c}_sensitivity.h", sensitivity.header(moved, moving, metadata.GENERATOR)
     proved = unfused(plan, [f for f in guards.functions(plan) if f.name in certify.FUNCTIONS])
     yield f"{c}_certify.h", certify.header(plan, proved, metadata_of, RUNTIME)
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]

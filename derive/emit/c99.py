@@ -12,13 +12,8 @@ from derive.emit import approximation, embedded
 from derive.emit.render import render
 from derive.language.drive import PATH
 from derive.passes.arrange import Routines
-from derive.passes.order import interleaved
 from derive.passes.plan import Schedule
 from derive.program.tape import Stage
-
-#: Operations from which on a function that is seldom called is compiled as it stands: the time that a compiler takes to
-#: allot registers grows with the square of them, and is then seconds, more than any analysis spends in the function.
-LONG = 2500
 
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
@@ -73,7 +68,6 @@ class Printer:
         self.leaves = leaves
         self.suffix = suffix  # of local names
         self.names = names or {}
-        self.seldom = seldom
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
     def body(self, printed, known=None):
@@ -82,10 +76,9 @@ class Printer:
         Returns the body and ``known`` extended by what it computed.
         """
         operands = dict(known or {})
-        if not self.seldom or printed.operations < LONG:
-            return side_by_side([self], printed, [operands]), operands
-        statements = [line for i, step in printed.steps for line in self.statement(i, step, operands)]
-        return Body(tuple(statements), self.results(printed.outputs, operands), printed.operations, long=True), operands
+        statements = tuple(line for i, step in printed.steps for line in self.statement(i, step, operands))
+        results = self.results(printed.outputs, operands)
+        return Body(statements, results, printed.operations, long=not printed.ordered), operands
 
     def results(self, outputs, operands):
         """The operands of ``outputs``."""
@@ -142,25 +135,6 @@ class AnchoredPrinter(Printer):
 
     def turned(self, argument, operand, results):
         return f"{self.prefix}_near_sincos({operand}, {results}, at + {self.places[argument]}, &away);"
-
-
-#: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
-LAG = 80
-
-
-def side_by_side(printers, printed, operands):
-    """One body that computes a routine's outputs by each of several printers of the same tape, statement beside
-    statement.
-
-    ``operands`` holds what is known to each printer and receives what is computed. Results come printer by printer.
-    """
-    program, statements = dict(printed.steps), []
-    for copy, i in interleaved(printed, tuple(LAG * k for k in range(len(printers)))):
-        statements += printers[copy].statement(i, program[i], operands[copy])
-    results = [
-        r for printer, known in zip(printers, operands, strict=True) for r in printer.results(printed.outputs, known)
-    ]
-    return Body(tuple(statements), tuple(results), printed.operations)
 
 
 @dataclass(frozen=True)

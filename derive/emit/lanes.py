@@ -5,9 +5,9 @@ needs for every design or point is printed: the design stage, the instant stage 
 takes two lanes in a turn, of the lower and of the upper half, so that one has work while the other waits.
 """
 
-from derive.emit.c99 import Leaves, Printer, side_by_side
+from derive.emit.c99 import Body, Leaves, Printer
 from derive.emit.render import render
-from derive.passes.arrange import Routines
+from derive.passes.arrange import Routines, SideBySide
 from derive.passes.plan import Schedule
 
 
@@ -20,14 +20,14 @@ def _in_lane(text, lane):
     return f"{text[:-1]} * MW_LANES + {lane}]" if text.endswith("]") else f"{text}[{lane}]"
 
 
-#: Functions that are printed in lanes.
-KERNELS = ("setup", "set_phi", "step")
+#: Functions that are printed in lanes, beside the step.
+KERNELS = ("setup", "set_phi")
 
 
-def header(plan: Schedule, routines: Routines, generator: str):
+def header(plan: Schedule, routines: Routines, step: SideBySide, generator: str):
     """The text of the drive's lane header."""
     leaves, name = Leaves.of(plan), plan.drive.name
-    (guards, setup), [step] = routines["setup"], routines["step"]
+    guards, setup = routines["setup"]
 
     def body(readable, made):
         return Printer(plan.tape, name, _in_lanes(readable)).body(made)[0]
@@ -43,5 +43,16 @@ def header(plan: Schedule, routines: Routines, generator: str):
         guards=body(leaves.design, guards),
         setup=body(leaves.design, setup),
         set_phi=body(leaves.instant, *routines["set_phi"]),
-        step=side_by_side([lower, upper], step, [{}, {}]),
+        step=_side_by_side([lower, upper], step),
     )
+
+
+def _side_by_side(printers, step):
+    """One body of a routine by each of two printers of the same tape, statement beside statement; results come printer
+    by printer.
+    """
+    program, statements, known = dict(step.routine.steps), [], [{}, {}]
+    for copy, i in step.places:
+        statements += printers[copy].statement(i, program[i], known[copy])
+    results = [r for k, printer in enumerate(printers) for r in printer.results(step.routine.outputs, known[k])]
+    return Body(tuple(statements), tuple(results), step.routine.operations)

@@ -1,13 +1,16 @@
-"""The generated functions as the routines that are printed: quotients as products, products in sums.
+"""The generated functions as the routines that are printed: quotients as products, products in sums, in the order in
+which a processor takes them.
 
 Input: generated functions, each by what it returns and what it is given. Output: by name their routines.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from derive.passes.fuse import fuse
 from derive.passes.guards import Evaluated
+from derive.passes.order import interleaved, order
 from derive.passes.plan import Schedule
 from derive.passes.quotients import reciprocals
 from derive.program.routine import Routine, routine
@@ -16,9 +19,42 @@ from derive.program.routine import Routine, routine
 Routines: TypeAlias = Mapping[str, tuple[Routine, ...]]
 
 
-def arrange(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:
-    """The :data:`Routines` of these functions of a drive."""
-    return _by_name((f.name, _routines(f, _outputs(plan, f))) for f in functions)
+#: Functions that are called at every step and angle; all others, for a design, a start, a solved contact or a point of
+#: a flank, are called seldom.
+OFTEN = ("set_phi", "eval", "step", "by_anchor", "scale", "guess", "start_scale")
+
+#: Operations from which on a function that is seldom called stays in the order of its tape, and is compiled as it
+#: stands: the time that a compiler takes to allot registers grows with the square of them, and is then seconds, more
+#: than any analysis spends in the function.
+LONG = 2500
+
+#: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
+LAG = 80
+
+
+@dataclass(frozen=True)
+class SideBySide:
+    """A routine as two copies, operation beside operation: ``places`` are pairs (copy, node) in their order."""
+
+    routine: Routine
+    places: tuple[tuple[int, int], ...]
+
+
+def arrange(plan: Schedule, functions: Iterable[Evaluated], often: Collection[str] = OFTEN) -> Routines:
+    """The :data:`Routines` of these functions of a drive, of which those named ``often`` are called often."""
+    return _by_name(
+        (f.name, tuple(_ordered(made, f.name in often) for made in _routines(f, _outputs(plan, f)))) for f in functions
+    )
+
+
+def _ordered(made: Routine, often: bool) -> Routine:
+    return order(made) if often or made.operations < LONG else made
+
+
+def side_by_side(plan: Schedule) -> SideBySide:
+    """The Newton step for two lanes in a turn."""
+    step = fused(routine(plan.tape, plan.newton_step, plan.state))
+    return SideBySide(step, tuple(interleaved(step, (0, LAG))))
 
 
 def unfused(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:

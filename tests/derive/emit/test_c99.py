@@ -6,9 +6,9 @@ import re
 import pytest
 import sympy as sp
 
-from derive.emit import c99
 from derive.emit.c99 import Printer, estrin
 from derive.passes.arrange import fused
+from derive.passes.order import order
 from derive.program.routine import routine
 from tests.derive.small import VALUES, lowered, p, x, y
 
@@ -44,13 +44,12 @@ def test_statements_compute_the_nodes():
     assert body.operations == 7  # a sum that takes a product counts as two
 
 
-def test_a_long_function_that_is_seldom_called_computes_the_same(monkeypatch):
+def test_a_function_that_is_printed_as_it_stands_computes_the_same():
     expression = (x * y + p) * sp.sqrt(x**2 + p) - y / (x + p)
     tape, lower, nodes = lowered(expression)
     leaves, numbers = {lower(s): str(s) for s in (x, y, p)}, {str(s): v for s, v in VALUES.items()}
-    short = Printer(tape, "none", leaves, seldom=True).body(fused(routine(tape, nodes)))[0]
-    monkeypatch.setattr(c99, "LONG", short.operations)
-    long = Printer(tape, "none", leaves, seldom=True).body(fused(routine(tape, nodes)))[0]
-    often = Printer(tape, "none", leaves).body(fused(routine(tape, nodes)))[0]
+    made = fused(routine(tape, nodes))
+    short, often = (Printer(tape, "none", leaves, seldom=seldom).body(order(made))[0] for seldom in (True, False))
+    long = Printer(tape, "none", leaves, seldom=True).body(made)[0]
     assert (short.long, long.long, often.long) == (False, True, False)
     assert value(long, long.results[0], **numbers) == value(short, short.results[0], **numbers)

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import sympy as sp
 
+from derive.passes import arrange as arranging
 from derive.passes import check, guards
-from derive.passes.arrange import arrange
+from derive.passes.arrange import arrange, side_by_side
 from derive.passes.guards import Evaluated
 from derive.program.routine import routine
 from tests.derive.small import lowered, p, plan, x, y
@@ -38,3 +39,18 @@ def test_quotients_of_what_follows_count_for_what_comes_first():
     alone, parts = (arrange(plan(), [f])["f"] for f in (whole, replace(whole, leading=1)))
     assert len(alone) == 1 and check.residues(alone[0]) == [v for part in parts for v in check.residues(part)]
     assert [step.op for _, step in parts[0].steps] == ["div", "mul"] and not parts[1].steps
+
+
+def test_what_is_long_and_seldom_called_stays_in_the_order_of_its_tape(monkeypatch):
+    made = plan()
+    functions = [f for f in guards.functions(made) if f.name in ("observe", "step")]
+    assert all(part.ordered for parts in arrange(made, functions).values() for part in parts)
+    monkeypatch.setattr(arranging, "LONG", 1)
+    observe, step = (arrange(made, functions)[name][0].ordered for name in ("observe", "step"))
+    assert (observe, step) == (False, True)
+
+
+def test_two_lanes_take_the_same_operations():
+    step = side_by_side(plan())
+    first, second = ([i for k, i in step.places if k == copy] for copy in (0, 1))
+    assert sorted(first) == sorted(second) and step.places[0][0] == 0
