@@ -75,7 +75,7 @@ EARLY = ("setup", "set_phi")
 
 def guard(plan: Bound) -> Schedule:
     """The functions of a drive with its guards and tests."""
-    opened = Schedule(**vars(plan), guards=(), tests={})
+    opened = Schedule(**vars(plan.copy()), guards=(), tests={})
     failing = unseen(opened)
     guarded = replace(opened, guards=design_guards(opened, failing))
     return replace(guarded, tests=tests(guarded, failing))

@@ -17,7 +17,7 @@ LEVER = Origin("derivation/quotient", "lever arm of the wheel")
 
 def observe(plan: Reduced) -> Observed:
     """The equations with all that is read of a contact."""
-    drive = plan.drive
+    plan, drive = plan.copy(), plan.drive
     found: list[Output] = []
     for body in drive.bodies:
         placed = body.placed

@@ -27,6 +27,7 @@ STABLE_SHARE = 0.1
 
 def reduce(plan: Derived) -> Reduced:
     """The equations with their linear system solved: Newton's step, in the order of pivots of the sample's contact."""
+    plan = plan.copy()
     tape, contact = plan.tape, sample.sample_contact(plan)
     step, change = newton_step(plan, sample.in_double(contact))
     check.solves("pivot order", tape, plan.jacobian, change, plan.residual)

@@ -1,13 +1,13 @@
 """The plan of a drive: what is known of it after each pass, immutable, each with all that the passes before it found.
 
 :class:`Derived` → :class:`Reduced` → :class:`Observed` → :class:`Read` → :class:`Bound` → :class:`Schedule`, which the
-printers read. Values are nodes of one tape; each table says which of them a generated function returns, by name, unit
-and frame.
+printers read. Values are nodes of one tape, of which a pass that adds to it makes a copy; each table says which of them
+a generated function returns, by name, unit and frame.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
+from typing import Self, TypeAlias
 
 import mpmath
 import sympy as sp
@@ -164,6 +164,11 @@ class Derived:
     @property
     def unknowns(self) -> list[Quantity]:
         return [u.symbol for u in self.drive.unknowns]
+
+    def copy(self) -> Self:
+        """The same on a copy of the tape, for a pass that adds to it."""
+        lower = self.lower.copy()
+        return replace(self, tape=lower.tape, lower=lower)
 
 
 @dataclass(frozen=True)

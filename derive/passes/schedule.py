@@ -26,6 +26,7 @@ def scheduled(plan: Reduced) -> Schedule:
 
 def read(plan: Observed) -> Read:
     """The equations with all functions that read neither contact nor step: of surfaces, along a direction, of edges."""
+    plan = plan.copy()
     flanks = tuple(flank(plan, body) for body in plan.drive.bodies)
     regions = tuple(region(plan, of) for of in plan.drive.regions)
     functions = tuple(_function(plan, function) for function in geometry.functions(plan.drive))

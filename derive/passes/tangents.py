@@ -64,10 +64,9 @@ class Differentiated(Schedule):
 
 def differentiate(plan: Schedule) -> Differentiated:
     """The functions of a drive with their tangents, on copies of their tapes."""
-    lower, drive = plan.lower.copy(), plan.drive
-    systems = tuple(_apart(system) for system in plan.systems)
-    plan = replace(plan, tape=lower.tape, lower=lower, systems=systems)
-    by_p = _seeds(lower, [p.symbol for p in drive.parameters], Stage.DESIGN)
+    drive, systems = plan.drive, tuple(_apart(system) for system in plan.systems)
+    plan = replace(plan.copy(), systems=systems)
+    by_p = _seeds(plan.lower, [p.symbol for p in drive.parameters], Stage.DESIGN)
     rules = tuple(_of_rule(drive, rule, k) for k, rule in enumerate(drive.rules))
     of_systems = tuple(_of_system(drive, system) for system in systems)
     contact = _of_contact(plan, by_p)
