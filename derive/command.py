@@ -92,13 +92,21 @@ def main(arguments=None):
         print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
     except OSError as error:
-        place, option = error.filename or options.into or options.output, "--into" if options.into else "--output"
-        print(f"{place}: cannot be written ({error.strerror}); name another folder with {option}", file=sys.stderr)
+        print(_refused(error, options), file=sys.stderr)
         return 2
     except (outside.FileError, DescriptionError, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)
         return 2
     return 0
+
+
+def _refused(error, options):
+    """What the system refused, in words: a folder that was named, or a file of the installation."""
+    folder, option = (options.into, "--into") if options.into else (options.output, "--output")
+    place = Path(error.filename or folder)
+    if place.resolve().is_relative_to(folder.resolve()):
+        return f"{place}: cannot be written ({error.strerror}); name another folder with {option}"
+    return f"{place}: cannot be read ({error.strerror}); install meshwright again, whole"
 
 
 def _known(names):
