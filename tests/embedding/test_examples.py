@@ -108,7 +108,7 @@ def test_a_drive_that_does_not_exist_is_named_by_cmake(tmp_path):
 
 
 @pytest.fixture(scope="module")
-def installed(tmp_path_factory):
+def wheeled(tmp_path_factory):
     """Runs a module of the wheel, unpacked, as Python would outside the checkout: what it prints."""
     folder = tmp_path_factory.mktemp("wheel")
     built = ("--no-build-isolation", "--config-settings", "libraries=built")
@@ -126,18 +126,18 @@ def installed(tmp_path_factory):
     return run
 
 
-def test_the_wheel_holds_library_metadata_and_headers(installed):
-    assert "converged" in installed("-m", "meshwright", "tca", "recess-action-full", "--phi-deg", "400")
+def test_the_wheel_holds_library_metadata_and_headers(wheeled):
+    assert "converged" in wheeled("-m", "meshwright", "tca", "recess-action-full", "--phi-deg", "400")
 
 
 @pytest.mark.validate
-def test_drives_are_derived_from_the_wheel(installed, tmp_path):
+def test_drives_are_derived_from_the_wheel(wheeled, tmp_path):
     """A drive of one's own, and a combination of tools that no packaged design uses when a command asks for it."""
     own = c.ROOT / "tests" / "outside" / "drives" / "crossed_helicoids.py"
-    installed("-m", "derive", own, "--into", tmp_path)
+    wheeled("-m", "derive", own, "--into", tmp_path)
     assert (tmp_path / "crossed_helicoids.so").exists()
     mixed = ("tca", "recess-action-full", "--set", "design.hob_profile=ZI", "--phi-deg", "400")
-    assert installed("-m", "meshwright", *mixed) == c.run(sys.executable, "-m", "meshwright", *mixed)
+    assert wheeled("-m", "meshwright", *mixed) == c.run(sys.executable, "-m", "meshwright", *mixed)
 
 
 @pytest.mark.validate

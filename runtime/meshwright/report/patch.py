@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.flank.chart import Chart
 from meshwright.report.projection import Projection
 
 #: Room around the path, in contact ellipses.
@@ -11,8 +12,6 @@ ROOM = 1.3
 
 #: Least and largest number of grid points along a parameter.
 LEAST, LARGEST = 21, 480
-
-_NEWTON_STEPS = 30
 
 
 @dataclass(frozen=True)
