@@ -35,6 +35,13 @@ def test_negative_backlash_says_that_the_drive_jams(capsys):
     assert _line(_printed(capsys, "ratio", "plain-za"), "backlash").endswith(" of the wheel, negative: the drive jams")
 
 
+def test_what_ends_contact_is_said_in_words_for_a_reader(capsys):
+    text = _printed(capsys, "ratio", "recess-action-full")
+    assert _line(text, "contact begins at").endswith(" deg, the tip of the wheel")
+    assert _line(text, "contact ends at").endswith(" deg, the end of the cutting tool")
+    assert "tool_end" not in text
+
+
 def test_limits_print_no_round_off(capsys):
     """At a right angle the limit point of the second type lies in the worm's axial plane: y = z = 0."""
     text = _printed(capsys, "limits", "zk-zn-90")

@@ -37,7 +37,8 @@ QUANTITIES = {
     "transmission_error": "wheel angle less pinion angle over gear ratio; relative: less its value at the reference "
     "angle",
     "envelope": "the error of the drive: at every angle that of the pair which leads, the others stand apart",
-    "transfer_angle": "where the errors of two pairs are equal and the next pair takes over",
+    "transfer_angle": "where the errors of two pairs are equal and the next pair takes over; outside of their contact "
+    "it does not, and pairs change where one ends",
     "vertex": "where the error of a pair is stationary",
     "backlash": "how far the wheel turns between contact on this flank and on the other, pinion held",
     "self_locking_friction": "coefficient of friction from which the wheel cannot drive the pinion: where it is least "
