@@ -42,6 +42,26 @@ def test_what_ends_contact_is_said_in_words_for_a_reader(capsys):
     assert "tool_end" not in text
 
 
+@pytest.mark.parametrize(
+    ("name", "words", "computed"),
+    [
+        ("bevel-hypoid", {"undercut": "no search", "tip thickness": "helicoid"}, "branch points"),
+        ("zk-zn-90", {"section profile": "--section-y-mm"}, "first type"),
+        ("recess-action-full", {"first type": "90.1431°", "second type": "90.1431°"}, "regression"),
+        ("spherical-table-2-1", {"branch points": "no contact in a point"}, "least teeth without undercut"),
+    ],
+)
+def test_limits_that_are_not_computed_are_not_said_to_be_none(capsys, name, words, computed):
+    text = _printed(capsys, "limits", name)
+    assert _line(text, f"{computed}:")
+    for limit, why in words.items():
+        assert not any(line.startswith(f"{limit}:") for line in text.splitlines())
+        assert any(limit in line and why in line for line in text.splitlines() if line.startswith("not computed: "))
+    found = json.loads(_printed(capsys, "limits", name, "--json", "-"))
+    assert {limit.replace(" ", "_") for limit in words} <= set(found["not_computed"])
+    assert all(not found[limit] for limit in found["not_computed"])
+
+
 def test_limits_print_no_round_off(capsys):
     """At a right angle the limit point of the second type lies in the worm's axial plane: y = z = 0."""
     text = _printed(capsys, "limits", "zk-zn-90")

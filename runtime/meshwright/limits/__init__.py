@@ -11,6 +11,7 @@ from meshwright.contact import functions
 from meshwright.limits import clearance, contacts, rack
 from meshwright.limits.branches import branch_points
 from meshwright.limits.least_teeth import least_teeth
+from meshwright.limits.omitted import omitted
 from meshwright.limits.results import Limits, Request
 from meshwright.limits.thickness import tip_thicknesses
 from meshwright.limits.undercut import undercut_lines
@@ -52,6 +53,7 @@ def limits_of(drive, request=None, step=lambda text: None):
         tip_thickness=thickness,
         least_teeth={member: least_teeth(drive, member) for member in searched} or None,
         tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
+        omitted=omitted(drive, request, thickness),
         **generated,
     )
     mirror = drive.design.mirror

@@ -175,7 +175,8 @@ class Limits:
     ``tool_clearance`` is the :class:`~meshwright.limits.clearance.Judgement` of a drive whose tool must clear its
     teeth; in plain data it goes by the tool's name. ``assumed_blank``: the standard proportions that stand for sizes
     of the blank which the design leaves open, by their keys and in the units of these; ``blank_left_open``: why these
-    proportions do not fit the design, whose open blank then bounds nothing, or "".
+    proportions do not fit the design, whose open blank then bounds nothing, or "". ``omitted``: why a limit was not
+    computed, by its name in plain data.
     """
 
     undercut: tuple[SurfaceLimit, ...] = ()
@@ -191,6 +192,7 @@ class Limits:
     tool_clearance: Judgement | None = None
     assumed_blank: dict[str, float] = field(default_factory=dict)
     blank_left_open: str = ""
+    omitted: dict[str, str] = field(default_factory=dict)
 
     def plain(self):
         """The lists of the ``meshwright.limits/1`` schema."""
@@ -208,4 +210,5 @@ class Limits:
             "least_teeth_without_undercut": self.least_teeth,
             "assumed_blank": self.assumed_blank,
             "blank_left_open": self.blank_left_open or None,
+            "not_computed": self.omitted,
         } | judged
