@@ -14,7 +14,8 @@ from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import shown
-from meshwright.contact.analysis import status_text
+from meshwright.contact import words
+from meshwright.contact.analysis import reasons, status_text
 from meshwright.contact.friction import mean_efficiency
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle import room
@@ -183,7 +184,7 @@ def _certified(certificate):
     if certificate["gaps"]:
         gap = certificate["gaps"][0]
         low, high = gap["pinion_angle_deg"]
-        yield f"not certified: from {low:.6f}° to {high:.6f}° no single branch is shown ({gap['reason']})"
+        yield f"not certified: from {low:.6f}° to {high:.6f}° no single branch is shown: {_why(gap['reason'])}"
         return
     yield f"certified: one branch of contact, {certificate['pieces']} pieces without a gap"
     if certificate["contact_ratio"]:
@@ -194,6 +195,10 @@ def _certified(certificate):
     for low, high in certificate["transfer_angles_deg"] or ():
         yield f"certified: pairs change at an angle from {low:.9f}° to {high:.9f}°"
     yield from _first(certificate.get("first_contact"))
+
+
+def _why(reason):
+    return {**reasons(), **words.GAPS}.get(reason, reason)
 
 
 def _first(found):
