@@ -96,7 +96,8 @@ def test_every_name_and_label_that_a_command_writes_is_known_or_answered_with_an
     assert main([*words, "--json", "-"]) == 0
     names = _names(json.loads(capsys.readouterr().out))
     assert main(words) == 0
-    labels = [re.match(r" *([a-z_,-]+( [a-z_,-]+)*?)(  +|: )", line) for line in capsys.readouterr().out.splitlines()[1:]]
+    lines = capsys.readouterr().out.splitlines()[1:]
+    labels = [re.match(r" *([a-z_,-]+( [a-z_,-]+)*?)(  +|: )", line) for line in lines]
     names |= {match[1].replace(",", "") for match in labels if match and len(match[1].split()) < 7}
     assert len(names) > 10
     for name in names:
