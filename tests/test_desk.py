@@ -228,6 +228,23 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
     assert main(["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]) == 0
     shown = capsys.readouterr().out
     assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: no_contact" in shown
+    assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
+
+
+@pytest.mark.parametrize(
+    ("own", "blamed"),
+    [
+        (["design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
+        (["contact.separation_mm=0.01", "design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
+        (["contact.separation_mm=0.01"], None),
+    ],
+)
+def test_a_size_of_ones_own_without_which_the_flanks_touch_is_named(tmp_path, monkeypatch, capsys, own, blamed):
+    monkeypatch.chdir(tmp_path)
+    settings = [f"--set={setting}" for setting in own]
+    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "2:40", *settings, "--out", "w.toml"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("without ")]
+    assert [line.split(" the flanks")[0] for line in lines] == ([f"without {blamed}"] if blamed else [])
 
 
 REFUSED = {
