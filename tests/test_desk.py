@@ -229,6 +229,8 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
     shown = capsys.readouterr().out
     assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: no_contact" in shown
     assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
+    assert main(["tca", "b.toml", "--phi-deg", "0"]) == 1
+    assert "design.offset_mm = 20: 0 by the proportions of this family" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
