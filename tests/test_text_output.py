@@ -1,6 +1,7 @@
 """What the commands print for a reader: round-off is no figure, and what is missing has its cause and its remedy."""
 
 import json
+import math
 
 import pytest
 
@@ -10,6 +11,7 @@ from meshwright.commands.shown import ROUND_OFF, shown
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.ends import why_open
 from meshwright.cycle.pairs import Mesh
+from meshwright.flank.pointed import pointed
 from tests.worm.designs import without_blank
 
 
@@ -60,6 +62,41 @@ def test_limits_that_are_not_computed_are_not_said_to_be_none(capsys, name, word
     found = json.loads(_printed(capsys, "limits", name, "--json", "-"))
     assert {limit.replace(" ", "_") for limit in words} <= set(found["not_computed"])
     assert all(not found[limit] for limit in found["not_computed"])
+
+
+@pytest.mark.parametrize(
+    ("name", "setting", "member"),
+    [
+        ("plain-za", "blank.worm_tip_radius_mm=30", "pinion"),
+        ("plain-zn", "blank.wheel_throat_radius_mm=92 blank.wheel_tip_radius_mm=93", "wheel"),
+        ("plain-za", "blank.worm_tip_radius_mm=29", None),
+        ("bevel-formate", "pinion.face_apex_mm=40", None),
+    ],
+)
+def test_teeth_that_end_in_a_point_are_said_where_both_flanks_are_known(capsys, name, setting, member):
+    words = [name, *(f"--set={change}" for change in setting.split())]
+    text = _printed(capsys, "ratio", *words)
+    ratio, limits = (json.loads(_printed(capsys, c, *words, "--json", "-")) for c in ("ratio", "limits"))
+    assert ratio["pointed_teeth"] == limits["pointed_teeth"]
+    assert ("pointed_teeth" in limits["not_computed"]) == name.startswith("bevel")
+    assert [entry["member"] for entry in ratio["pointed_teeth"]] == ([member] if member else [])
+    assert (f"the flanks of a tooth of the {member} meet at radius" in text) == bool(member)
+    for entry in ratio["pointed_teeth"]:  # as the thickness of the teeth in the generation has it
+        (thick,) = (t for t in limits["tip_thickness"] if t["member"] == member)
+        assert entry["radius_mm"] == pytest.approx(thick["pointed_radius_mm"], rel=2e-4)
+
+
+def test_the_thread_of_a_straight_edge_in_the_axial_plane_ends_where_its_flanks_meet():
+    """Half the axial thickness at r: π m_x/4 − (r − r_1) tan α/cos λ = 0 (the pressure angle is that of the normal
+    section).
+    """
+    drive = Drive.load("plain-za").with_(blank={"worm_tip_radius_mm": 30.0})
+    size = drive.design.as_solved()["design"]
+    lead, alpha = (math.radians(size[key]) for key in ("worm_lead_angle_deg", "pressure_angle_deg"))
+    half = math.pi * size["normal_module_mm"] / math.cos(lead) / 4
+    (found,) = pointed(drive)
+    closed = size["worm_pitch_radius_mm"] + half * math.cos(lead) / math.tan(alpha)
+    assert found.radius == pytest.approx(closed, abs=1e-6)
 
 
 def test_limits_print_no_round_off(capsys):

@@ -23,6 +23,7 @@ from meshwright.design import description
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
 from meshwright.drive import Drive
+from meshwright.flank.pointed import pointed
 from meshwright.limits.results import Request
 from meshwright.limits.undercut import undercut_lines
 
@@ -91,7 +92,7 @@ def run(options):
     if place != "-":
         touch, seen = _contact(drive := _drive(first))
         blamed = () if touch else _blamed(family, own, lambda kept: first_design(family, name, words, given, kept))
-        write_text("-", _next_steps(place, first, "\n".join([seen, *blamed, *_undercut(drive)])))
+        write_text("-", _next_steps(place, first, "\n".join([seen, *blamed, *_pointed(drive), *_undercut(drive)])))
     return 0
 
 
@@ -123,6 +124,11 @@ def _gives(tables, family, places):
     """Whether a design of the family gives each of these keys a value, not zero."""
     found = [tables.get(table, {}).get(key) for table, key in map(description.table_and_key, places)]
     return tables["drive"] == family.name and all(found)
+
+
+def _pointed(drive):
+    """A line for every member whose teeth end in a point."""
+    return [f"careful: {member}: change a size first (`meshwright explain pointed`)" for member in pointed(drive)]
 
 
 def _undercut(drive):

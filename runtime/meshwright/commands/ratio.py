@@ -24,6 +24,7 @@ from meshwright.cycle.certified import certified_window
 from meshwright.cycle.certified_cycle import certified_cycle
 from meshwright.cycle.ends import event, why_open, without_contact
 from meshwright.cycle.transmission import ROUND_OFF, changes, fourier
+from meshwright.flank.pointed import Pointed, pointed
 
 #: Tooth orders of the Fourier components that are written; ranges of angles that a line names.
 ORDERS, MOST_RANGES = 8, 3
@@ -94,6 +95,7 @@ def document(drive, found, angles, friction=None):
         "transmission_error": _transmission(found),
         "backlash_arcsec": finite_or_none(found.backlash / ARCSEC),
         "room": [entry._asdict() for entry in room.room(drive, found.backlash)],
+        "pointed_teeth": [member.plain() for member in pointed(drive)],
         "efficiency": _efficiency(mean_efficiency(found.mesh, friction)),
     }
 
@@ -170,6 +172,7 @@ def _page(drive, found, contents):
     if contents["room"]:
         helps = room.said(room.Room(**entry) for entry in contents["room"])
         lines.append(f"what gives it room, one at a time: {helps}")
+    lines += [str(Pointed(*member.values())) for member in contents["pointed_teeth"]]
     if apart := without_contact(found.mesh):
         lines.append(f"contact ratio below 1: {apart}")
     if contents["transmission_error"]["rides_on_edge"]:

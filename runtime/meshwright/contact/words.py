@@ -128,6 +128,7 @@ QUANTITIES = {
     "meshing_axes": "lines that the normals at all contacts of a helicoid and what it cuts meet",
     "section_profile": "contact of cutting in one plane, as rack and pinion",
     "tip_thickness": "thickness of a tooth at the tip; below zero its flanks meet before: it is pointed",
+    "pointed_teeth": "members both flanks of whose teeth meet below the tip that the design gives, and at which radius",
     "pointed": "the two flanks of a tooth meet in an edge below the tip that the design gives",
     "least_teeth_without_undercut": "the least number of teeth of a member whose flank the tool does not cut away",
     "on_flank": "whether a place lies within every limit of the flank",

@@ -6,6 +6,7 @@ An empty list of limits says that there are none only where it is not named here
 import numpy as np
 
 from meshwright.contact import functions
+from meshwright.flank.pointed import unknown
 from meshwright.limits import branches, rack
 
 #: Limits of the generation of a wheel as rack and pinion; those of them with closed forms at right angles alone.
@@ -37,6 +38,8 @@ def _searched(drive):
         found["undercut"] = "this drive offers no search of its flanks; `tca` flags contact that lies past undercut"
     if branches.start(drive) is None:
         found["branch_points"] = "no contact in a point about angle 0 from which a branch could be followed"
+    if apart := unknown(drive):
+        found["pointed_teeth"] = apart
     if not drive.design.description["least_teeth"]:
         found["least_teeth_without_undercut"] = "this drive does not say which sizes go with the number of teeth"
     return found

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from meshwright.flank.pointed import Pointed
 from meshwright.limits.clearance import Judgement
 
 
@@ -188,6 +189,7 @@ class Limits:
     section_profile: tuple[ContactPoint, ...] = ()
     branch_points: tuple[BranchPoint, ...] = ()
     tip_thickness: tuple[Thickness, ...] = ()
+    pointed_teeth: tuple[Pointed, ...] = ()
     least_teeth: dict[str, int] | None = None
     tool_clearance: Judgement | None = None
     assumed_blank: dict[str, float] = field(default_factory=dict)
@@ -207,6 +209,7 @@ class Limits:
             "section_profile": [c.as_profile() for c in self.section_profile],
             "branch_points": [b.plain() for b in self.branch_points],
             "tip_thickness": [t.plain() for t in self.tip_thickness],
+            "pointed_teeth": [p.plain() for p in self.pointed_teeth],
             "least_teeth_without_undercut": self.least_teeth,
             "assumed_blank": self.assumed_blank,
             "blank_left_open": self.blank_left_open or None,

@@ -13,6 +13,7 @@ from meshwright.cycle.backlash import meaning
 from meshwright.cycle.ends import event, why_open, without_contact
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import ROUND_OFF, changes
+from meshwright.flank.pointed import pointed
 from meshwright.report.numbers import fixed, number
 
 #: What negative backlash means.
@@ -100,6 +101,7 @@ def _averages(mesh):
 def findings(analysis):
     """What a reader should know before the figures."""
     said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _first(analysis)
+    said += [Finding("warn", _sentence(str(member))) for member in pointed(analysis.drive)]
     said += _error(analysis) + _loaded(analysis)
     if not any(f.kind == "warn" for f in said):
         said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
