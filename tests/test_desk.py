@@ -105,6 +105,17 @@ def test_every_name_and_label_that_a_command_writes_is_known_or_answered_with_an
         assert status == 0 or "did you mean" in shown.err, name
 
 
+def test_the_headings_of_a_report_are_explained_or_answered_with_another_word(capsys):
+    from meshwright.report import analyse
+    from meshwright.report.findings import tiles
+    from meshwright.report.tables import groups
+
+    analysis = analyse(Drive.load("spherical-table-3-1-concave"), lambda text: None)
+    for words in (*(tile.label for tile in tiles(analysis)), *(group.title for group in groups(analysis))):
+        status, shown = main(["explain", *words.split()]), capsys.readouterr()
+        assert status == 0 or "did you mean" in shown.err, words
+
+
 def test_the_help_of_new_names_the_words_of_every_family(capsys):
     with pytest.raises(SystemExit):
         main(["new", "--help"])

@@ -42,6 +42,9 @@ OUTCOMES = {
 
 #: Quantities of results, as `meshwright explain` says them; rigid, unloaded teeth unless they say otherwise.
 QUANTITIES = {
+    "gear_ratio": "turns of the pinion to one of the wheel: teeth of the wheel over those of the pinion",
+    "pitch": "pinion angle from one pair of teeth to the next",
+    "pair": "a tooth of the pinion and the one of the wheel that it meets; the next pair stands a pitch later",
     "pinion_angle": "turn of the pinion, which is given; at 0 the design's tooth pair stands at its reference",
     "wheel_angle": "turn of the wheel at which the flanks touch",
     "transmission_error": "wheel angle less pinion angle over gear ratio; relative: less its value at the reference "
@@ -62,11 +65,13 @@ QUANTITIES = {
     "other_envelope": "the error if the pair that lags led, which rigid teeth do not transmit: the kinematic error of "
     "some papers",
     "edges_included": "what rigid teeth transmit with the edges that touch where no flanks do",
+    "with_edges": "see edges_included",
     "transfer_angle": "where the errors of two pairs are equal and the next pair takes over; outside of their contact "
     "it does not, and pairs change where one ends",
     "pairs_change": "where the next pair takes over: see transfer_angle",
     "rides_on_edge": "the pair that leads stands at an end of its contact, so that an edge carries when pairs change",
     "vertex": "where the error of a pair is stationary",
+    "tooth_order": "see orders",
     "amplitude": "half the swing of one of the orders",
     "orders": "Fourier components of the transmitted error, by multiples of the frequency of the teeth",
     "backlash": "how far the wheel turns between contact on this flank and on the other, pinion held; negative: the "
@@ -142,6 +147,10 @@ QUANTITIES = {
     "load_share": "part of the force that one pair carries",
     "mesh_stiffness": "force along the normals over the approach of the flanks, at the torque given",
     "peak_pressure": "largest contact pressure of a pair",
+    "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",
+    "sensitivity": "how much a result changes for a unit of a key, by exact derivatives",
+    "drawing_data": "what the drawings of the members and of their assembly state of the nominal design",
+    "limits_of_validity": "what the numbers of a report leave out",
     "contact_pattern": "what a marking compound shows: where the flanks come nearer than its thickness over the mesh",
 }
 
