@@ -99,6 +99,11 @@ def test_the_thread_of_a_straight_edge_in_the_axial_plane_ends_where_its_flanks_
     assert found.radius == pytest.approx(closed, abs=1e-6)
 
 
+def test_threads_that_grow_together_at_a_deep_root_do_not_end_in_a_point():
+    """There the groove, not the thread, has no width left."""
+    assert pointed(Drive.load("plain-za").with_(blank={"worm_root_radius_mm": 5.0})) == ()
+
+
 def test_limits_print_no_round_off(capsys):
     """At a right angle the limit point of the second type lies in the worm's axial plane: y = z = 0."""
     text = _printed(capsys, "limits", "zk-zn-90")

@@ -13,6 +13,9 @@ from meshwright.flank.tooth import CELLS, tooth
 #: Margins beyond which a member has no more tooth.
 TIPS = ("tip", "throat")
 
+#: Larger changes of the angle across a tooth along an edge of the mesh, in pitches, are no change of its thickness.
+STEEPEST = 0.25
+
 
 @dataclass(frozen=True)
 class Pointed:
@@ -70,23 +73,44 @@ def _meeting(drive, whole, member, teeth):
         return math.nan
     if not len(near.points):
         return math.nan
-    margins = drive.flank(member)(near.parameters).margins
-    ended = np.any([np.isfinite(margins[event]) for event in TIPS if event in margins], axis=0)
+    flank, places = drive.flank(member), whole.uses.on(whole.flank(member))[0]
     x, y = near.points[:, 0], near.points[:, 1]
     inwards = -np.sign(np.median(x * near.normals[:, 1] - y * near.normals[:, 0]))
-    across = np.where(ended, inwards * tooth(whole, member, near, teeth).across, math.nan)
-    return _least_zero(np.hypot(x, y), across, near.triangles, 2 * math.pi / teeth)
+    across = inwards * tooth(whole, member, near, teeth).across
+    depth, used = _depth(flank, near.parameters), _depth(flank, places)
+    met = _Met.on(near.triangles, across, 2 * math.pi / teeth)
+    above = met.between(depth) < np.fmax.reduce(used, initial=0.0)
+    return float(np.min(met.between(np.hypot(x, y))[above], initial=math.inf))
 
 
-def _least_zero(radius, across, triangles, pitch):
-    """The least radius at which an angle across a tooth, known but for whole pitches, falls to zero on an edge of the
-    triangles: infinite without one. Where it rises to a pitch, teeth meet at their roots.
+def _depth(flank, parameters):
+    """How far places (N,) are below the tips that the design gives, mm; NaN where it gives none."""
+    margins = flank(parameters).margins
+    depths = [margins[event] for event in TIPS if event in margins]
+    return np.fmin.reduce(depths) if depths else np.full(len(parameters), math.nan)
+
+
+@dataclass(frozen=True)
+class _Met:
+    """Edges (N,) of triangles ``first`` to ``last`` on which the angle across a tooth becomes 0 after a ``share``, or a
+    whole pitch: it is known but for whole pitches. The former is a point; the latter, deeper than all contact, is where
+    teeth grow together at their roots.
     """
-    here, there = triangles.ravel(), np.roll(triangles, 1, axis=1).ravel()
-    first, last = np.concatenate([here, there]), np.concatenate([there, here])
-    begin = across[first] % pitch
-    step = (across[last] - begin + pitch / 2) % pitch - pitch / 2
-    with np.errstate(invalid="ignore"):
-        crossed = (begin < pitch / 2) & (begin + step < 0.0) & (radius[last] > radius[first])
-    begin, step, first, last = begin[crossed], step[crossed], first[crossed], last[crossed]
-    return float(np.min(radius[first] - begin / step * (radius[last] - radius[first]), initial=math.inf))
+
+    first: np.ndarray
+    last: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def on(cls, triangles, across, pitch):
+        here, there = triangles.ravel(), np.roll(triangles, 1, axis=1).ravel()
+        first, last = np.concatenate([here, there]), np.concatenate([there, here])
+        begin = across[first] % pitch
+        step = (across[last] - begin + pitch / 2) % pitch - pitch / 2
+        with np.errstate(invalid="ignore"):
+            crossed = (begin < STEEPEST * pitch) & (begin + step < 0.0) & (step > -STEEPEST * pitch)
+        return cls(first[crossed], last[crossed], -begin[crossed] / step[crossed])
+
+    def between(self, values):
+        """Values of the places, where the angle is zero."""
+        return values[self.first] + self.share * (values[self.last] - values[self.first])
