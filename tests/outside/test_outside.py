@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -10,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from derive import outside
+from derive.audit.checker import attempts
 from meshwright import Drive
 from meshwright.base import compile as build
 from meshwright.base import drives, first_use
@@ -124,7 +127,46 @@ def test_its_audit_entry_says_what_is_proved_checked_and_not(folder):
     assert "cylindrical_worm/contact" in entry["proved"]
     assert entry["not_proved"] == {}
     assert set(entry["checked"].values()) == {"holds"}
+    assert entry["counts"] == {"holds": len(entry["checked"]), "does not hold": 0, "not decided": 0}
     assert entry["not_checked"] and entry["source"]["file"] == FILE.name
+
+
+GENERATED = ROOT / "generated" / "c" / "spherical_convex_spur.h"
+
+
+@pytest.fixture
+def header(monkeypatch):
+    """A header that was generated, checked in seconds whatever is changed in it."""
+    monkeypatch.setattr(attempts, "ATTEMPTS", 400)
+    return GENERATED.read_text(encoding="utf-8")
+
+
+def test_what_the_checker_of_c_does_not_foresee_is_neither_right_nor_wrong(header):
+    """An eleventh of an angle, a word that is no statement, a header that is none."""
+    angle = re.compile(r"( +\w+_sincos\()(x\[\d+\]|p\[\d+\])(, &s)")
+    eleventh = angle.sub(r"    const double t9999 = \2 * 0.09090909090909091;\n\1t9999\3", header)
+    changed = {
+        "an angle is a fraction of": eleventh,
+        "not a straight-line statement": header.replace("    R[0] = ", "    goto R[0] = ", 1),
+        "": "int main(void);\n",
+    }
+    for reason, wrong in changed.items():
+        assert wrong != header
+        found = outside.checked(wrong)
+        open_ = [verdict for verdict in found.values() if verdict != "holds"]
+        assert open_ and all(verdict.startswith("not decided: ") and reason in verdict for verdict in open_), found
+
+
+def test_what_is_wrong_in_c_does_not_hold_and_the_entry_counts_it(header):
+    wrong = re.sub(r"J\[7\] = (.+);", r"J[7] = 2.0 * (\1);", header, count=1)
+    wrong = re.sub(r"J\[7\] = 2.0 \* \((\w+)\);", r"J[7] = 2.0 * \1;", wrong)
+    found = outside.checked(wrong)
+    assert found["jacobian of the residual"] == "does not hold: eval: J[1][2] is not the derivative of R[1]"
+    about = {"name": "a_drive", "specification_hash": "", "root_hash": "", "equations": {}, "equations_of": {}}
+    entry = outside.audit_entry(about, {}, found | {"one more": "not decided: for a reason"}, None)
+    failed = entry["counts"]["does not hold"]
+    assert failed > 0 and entry["counts"]["not decided"] == 1 and sum(entry["counts"].values()) == len(found) + 1
+    assert outside.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path):
