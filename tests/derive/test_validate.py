@@ -13,18 +13,19 @@ from derive.language.contact import contact
 from derive.language.drive import Loading, Margin, Role
 from derive.language.functions import solid
 from derive.language.outline import Suggestion, m
-from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, parameter
+from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
 from derive.language.validate import (
     DescriptionError,
     validate,
+    validate_limits,
     validate_normals,
     validate_outlines,
     validate_ratio,
     validate_regions,
 )
 from derive.passes.joints import joints
-from derive.passes.sample import observation
-from derive.passes.schedule import schedule
+from derive.passes.sample import observation, sample_contact
+from derive.passes.schedule import derive, schedule
 
 POINT, SMALL = "spherical_convex_concave", "spherical_convex_spur"
 
@@ -43,7 +44,13 @@ def _with_key(drive, *keys, **changes):
 
 
 def _with_margin(drive, margin):
-    return replace(drive, pinion=replace(drive.pinion, margins=(*drive.pinion.margins, margin)))
+    """The drive with this limit of its pinion, in place of that of the same event."""
+    others = (m for m in drive.pinion.margins if m.event != margin.event)
+    return replace(drive, pinion=replace(drive.pinion, margins=(*others, margin)))
+
+
+def _with_scale(drive, scale):
+    return replace(drive, unknowns=(Unknown(drive.unknowns[0].symbol, scale), *drive.unknowns[1:]))
 
 
 @pytest.mark.parametrize("name", [*drives.catalogue(["spherical", "face_worm", "cylindrical_gears"]),
@@ -62,6 +69,7 @@ def _without_regions(drive):
 
 
 X = Quantity("x_at_pinion", "mm")
+MODULE = Quantity("m", "mm")
 GUARD = Guard(sp.Symbol("m"), "never", ())
 CASES = {
     "symbol is a body coordinate": (
@@ -177,6 +185,21 @@ CASES = {
     ),
     "body without a motion": (
         lambda d: replace(d, pinion=replace(d.pinion, motion=Motion())), "motion of the pinion.*does not turn the body"
+    ),
+    "limit that is nothing": (lambda d: _with_margin(d, Margin("off_tip", "tip", None)), "'tip' of the pinion is None"),
+    "rule that is a text": (lambda d: replace(d, rules=(Rule(MODULE, "m"),)), "rule for m is 'm'; give"),
+    "sample that is nothing": (
+        lambda d: replace(d, sample={**d.sample, "module_mm": None}), "gives None for 'module_mm'; give a number, or"
+    ),
+    "sample angle that is nothing": (lambda d: replace(d, sample_angle=None), "sample angle is None; give.*in rad"),
+    "sample angle that is no number": (lambda d: replace(d, sample_angle=float("nan")), "sample angle is nan; give"),
+    "natural size that is none": (lambda d: _with_scale(d, sp.nan), "natural size of the unknown l_pinion has nan"),
+    "natural size of strangers": (lambda d: _with_scale(d, sp.Symbol("q")), "size of the unknown l_pinion needs q"),
+    "start without a guess": (
+        lambda d: replace(d, start=replace(d.start, unknowns=(Unknown(X),))), "no guess for its unknown x_at_pinion"
+    ),
+    "limit twice": (
+        lambda d: replace(d, pinion=replace(d.pinion, margins=2 * (Margin("off_tip", "tip", X),))), "2 limits 'tip'"
     ),
     "wheel that does not turn": (
         lambda d: replace(d, wheel=replace(d.wheel, motion=d.pinion.motion)), "motion of the wheel.*does not turn"
@@ -327,6 +350,47 @@ def test_a_limit_without_a_value_at_the_contact_is_not_looked_at(limit):
     drive = _with_margin(_drive(POINT), Margin("off_tip", "tip", limit))
     validate(drive)
     _checked(drive)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: _with_scale(d, sp.Integer(0)), "natural size of the unknown l_pinion is 0 at the sample.*above 0"),
+        (lambda d: _with_scale(d, -MODULE), "natural size of the unknown l_pinion is -4 at"),
+        (lambda d: _with_scale(d, sp.sqrt(-MODULE)), "natural size of the unknown l_pinion is no real number"),
+        (lambda d: replace(d, guards=(Guard(3 - MODULE, "too large", ("module_mm",)),)),
+         "sample design breaks the guard 'too large' of module_mm: what must be above 0 is -1; correct it"),
+        (lambda d: replace(d, guards=(Guard(sp.sqrt(-MODULE), "no root", ("module_mm",)),)),
+         "guard 'no root'.*is no real number"),
+        (lambda d: _with_key(d, parameter("crown_mm", "c", "crown", domain=(0, 1)),
+                             rules=(*d.rules, Rule(Quantity("c", "mm"), MODULE))),
+         "key 'crown_mm' of the sample design follows as 4, outside its domain"),
+    ],
+)  # fmt: skip
+def test_a_sample_that_is_no_design_of_its_drive_is_refused(drive, change, message):
+    changed = change(drive)
+    validate(changed)
+    with pytest.raises(DescriptionError, match=f"{POINT}: .*{message}"):
+        sample_contact(derive(changed))
+
+
+@pytest.mark.parametrize("limit", [sp.sqrt(-1 - X**2), sp.acos(2 + X**2) + MODULE])
+def test_a_limit_without_a_value_anywhere_is_refused(drive, limit):
+    _limited(drive)
+    with pytest.raises(DescriptionError, match="'tip' of the pinion is no real number, neither .* nor anywhere around"):
+        _limited(_with_margin(drive, Margin("off_tip", "tip", limit)))
+
+
+def test_a_limit_that_has_a_value_elsewhere_or_none_for_an_open_key_is_not_refused(drive):
+    _limited(_with_margin(drive, Margin("off_tip", "tip", sp.sqrt(1 - X**2))))
+    reach = parameter("reach_mm", "reach", "where it ends")
+    _limited(_with_margin(_with_key(drive, reach), Margin("off_tip", "tip", sp.sqrt(-1 - X**2) + reach.symbol)))
+
+
+def _limited(drive):
+    plan = schedule(drive)
+    with mpmath.workdps(30):
+        validate_limits(drive, observation(plan), plan.sample)
 
 
 def test_surfaces_that_cannot_touch_are_no_sample():

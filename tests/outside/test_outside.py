@@ -177,10 +177,13 @@ def test_a_folder_that_is_none_is_refused(tmp_path):
 #: A drive of the tree under another name, with a hand that is none.
 CONTRADICTION = """
 from dataclasses import replace
+from sympy import S
 from derive.drives import spherical
+from derive.language.symbols import Quantity, Unknown
 
 def catalogue():
-    drive = replace(spherical.spherical("spur", "spur"), name="a_drive", handed="upright")
+    d, L = spherical.spherical("spur", "spur"), Quantity("l_pinion", "mm")
+    drive = replace(d, name="a_drive", handed="upright")
     return {"a_drive": lambda: drive}
 """
 
@@ -193,6 +196,9 @@ def catalogue():
      ("def catalogue():\n    return {}\n", "catalogue() returns {}; return a dict"),
      (CONTRADICTION, "handed = 'upright'"),
      (CONTRADICTION.replace('handed="upright"', 'family="own"'), "outline of the family own: pinion_form = 'convex'"),
+     (CONTRADICTION.replace('handed="upright"', 'sample=d.sample | {"module_mm": None}'), "None for 'module_mm'; give"),
+     (CONTRADICTION.replace('handed="upright"', 'unknowns=(Unknown(L, S(-1)), *d.unknowns[1:])'),
+      "natural size of the unknown l_pinion is -1 at the sample design; give one that is above 0"),
      (CONTRADICTION.replace('"a_drive"', '"face_worm"'), "name 'face_worm' is that of a drive of another family")],
 )  # fmt: skip
 def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text, reason):
