@@ -13,6 +13,7 @@ import pytest
 
 from derive import outside
 from derive.audit.checker import attempts
+from derive.passes.schedule import derive, reduce
 from meshwright import Drive
 from meshwright.base import compile as build
 from meshwright.base import drives, first_use
@@ -129,6 +130,17 @@ def test_its_audit_entry_says_what_is_proved_checked_and_not(folder):
     assert set(entry["checked"].values()) == {"holds"}
     assert entry["counts"] == {"holds": len(entry["checked"]), "does not hold": 0, "not decided": 0}
     assert entry["not_checked"] and entry["source"]["file"] == FILE.name
+
+
+def test_a_generating_motion_may_turn_by_any_polynomial_of_its_angle(tmp_path):
+    """The worm of a plane that does not roll evenly: its equation of meshing is linear by identities alone."""
+    text = (FILE.parent / "hourglass_worm.py").read_text(encoding="utf-8")
+    path = tmp_path / "uneven.py"
+    path.write_text(text.replace("Rz(-ratio * theta)", "Rz(-ratio * theta - theta**3 / 1000)"), encoding="utf-8")
+    assert path.read_text(encoding="utf-8") != text
+    (page,) = outside.catalogue_of(path).values()
+    plan = reduce(derive(page()))
+    assert len(plan.change) == len(plan.unknowns) == 5
 
 
 GENERATED = ROOT / "generated" / "c" / "spherical_convex_spur.h"
