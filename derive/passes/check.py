@@ -1,8 +1,8 @@
 """Translation validation: every pass computes the same values before and after, modulo a random prime at random inputs.
 
-Field operations are those of the residues; roots and arcs are random functions with the symmetries that passes use, and
-sine and cosine of an angle the coordinates of a random point of the circle, odd and even. What is a derivative by
-√a·√a = a alone is seen where roots are those of the residues, at inputs at which all of them exist. A wrong pass is let
+Field operations are those of the residues; roots, sines, cosines and arcs are random functions with the symmetries that
+passes use (odd, even). What is a derivative by √a·√a = a or by sin² + cos² = 1 alone is seen where roots are those of
+the residues, at inputs at which all of them exist, and angles have random points of the circle. A wrong pass is let
 through with a probability of about its degree over 2^60. Of a new order, it is enough that the same operations come
 after their arguments.
 """
@@ -63,6 +63,11 @@ def _odd(name: str, a: int, *others: int) -> int:
     return sign * _mixed(name, min(a % p, -a % p), *others) % p if a % p else 0
 
 
+def _even(name: str, a: int) -> int:
+    p = _prime()
+    return _mixed(name, min(a % p, -a % p))
+
+
 def _circle(a: int) -> tuple[int, int]:
     """Cosine and sine of the angle: (1 − t², 2t) / (1 + t²) for a random t that is odd in it."""
     p = _prime()
@@ -71,20 +76,20 @@ def _circle(a: int) -> tuple[int, int]:
     return (1 - t * t) * below % p, 2 * t * below % p
 
 
-def _cos(a: int) -> int:
-    return _circle(a)[0]
-
-
-def _sin(a: int) -> int:
-    return _circle(a)[1]
-
-
 def _root(a: int) -> int:
     p = _prime()
     root = pow(a, (p + 1) // 4, p)
     if (root * root - a) % p:
         raise NoRoot
     return root
+
+
+def _cos(a: int) -> int:
+    return _circle(a)[0]
+
+
+def _sin(a: int) -> int:
+    return _circle(a)[1]
 
 
 def _quotient(a: int, b: int) -> int:
@@ -112,16 +117,16 @@ _APPLY: dict[str, Callable[..., Any]] = {
     "fma": _fma,
     "fms": _fms,
     "fnma": _fnma,
-    "sin": _sin,
-    "cos": _cos,
+    "sin": partial(_odd, "sin"),
+    "cos": partial(_even, "cos"),
     "sqrt": partial(_mixed, "sqrt"),
     "sign": partial(_odd, "sign"),
     "atan2": partial(_odd, "atan2"),
 }
 
 
-#: The same with roots that are roots.
-_ROOTED = {**_APPLY, "sqrt": _root}
+#: The same with the identities of roots and of sine and cosine.
+_IDENTICAL: dict[str, Callable[..., Any]] = {**_APPLY, "sqrt": _root, "cos": _cos, "sin": _sin}
 
 #: Of each tape the residues of its nodes that were needed so far.
 _TAPES: weakref.WeakKeyDictionary[Tape, dict[int, int]] = weakref.WeakKeyDictionary()
@@ -145,7 +150,7 @@ class _Draw:
 
 
 def _residue(tape: Tape, i: int) -> int:
-    """The residue of a node with any function for the root, at the tape's own inputs."""
+    """The residue of a node with any functions, at the tape's own inputs."""
     return _Draw(tape, _TAPES.setdefault(tape, {}), _APPLY)(i)
 
 
@@ -225,18 +230,18 @@ def derives(
 ) -> None:
     """Raises :class:`PassError` unless ``slopes`` [i][j] are the derivatives of ``values`` [i] by ``inputs`` [j]."""
     wrong = _wrong_slope(_Draw(tape, _TAPES.setdefault(tape, {}), _APPLY), values, inputs, slopes)
-    if wrong and not _derives_by_roots(tape, values, inputs, slopes):
+    if wrong and not _derives_identically(tape, values, inputs, slopes):
         raise PassError(f"{name}: entry {wrong[0]}, {wrong[1]} is not the derivative")
 
 
-def _derives_by_roots(
+def _derives_identically(
     tape: Tape, values: Sequence[int], inputs: Sequence[int], slopes: Sequence[Sequence[int]]
 ) -> bool:
     """Whether the slopes are the derivatives at some input at which every root exists; wrong ones are so at none."""
     refusals = 0
     for _ in range(DRAWS):
         try:
-            if not _wrong_slope(_Draw(tape, {}, _ROOTED), values, inputs, slopes):
+            if not _wrong_slope(_Draw(tape, {}, _IDENTICAL), values, inputs, slopes):
                 return True
         except ArithmeticError:  # no root, or a divisor that is zero
             continue
@@ -280,9 +285,9 @@ def _rates(draw: _Draw, outputs: Sequence[int], variable: int) -> list[int]:
             case "sqrt":
                 rate[i] = da * _inverse(2 * v % p)
             case "sin":
-                rate[i] = _APPLY["cos"](a) * da
+                rate[i] = draw.apply["cos"](a) * da
             case "cos":
-                rate[i] = -_APPLY["sin"](a) * da
+                rate[i] = -draw.apply["sin"](a) * da
             case "atan2":
                 rate[i] = (b * da - a * db) * _inverse((a * a + b * b) % p) if da or db else 0
             case _:  # a sign
