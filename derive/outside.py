@@ -104,7 +104,10 @@ def write(page, name, proved, folder, log, source=None):
                 sys.stderr.write(f"{left}; see {folder / 'audit' / f'{name}.json'}\n")
             with log("compile", name):
                 begun.wait()
-                build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+                try:
+                    build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+                except build.CompileError as error:
+                    raise _not_compiled(name, fresh / "include", str(error)) from error
         # what the table of families says of those of the tree
         described |= families.shared(made)
         files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
@@ -114,6 +117,27 @@ def write(page, name, proved, folder, log, source=None):
         build.moved(name, fresh, folder)
         # what is beside it was compiled from what was there before
         build.drop_superseded([name], folder, compiler.package())
+
+
+#: The first line in which a C compiler says what is wrong.
+WRONG = re.compile(r"^\S*?(\w+\.[ch]):(\d+):(?:\d+:)? error: (.*)$", re.MULTILINE)
+
+
+def _not_compiled(name, headers, said):
+    """What a C compiler says first of a drive, by the function of the description in which it stands."""
+    found = WRONG.search(said)
+    if found is None:
+        return FileError(f"{name}: {said}")
+    file, line, what = found.groups()
+    where = f"{file}, line {line}"
+    if (headers / file).is_file():
+        lines = (headers / file).read_text("utf-8").splitlines()[: int(line)]
+        begun = re.findall(rf"^static [^;=]*\b{name}_(\w+)\(", "\n".join(lines), re.MULTILINE)
+        where = f"the function {begun[-1]}, {where}" if begun else where
+    return FileError(
+        f"{name}: the C that is made of the description does not compile: {where}: {what}; give what is named there "
+        "another name in the description, or what it lacks"
+    )
 
 
 def _place(path):

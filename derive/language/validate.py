@@ -22,6 +22,7 @@ from derive.language.differentiate import partial
 from derive.language.drive import PATH, Body, Drive, Margin, Region, Role
 from derive.language.functions import SOLID, SOLID_UNITS
 from derive.language.outline import OPTIONS, Outline
+from derive.language.printed import misnamed
 from derive.language.sampled import COMPUTED, NoValue, value_of, vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, Unknown, foreign_unit, interface_unit, unit_suffixes
@@ -63,8 +64,8 @@ class Joint:
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
     checks = (
-        _expressed, _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems, _turns,
-        _limits, _solids,
+        _expressed, _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems,
+        _design_systems, _bodies, _functions, _turns, _limits, _solids, misnamed,
     )  # fmt: skip
     for check in checks:
         for message in check(drive):
@@ -270,9 +271,71 @@ def _systems(drive: Drive) -> Iterator[str]:
     ):
         if strangers := _strangers(drive, expression, given):
             yield f"{what} needs {', '.join(strangers)}, which nothing gives"
+    begun = parameters | {drive.instant} | {u.symbol for u in drive.start.unknowns} | drive.start.fixed.keys()
+    parts = [*((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())]
+    parts += [("an equation of the start", equation) for equation in drive.start.residual]
+    parts += [(f"the guess of {symbol}", value) for symbol, value in drive.guess.items()]
+    for what, expression in parts:
+        if strangers := _strangers(drive, expression, begun):
+            yield f"{what} needs {', '.join(strangers)}, which neither design nor input angle gives"
+
+
+def _design_systems(drive: Drive) -> Iterator[str]:
+    parameters, keys = {p.symbol for p in drive.parameters}, _places(drive)
     for system in drive.systems:
+        where, unknowns = f"the design system {system.name}", {u.symbol for u in system.unknowns}
         for target in system.fills.keys() - parameters:
-            yield f"the design system {system.name} fills {target}, which is no parameter"
+            yield f"{where} fills {target}, which is no parameter"
+        if len(system.residual) != len(system.unknowns):
+            yield f"{where} has {len(system.residual)} equations for {len(system.unknowns)} unknowns"
+        for missing in unknowns - system.guess.keys():
+            yield f"{where} has no guess for its unknown {missing}; give one in guess"
+        for key in system.keys:
+            if key not in keys:
+                yield f"{where} names the key {key!r}, which is not declared"
+        known = parameters | unknowns | {PATH} | system.fixed.keys()
+        sign = [*system.regular[0].body_point, system.regular[1]] if system.regular else []
+        for expression in (*system.residual, *system.guess.values(), *system.fills.values(), *sign):
+            if strangers := sorted(q.name for q in system.definitions.free(expression) if q not in known):
+                yield f"{where} needs {', '.join(strangers)}, which is no key and none of its unknowns"
+
+
+def _functions(drive: Drive) -> Iterator[str]:
+    parameters = {p.symbol for p in drive.parameters}
+    keys = _places(drive) | {f"{p.table}.{p.key}" for p in drive.parameters}
+    for f in drive.functions:
+        for name, value in ((r.name, value) for r in f.results for value in r.values):
+            if strangers := _strangers(drive, value, parameters | {*f.arguments}):
+                yield f"{name!r} of {f.name} needs {', '.join(strangers)}, which neither its arguments nor a key gives"
+    for member, least in drive.least_teeth.items():
+        if member not in [body.name for body in drive.bodies]:
+            yield f"least_teeth names the member {member!r}, which is not there"
+        for key in (least.teeth, *least.proportional):
+            if key not in keys:
+                yield f"least_teeth of the {member} names the key {key!r}, which is not declared"
+    for what, key in drive.loading.keys.items() if drive.loading else ():
+        if key not in keys:
+            yield f"loading: {what} names the key {key!r}, which is not declared"
+
+
+def _bodies(drive: Drive) -> Iterator[str]:
+    """Members are called by the names that every command knows; what a surface is said to be is known of it."""
+    parameters = {p.symbol for p in drive.parameters}
+    for body, name in zip(drive.bodies, ("pinion", "wheel"), strict=True):
+        if body.name != name:
+            yield f"the member {name} is named {body.name!r}; name it {name!r}"
+        own = parameters | {*body.surface.parameters}
+        for q in body.recovered:
+            if strangers := _strangers(drive, q, own):
+                yield f"the {name} recovers {', '.join(strangers)}, which nothing gives"
+        if body.regular is None and (missing := {*body.surface.parameters} - body.reference.keys()):
+            names = ", ".join(sorted(q.name for q in missing))
+            yield f"the {name} has no sign `regular`, and its reference point gives no {names}; give either"
+    for member in (*drive.bodies, *drive.regions):
+        if member.regular is not None:
+            known = parameters | {*member.surface.parameters}
+            if strangers := _strangers(drive, member.regular, known):
+                yield f"the sign `regular` of the {member.name} needs {', '.join(strangers)}, which nothing gives"
 
 
 def _turns(drive: Drive) -> Iterator[str]:

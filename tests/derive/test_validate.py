@@ -10,8 +10,8 @@ from derive import drives
 from derive.language import vectors as v
 from derive.language.chain import Motion
 from derive.language.contact import contact
-from derive.language.drive import Loading, Margin, Role
-from derive.language.functions import solid
+from derive.language.drive import DesignSystem, Loading, Margin, Role
+from derive.language.functions import Function, Result, solid
 from derive.language.outline import Suggestion, m
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
 from derive.language.validate import (
@@ -61,6 +61,15 @@ def test_every_drive_is_consistent(name):
 
 def _with_solid(drive, member, **sizes):
     return replace(drive, functions=(solid(member, sizes),))
+
+
+def _with_function(drive, name, value=sp.S.One):
+    return replace(drive, functions=(Function(name, "a function", (), (Result("one", (value,)),)),))
+
+
+def _with_system(drive, *equations):
+    one = DesignSystem("one", (Unknown(X),), equations, {X: sp.Integer(1)}, {MODULE: X}, "none", ("module_mm",))
+    return replace(drive, systems=(one,))
 
 
 def _without_regions(drive):
@@ -201,6 +210,32 @@ CASES = {
     "limit twice": (
         lambda d: replace(d, pinion=replace(d.pinion, margins=2 * (Margin("off_tip", "tip", X),))), "2 limits 'tip'"
     ),
+    "function of strangers": (
+        lambda d: _with_function(d, "extra", sp.Symbol("q")), "'one' of extra needs q, which neither its arguments nor"
+    ),
+    "function that is no name": (lambda d: _with_function(d, "ex-tra"), "function 'ex-tra' is no name in C; use"),
+    "function of a surface's name": (lambda d: _with_function(d, "flank_pinion"), "'flank_pinion' has the name of one"),
+    "function twice": (
+        lambda d: replace(d, functions=2 * (solid("wheel", {"module": (1, "mm")}),)), "'solid_wheel' is there 2 times"
+    ),
+    "text that ends a comment": (lambda d: replace(d, title="a */ b"), r"title 'a \*/ b' has '\*/', which would end"),
+    "no sizes": (lambda d: replace(d, sizes=()), "no size that follows from the design; give at least one"),
+    "sign of strangers": (
+        lambda d: replace(d, pinion=replace(d.pinion, regular=sp.Symbol("q"))), "`regular` of the pinion needs q"
+    ),
+    "neither sign nor reference": (
+        lambda d: replace(d, pinion=replace(d.pinion, regular=None, reference={})), "reference point gives no l_pinion"
+    ),
+    "member of another name": (
+        lambda d: replace(d, wheel=replace(d.wheel, name="gear"), loading=None, functions=(), regions=()),
+        "the member wheel is named 'gear'; name it 'wheel'",
+    ),
+    "start of strangers": (
+        lambda d: replace(d, start=replace(d.start, outputs={**d.start.outputs, d.error: sp.Symbol("q")})),
+        "start of transmission_error needs q",
+    ),
+    "design system of strangers": (lambda d: _with_system(d, X - sp.Symbol("q")), "system one needs q, which is"),
+    "design system of too many equations": (lambda d: _with_system(d, X, X - 1), "one has 2 equations for 1 unknowns"),
     "wheel that does not turn": (
         lambda d: replace(d, wheel=replace(d.wheel, motion=d.pinion.motion)), "motion of the wheel.*does not turn"
     ),

@@ -181,6 +181,20 @@ def test_what_is_wrong_in_c_does_not_hold_and_the_entry_counts_it(header):
     assert outside.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
 
 
+def test_what_a_c_compiler_refuses_is_said_by_the_function_of_the_description(tmp_path):
+    """A function of the description that is called like one which every drive has."""
+    path = tmp_path / "mine.py"
+    another = 'functions=(Function("eval", "a function", (), (Result("one", (S(1),)),)),)'
+    imported = "from derive.language.functions import Function, Result\nfrom sympy import S"
+    text = CONTRADICTION.replace('handed="upright"', another).replace("from sympy import S", imported)
+    path.write_text(text, encoding="utf-8")
+    done = run(path, "--into", tmp_path / "out", module="derive")
+    said = done.stderr.splitlines()[-1]
+    assert done.returncode == 2 and "Traceback" not in done.stderr and "cc1" not in done.stderr
+    assert said.startswith("a_drive: the C that is made of the description does not compile: the function eval, a_dri")
+    assert said.endswith("another name in the description, or what it lacks") and "a_drive_eval" in said
+
+
 def test_a_folder_that_is_none_is_refused(tmp_path):
     done = run("--drives", tmp_path / "nothing", "tca", "plain-za")
     assert done.returncode == 2 and "no such folder" in done.stderr and "python -m derive" in done.stderr
