@@ -519,6 +519,26 @@ def _value_at(expression: Number, values: Numbers, definitions: Definitions) -> 
         return mpmath.nan
 
 
+def validate_place(drive: Drive, observed: Observed) -> None:
+    """Raise :class:`DescriptionError` where the sample's contact is none of real teeth: beyond a limit of a flank, or
+    on another sheet of its surface. Pivots are chosen there, and normals and ratio looked at.
+
+    ``observed`` as of :func:`validate_normals`. A limit without a value there is not applied.
+    """
+    for body in drive.bodies:
+        (regular,) = observed[f"regular_{body.name}"]
+        off = [f"its singular function is {_shown(regular)} there"] if regular < 0 else []
+        for m in body.margins:
+            (margin,) = observed[f"margin_{body.name}_{m.event}"]
+            off += [f"its limit {m.event!r} is {_shown(margin)} there"] if margin < 0 else []
+        if off:
+            raise DescriptionError(
+                f"{drive.name}: at the sample angle {float(drive.sample_angle):.6g} the contact is not on the "
+                f"{body.name}'s tooth: {', '.join(off)}, which must not be below 0; choose another sample angle or "
+                "design, or turn the sign of what is negative"
+            )
+
+
 #: Places at which a limit is evaluated that has no value at the contact.
 TRIED = 96
 

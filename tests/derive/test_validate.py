@@ -1,5 +1,6 @@
 """A description that contradicts itself is refused before anything is derived from it, and the message says where."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import mpmath
@@ -20,6 +21,7 @@ from derive.language.validate import (
     validate_limits,
     validate_normals,
     validate_outlines,
+    validate_place,
     validate_ratio,
     validate_regions,
 )
@@ -420,6 +422,22 @@ def test_a_limit_that_has_a_value_elsewhere_or_none_for_an_open_key_is_not_refus
     _limited(_with_margin(drive, Margin("off_tip", "tip", sp.sqrt(1 - X**2))))
     reach = parameter("reach_mm", "reach", "where it ends")
     _limited(_with_margin(_with_key(drive, reach), Margin("off_tip", "tip", sp.sqrt(-1 - X**2) + reach.symbol)))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: d, ""),
+        (lambda d: replace(d, sample_angle=1), "at the sample angle 1 the contact is not on the .*'s tooth: its"),
+        (lambda d: _with_margin(d, Margin("off_tip", "tip", -1 - X**2)), "on the pinion's tooth: its limit 'tip' is -"),
+        (lambda d: replace(d, wheel=replace(d.wheel, regular=sp.S.One)),
+         "not on the wheel's tooth: its singular function is -.* there, which must not be below 0; choose another"),
+    ],
+)  # fmt: skip
+def test_a_sample_whose_contact_is_off_its_teeth_is_refused(drive, change, message):
+    plan = schedule(change(drive))
+    with mpmath.workdps(30), pytest.raises(DescriptionError, match=message) if message else nullcontext():
+        validate_place(plan.drive, observation(plan))
 
 
 def _limited(drive):
