@@ -25,6 +25,7 @@ from derive.emit import families
 from derive.files import remove_parts, replace_text
 from derive.language.validate import DescriptionError, validate_outlines
 from derive.packaged import packaged
+from derive.passes.guards import Unguarded
 from meshwright.base.compile import CompileError
 
 EVERY = "all"
@@ -94,7 +95,7 @@ def main(arguments=None):
     except OSError as error:
         print(_refused(error, options), file=sys.stderr)
         return 2
-    except (outside.FileError, DescriptionError, CompileError, DamagedManifest) as error:
+    except (outside.FileError, DescriptionError, Unguarded, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

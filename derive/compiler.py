@@ -21,7 +21,14 @@ from pathlib import Path
 from derive.audit.provenance import provenance
 from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
-from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
+from derive.language.validate import (
+    validate,
+    validate_limits,
+    validate_normals,
+    validate_place,
+    validate_ratio,
+    validate_regions,
+)
 from derive.passes import guards
 from derive.passes.joints import joints
 from derive.passes.sample import observation
@@ -82,13 +89,16 @@ def define(page):
 
 def checked(plan):
     """Files of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
-    its flanks transmit its ratio, and its regions go on from the flanks.
+    its flanks transmit its ratio, its limits have values and hold at the sample's contact, and its regions go on from
+    the flanks.
     """
     from derive.emit import casadi  # CasADi and NumPy take as long to load as to use
 
     observed = observation(plan)
     validate_normals(plan.drive, observed, plan.sample)
     validate_ratio(plan.drive, observed, plan.sample)
+    validate_limits(plan.drive, observed, plan.sample)
+    validate_place(plan.drive, observed)
     validate_regions(plan.drive, joints(plan))
     c = f"c/{plan.drive.name}"
     return [
