@@ -14,6 +14,7 @@ import json
 import sys
 import time
 from contextlib import contextmanager
+from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -50,6 +51,8 @@ def show(arguments):
     try:
         for drive in _built(options.drive):
             print(text.program(drive, options.after) if options.after else text.description(drive))
+    except BrokenPipeError:  # who reads has seen enough
+        sys.stdout = None
     except (outside.FileError, DescriptionError) as error:
         print(error, file=sys.stderr)
         return 2
@@ -117,7 +120,10 @@ def _known(names):
         if name.endswith(".py"):
             raise outside.FileError(f"{name}: what a file defines is written to a folder of its own: add --into FOLDER")
         if name not in known:
-            raise outside.FileError(f"no drive {name!r}; known: {', '.join(drives.catalogue())}")
+            every = [*drives.catalogue()]
+            near = get_close_matches(name, every)
+            remedy = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(every)}"
+            raise outside.FileError(f"no drive {name!r}; {remedy}")
     return names
 
 

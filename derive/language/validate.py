@@ -40,6 +40,9 @@ FLAGS = ("", "undercut", "interference", "beyond_regression", "spurious_sheet", 
 EVENTS = ("tip", "throat", "face", "root", "tool_end", "undercut", "regression", "fold", "spurious_sheet", "junction",
           "bottom")  # fmt: skip
 
+#: Events that say by themselves what ends the surface.
+OWN_ROLES = frozenset(role.value for role in Role)
+
 
 class DescriptionError(ValueError):
     """A description that contradicts itself; the message names the drive, the part and the remedy."""
@@ -456,6 +459,10 @@ def _limits(drive: Drive) -> Iterator[str]:
                 yield f"{where} has the unknown flag {m.flag!r}; use one of {', '.join(filter(None, FLAGS))}"
             if not isinstance(m.role, Role):
                 yield f"{where} has the unknown role {m.role!r}; use one of {', '.join(r.name for r in Role)}"
+            elif m.role is Role.JUNCTION and not m.joins:
+                yield f"{where} is a junction and joins nothing; name the region of the {member} that goes on there"
+            elif m.role is not Role.JUNCTION and m.event in OWN_ROLES and m.role.value != m.event:
+                yield f"{where} has the role {m.role.name} of another event; leave the role out, or name that event"
             if strangers := _strangers(drive, m.positive, known):
                 yield f"{where} needs {', '.join(strangers)}, which neither surface nor design gives"
             if m.along is not None and m.along not in surface.parameters:

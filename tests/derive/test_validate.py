@@ -117,6 +117,12 @@ CASES = {
     "unknown flag": (lambda d: _with_margin(d, Margin("of_tip", "tip", X)), "unknown flag 'of_tip'"),
     "unknown event": (lambda d: _with_margin(d, Margin("off_tip", "top", X, Role.TIP)), "'top'.*no known event"),
     "unknown role": (lambda d: _with_margin(d, Margin("off_tip", "tip", X, "crest")), "unknown role 'crest'"),
+    "role of another event": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, Role.ROOT)), "'tip'.*role ROOT of another event"
+    ),
+    "junction with nothing": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, Role.JUNCTION)), "'tip'.*is a junction and joins nothing"
+    ),
     "margin of strangers": (lambda d: _with_margin(d, Margin("off_tip", "tip", sp.Symbol("q"))), "needs q"),
     "margin that joins nothing": (
         lambda d: _with_margin(d, Margin("off_tip", "tip", X, joins="filet")), "joins the region 'filet'"
