@@ -1,7 +1,7 @@
 """A drive's description as plain data: what a checker, the runtime or a page reads instead of our Python.
 
 Expressions are nested prefix lists over named symbols and exact numbers, motions are lists of named factors, surfaces
-the steps by which they were made. ``derive/README.md`` documents the form; nothing in it needs SymPy.
+the steps by which they were made. ``derive/language/description.md`` documents the form; nothing in it needs SymPy.
 """
 
 import json
